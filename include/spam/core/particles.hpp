@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/state.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace spam {
+
+/// What a particle keeps for the whole run. Particles are stored in spatial (strip) order; `id` is
+/// the number the problem gave them and never changes.
+template <int Dim>
+struct Particles {
+    std::vector<double> mass;         ///< N
+    std::vector<std::int64_t> id;     ///< N
+    std::vector<std::int32_t> body;   ///< N, connected part 0, 1, ...
+    Points<Dim> reference_position;   ///< Dim x N, the stress-free configuration
+    double spacing = 1.0;             ///< nearest-neighbour distance of the reference lattice
+
+    std::size_t size() const { return mass.size(); }
+    std::int32_t bodies() const {
+        std::int32_t n = 0;
+        for (const auto b : body) n = b >= n ? b + 1 : n;
+        return n;
+    }
+};
+
+}  // namespace spam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/field_layout.hpp>
+
+#include <Eigen/Core>
+
+#include <cassert>
+#include <span>
+#include <type_traits>
+
+namespace spam {
+
+/// Positions, velocities, ... of many particles: Dim x particles, column-major.
+template <int Dim>
+using Points = Eigen::Matrix<double, Dim, Eigen::Dynamic>;
+
+/// One small Eigen vector, at the boundary between fields and pair sums.
+template <int Dim>
+using Point = Eigen::Matrix<double, Dim, 1>;
+
+/// Named views of a state vector y (or of its rates), which it does not own.
+/// Shapes: position, velocity Dim x N; density, energy 1 x N; stress D(D+1)/2 x N, tension-positive,
+/// components in the order of symmetric_index(). `Scalar` is double or const double.
+template <int Dim, class Scalar = double>
+class StateView {
+    template <int Rows>
+    using Block = Eigen::Map<
+        std::conditional_t<std::is_const_v<Scalar>, const Eigen::Matrix<double, Rows, -1>,
+                           Eigen::Matrix<double, Rows, -1>>>;
+
+  public:
+    StateView(const FieldLayout<Dim>& layout, std::span<Scalar> y) : layout_(&layout), y_(y) {
+        assert(y.size() == layout.size());
+    }
+
+    Block<Dim> position() const { return block<Dim>(Field::position); }
+    Block<Dim> velocity() const { return block<Dim>(Field::velocity); }
+    Block<1> density() const { return block<1>(Field::density); }
+    Block<symmetric_size(Dim)> stress() const { return block<symmetric_size(Dim)>(Field::stress); }
+    Block<1> energy() const { return block<1>(Field::energy); }
+
+    bool has(Field field) const { return layout_->has(field); }
+    const FieldLayout<Dim>& layout() const { return *layout_; }
+
+  private:
+    template <int Rows>
+    Block<Rows> block(Field field) const {
+        const auto* b = layout_->find(field);
+        assert(b != nullptr && b->components == Rows);
+        return {y_.data() + b->offset, Rows, static_cast<Eigen::Index>(layout_->particles())};
+    }
+
+    const FieldLayout<Dim>* layout_;
+    std::span<Scalar> y_;
+};
+
+template <int Dim>
+using State = StateView<Dim, double>;
+template <int Dim>
+using ConstState = StateView<Dim, const double>;
+
+}  // namespace spam

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+/// Small vectors for the bodies of pair sums. The arithmetic type T is a template parameter, because
+/// a pair body is written once and compiled for `double` (oracle, tests) as well as for vectors of
+/// lanes. Eigen stays outside the pair loops: it is for whole fields (state.hpp).
+namespace spam {
+
+template <int Dim, class T = double>
+struct Vec {
+    std::array<T, Dim> c{};
+
+    constexpr T& operator[](int a) { return c[static_cast<std::size_t>(a)]; }
+    constexpr const T& operator[](int a) const { return c[static_cast<std::size_t>(a)]; }
+
+    constexpr Vec& operator+=(const Vec& o) {
+        for (int a = 0; a < Dim; ++a) (*this)[a] += o[a];
+        return *this;
+    }
+    constexpr Vec& operator-=(const Vec& o) {
+        for (int a = 0; a < Dim; ++a) (*this)[a] -= o[a];
+        return *this;
+    }
+    constexpr Vec& operator*=(const T& s) {
+        for (int a = 0; a < Dim; ++a) (*this)[a] *= s;
+        return *this;
+    }
+    friend constexpr Vec operator+(Vec a, const Vec& b) { return a += b; }
+    friend constexpr Vec operator-(Vec a, const Vec& b) { return a -= b; }
+    friend constexpr Vec operator*(const T& s, Vec a) { return a *= s; }
+    friend constexpr bool operator==(const Vec&, const Vec&) = default;
+};
+
+template <int Dim, class T>
+constexpr T dot(const Vec<Dim, T>& a, const Vec<Dim, T>& b) {
+    T s = a[0] * b[0];
+    for (int k = 1; k < Dim; ++k) s += a[k] * b[k];
+    return s;
+}
+
+/// z component of a x b: the plane's only rotation axis.
+template <class T>
+constexpr T cross(const Vec<2, T>& a, const Vec<2, T>& b) {
+    return a[0] * b[1] - a[1] * b[0];
+}
+
+/// `mask ? a : b`; a lane type brings its own overload, found by argument-dependent lookup.
+inline double select(bool mask, double a, double b) { return mask ? a : b; }
+
+}  // namespace spam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spam {
+
+/// A table of numbers against time: named columns, one row per output time. Column 0 is t.
+class History {
+  public:
+    explicit History(std::vector<std::string> names) : names_(std::move(names)) {}
+
+    /// Precondition: one value per column.
+    void add(std::vector<double> row);
+
+    const std::vector<std::string>& names() const { return names_; }
+    const std::vector<std::vector<double>>& rows() const { return rows_; }
+    bool has(std::string_view name) const;
+
+    /// Values of one column. Throws std::out_of_range naming an unknown column.
+    std::vector<double> column(std::string_view name) const;
+    double first(std::string_view name) const;
+    double last(std::string_view name) const;
+    double largest(std::string_view name) const;
+    double smallest(std::string_view name) const;
+
+    /// |last - first| / |first|
+    double relative_drift(std::string_view name) const;
+    /// max over rows of |value - first|
+    double largest_change(std::string_view name) const;
+    /// Value at time t, linear between rows, constant outside.
+    double at(double t, std::string_view name) const;
+
+  private:
+    std::size_t index(std::string_view name) const;
+
+    std::vector<std::string> names_;
+    std::vector<std::vector<double>> rows_;
+};
+
+}  // namespace spam

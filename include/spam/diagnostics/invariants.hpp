@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/rhs/model.hpp>
+
+#include <vector>
+
+namespace spam {
+
+/// What an isolated system keeps, at one time. Sums are compensated: their own error is far below
+/// the drifts they are compared for.
+template <int Dim>
+struct Invariants {
+    /// Number of rotation planes: 0, 1, 3.
+    static constexpr int planes = Dim * (Dim - 1) / 2;
+    using AngularMomentum = Eigen::Matrix<double, planes, 1>;
+
+    double mass = 0.0;
+    Point<Dim> momentum = Point<Dim>::Zero();
+    AngularMomentum angular_momentum = AngularMomentum::Zero();  ///< about the origin; z, or x y z
+    double kinetic = 0.0;
+    double internal = 0.0;
+    double energy = 0.0;  ///< kinetic + internal
+};
+
+template <int Dim>
+Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const double> y);
+
+/// Angular momentum of each body about the origin (plane problems).
+std::vector<double> angular_momentum_of_bodies(const Model<2>& model, std::span<const double> y);
+
+/// Sizes against which drifts of conserved vectors are judged: sum m |v| and sum m |x||v|, which do
+/// not vanish when the conserved vector does.
+template <int Dim>
+struct InvariantScales {
+    double momentum;
+    double angular_momentum;
+};
+template <int Dim>
+InvariantScales<Dim> measure_scales(const Model<Dim>& model, std::span<const double> y);
+
+extern template Invariants<1> measure_invariants(const Model<1>&, std::span<const double>);
+extern template Invariants<2> measure_invariants(const Model<2>&, std::span<const double>);
+extern template Invariants<3> measure_invariants(const Model<3>&, std::span<const double>);
+
+}  // namespace spam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/integrate/integrator.hpp>
+
+namespace spam {
+
+/// When a run ends and when its observers are called.
+struct Schedule {
+    double t_end = 0.0;
+    double output_every = 0.0;    ///< rows of invariants; t = 0 and t_end always
+    double snapshot_every = 0.0;  ///< configurations; t = 0 and t_end always
+};
+
+/// Observers of a run; any may be empty. `output` and `snapshot` see accepted states only.
+struct Observers {
+    std::function<void(double t)> output;
+    std::function<void(double t)> snapshot;
+    std::function<void(double t)> step;  ///< after every step: progress
+};
+
+/// Times k * every, each due once: exactly hit by integrators that land on stops, at the first step
+/// not before it by the others.
+class DueTimes {
+  public:
+    DueTimes(double every, double t0) : every_(every), t0_(t0) {}
+    double next() const { return t0_ + static_cast<double>(k_) * every_; }
+    /// Whether t has reached the next due time (within a rounding error); if so moves past t.
+    bool reached(double t, double slack);
+
+  private:
+    double every_, t0_;
+    std::size_t k_ = 1;
+};
+
+/// Integrates to schedule.t_end, calling observers at t = start, when due, and at the end.
+/// Returns the signal that interrupted the run (see InterruptWatch), 0 if it went to the end.
+/// GuardStop passes through.
+/// In every case the final accepted state has been given to `output` and `snapshot` exactly once.
+int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers);
+
+}  // namespace spam

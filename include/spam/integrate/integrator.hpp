@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/nvector.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spam {
+
+/// dy/dt = f(t, y) as integrators see it: callables and vectors, no particles.
+struct Ode {
+    /// Fills y_dot. Must not throw (std::bad_alloc excepted); NaN means 'no physical meaning here'.
+    std::function<void(double t, std::span<const double> y, std::span<double> y_dot)> rates;
+    /// Why the latest rates are NaN, empty otherwise.
+    std::function<std::string()> failure;
+    /// Entry k of y in words, for messages: "velocity_y of particle 17".
+    std::function<std::string(std::size_t k)> entry_name;
+    /// Absolute tolerance of every entry of y; used by adaptive methods.
+    std::vector<double> absolute_tolerance;
+};
+
+/// How to integrate. `dt` unset with an arkode method means adaptive steps.
+struct IntegratorOptions {
+    std::string method = "rk4";  ///< rk4, or arkode:<name of a SUNDIALS Butcher table>
+    std::optional<double> dt;
+    double rtol = 1e-8;
+    double atol = 1e-10;      ///< times the scale of each field
+    double min_step = 1e-12;  ///< an adaptive step below this stops the run
+
+    bool adaptive() const { return method != "rk4" && !dt; }
+    std::string describe() const;
+
+    /// Throws InputError naming the offending option, the allowed values and the fix.
+    void validate() const;
+};
+
+/// The step contract. An integrator is bound to one Ode and one state vector y:
+/// - step(t_stop) advances y by one accepted step, not past t_stop, and returns the new time;
+/// - after it y is finite; where it could not be, GuardStop is thrown with the reason and y and t are
+///   those of the last accepted step;
+/// - lands_on_stops(): whether steps may be shortened to hit intermediate times (adaptive methods);
+///   a fixed-step method keeps its grid t_n = t_0 + n dt and shortens only the step that reaches
+///   t_stop;
+/// - reset(t) must follow any change of y from outside.
+class Integrator {
+  public:
+    Integrator(const Ode& ode, Vector& y, double t0) : ode_(ode), y_(y), t_(t0) {}
+    virtual ~Integrator() = default;
+    Integrator(const Integrator&) = delete;
+    Integrator& operator=(const Integrator&) = delete;
+
+    virtual double step(double t_stop) = 0;
+    virtual bool lands_on_stops() const = 0;
+    virtual void reset(double t) = 0;
+
+    struct Statistics {
+        std::size_t steps = 0;
+        std::size_t rejected_steps = 0;
+        std::size_t rhs_evaluations = 0;
+        double last_step = 0.0;
+    };
+    const Statistics& statistics() const { return statistics_; }
+    double t() const { return t_; }
+
+  protected:
+    /// Throws GuardStop when the state z (about to be accepted at time t) is not finite, or the
+    /// latest rates had no meaning.
+    void guard(std::span<const double> z, double t) const;
+
+    const Ode& ode_;
+    Vector& y_;
+    double t_;
+    Statistics statistics_;
+};
+
+/// Throws InputError for a method that does not exist or cannot run with these options.
+/// `ode`, `y` and `context` must outlive the integrator.
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Ode& ode,
+                                            Vector& y, double t0, const SundialsContext& context);
+
+/// Names of the explicit Butcher tables that arkode:<name> accepts.
+const std::vector<std::string>& arkode_tables();
+
+}  // namespace spam

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/stress_law.hpp>
+
+#include <cmath>
+
+namespace spam {
+
+/// Isotropic linear elasticity with co-rotation, [HHM04] II:
+///     sigma_dot = lambda (div v) I + eta (grad v + grad v^t) + W sigma - sigma W,
+///     W_ab = (d v_a/d x_b - d v_b/d x_a)/2.
+/// In the plane, with omega = (d v_y/dx - d v_x/dy)/2, the rotation adds -2 omega sigma_xy to xx,
+/// +2 omega sigma_xy to yy, omega (sigma_xx - sigma_yy) to xy. Plane bodies: no zz component.
+/// In one dimension it is the bar, sigma_dot = (lambda + 2 eta) dv/dx.
+struct ElasticSolid {
+    double lambda;  ///< first Lame constant
+    double eta;     ///< second Lame constant (shear modulus)
+
+    /// The constants of the triangular lattice of nearest-neighbour springs kappa, [HHM04] V.
+    static ElasticSolid triangular_lattice(double kappa = 1.0) {
+        const double modulus = std::sqrt(3.0 / 16.0) * kappa;
+        return {modulus, modulus};
+    }
+
+    template <int Dim, class T>
+    SymTensor<Dim, T> stress_rate(const Mat<Dim, T>& grad_v, const SymTensor<Dim, T>& stress) const {
+        const T dilation = lambda * grad_v.trace();
+        SymTensor<Dim, T> rate;
+        for (int a = 0; a < Dim; ++a) {
+            for (int b = a; b < Dim; ++b) {
+                T r = eta * (grad_v(a, b) + grad_v(b, a));
+                if (a == b) r += dilation;
+                for (int c = 0; c < Dim; ++c)  // W_ac sigma_cb - sigma_ac W_cb
+                    r += 0.5 * ((grad_v(c, a) - grad_v(a, c)) * stress(c, b) -
+                                stress(a, c) * (grad_v(b, c) - grad_v(c, b)));
+                rate(a, b) = r;
+            }
+        }
+        return rate;
+    }
+};
+
+static_assert(StressLaw<ElasticSolid, 1> && StressLaw<ElasticSolid, 2> && StressLaw<ElasticSolid, 3>);
+
+}  // namespace spam

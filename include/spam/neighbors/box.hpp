@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/state.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace spam {
+
+/// Free or periodic space, direction by direction. Positions in y are never wrapped; images are
+/// taken when separations are formed.
+template <int Dim>
+class Box {
+  public:
+    /// Free space in every direction.
+    Box() { half_.fill(std::numeric_limits<double>::infinity()); }
+
+    /// Periodic in each direction whose length is finite and positive; a length 0 leaves it free.
+    explicit Box(const std::array<double, Dim>& lengths) : Box() {
+        for (std::size_t a = 0; a < Dim; ++a) {
+            if (lengths[a] <= 0.0) continue;
+            length_[a] = lengths[a];
+            inverse_[a] = 1.0 / lengths[a];
+            half_[a] = 0.5 * lengths[a];
+        }
+    }
+
+    bool periodic(int a) const { return length_[at(a)] > 0.0; }
+    double length(int a) const { return length_[at(a)]; }
+
+    /// The image of x inside [0, L) (a free coordinate is returned as it is).
+    double wrap(int a, double x) const {
+        const double w = x - length_[at(a)] * std::floor(x * inverse_[at(a)]);
+        return periodic(a) && w >= length_[at(a)] ? 0.0 : w;
+    }
+
+    /// Smallest image of a separation of two wrapped coordinates, |s| < L. No branch: in a free
+    /// direction half_ is infinite and zero is subtracted. Exactly antisymmetric.
+    template <class T>
+    T nearest_image(int a, const T& s) const {
+        const T length(length_[at(a)]);
+        return s - select(s > T(half_[at(a)]), length, T(0.0)) +
+               select(s < T(-half_[at(a)]), length, T(0.0));
+    }
+
+  private:
+    static constexpr std::size_t at(int a) { return static_cast<std::size_t>(a); }
+    std::array<double, Dim> length_{};
+    std::array<double, Dim> inverse_{};
+    std::array<double, Dim> half_;
+};
+
+}  // namespace spam

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace spam {
+
+enum class Density { continuity, summed, chain_rule };
+enum class Transport { plain, average, monaghan };
+enum class MeanDensityKind { arithmetic, geometric };
+enum class AngularMomentum { free, torque_pair };
+enum class Kernel { lucy };
+
+/// How well an invariant is kept by the equations themselves.
+enum class Promise {
+    exact,             ///< to round-off, whatever the step
+    integrator_error,  ///< the ordinary differential equations keep it, the integrator to its accuracy
+    not_kept           ///< the scheme changes it; its drift is physics of the scheme
+};
+
+struct Promises {
+    Promise mass = Promise::exact;
+    Promise momentum = Promise::exact;
+    Promise angular_momentum = Promise::not_kept;
+    Promise energy = Promise::integrator_error;
+};
+
+/// The paper's axes of choice, [HHM04] IX, as one value. `range` is the distance h at which the
+/// weight function vanishes.
+struct Scheme {
+    Density density = Density::continuity;
+    Transport transport = Transport::plain;
+    MeanDensityKind mean_density = MeanDensityKind::arithmetic;
+    AngularMomentum angular_momentum = AngularMomentum::free;
+    Kernel kernel = Kernel::lucy;
+    double range = 3.0;
+
+    /// Throws InputError naming the combination, the reason and the fix if it makes no sense in
+    /// `dim` dimensions.
+    void validate(int dim) const;
+
+    Promises promises(int dim) const;
+
+    /// One line: "density continuity, transport monaghan (arithmetic mean density), ..."
+    std::string describe() const;
+
+    friend bool operator==(const Scheme&, const Scheme&) = default;
+};
+
+std::string_view to_string(Density);
+std::string_view to_string(Transport);
+std::string_view to_string(MeanDensityKind);
+std::string_view to_string(AngularMomentum);
+std::string_view to_string(Kernel);
+std::string_view to_string(Promise);
+
+}  // namespace spam

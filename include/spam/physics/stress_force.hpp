@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/sweep.hpp>
+#include <spam/physics/record.hpp>
+
+namespace spam {
+
+/// Force of j on i for unit masses, f_ij = (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij, [HHM04]
+/// II; f_ij = -f_ji bit for bit. In general not along r_ij: hence the angular momentum's drift.
+template <int Dim, class T, class Record>
+Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, const Record& j) {
+    return (i.A + j.A) * pair.grad_w_ij;
+}
+
+/// Rates that follow from pair forces, whatever changed them on the way:
+///     v_dot_i = sum_j m_j f_ij,    e_dot_i = -1/2 sum_j m_j f_ij . v_ij,
+/// so that sum m (e + v^2/2) is constant for any antisymmetric f_ij.
+template <int Dim, class T>
+struct ForceSums {
+    Vec<Dim, T> v_dot;
+    T e_dot{};
+
+    void add(const T& m_j, const Vec<Dim, T>& f_ij, const Vec<Dim, T>& v_ij) {
+        v_dot += m_j * f_ij;
+        e_dot -= T(0.5) * m_j * dot(f_ij, v_ij);
+    }
+};
+
+/// The stress force as it is.
+template <int Dim>
+struct StressForce {
+    template <class T>
+    using Sums = ForceSums<Dim, T>;
+
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        sums.add(j.m, stress_force(pair, i, j), pair.v_ij);
+    }
+};
+
+}  // namespace spam

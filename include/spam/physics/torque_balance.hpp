@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/physics/stress_force.hpp>
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+/// Pair-torque scaling, [HHM04] VIII, made exact: in the plane the pair torques
+///     T_ij = x_ij F_y - y_ij F_x
+/// of each body are multiplied by R where negative and by 1/R where positive, with R such that the
+/// body's angular momentum is constant. Bodies: connected parts, each with its own R.
+namespace spam {
+
+/// Sums over the pairs of particle i: of its positive torques and of minus its negative ones (every
+/// pair is met twice, once from each end).
+struct TorqueSums {
+    template <class T>
+    struct Sums {
+        T positive{};
+        T negative{};
+    };
+    template <class T, class Record>
+    static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        using std::max;
+        const T torque = i.m * j.m * cross(pair.r_ij, stress_force(pair, i, j));
+        sums.positive += max(torque, T(0.0));
+        sums.negative += max(-torque, T(0.0));
+    }
+};
+
+/// Root R > 0 of P/R - M R + X = 0: positive torques P, minus the negative ones M, and
+/// X = sum m u x v (zero unless the transport velocity is <v>). Where P or M vanishes there is
+/// nothing to balance with, and R = 1.
+inline double torque_balance(double P, double M, double X) {
+    if (!(P > 0.0) || !(M > 0.0)) return 1.0;
+    const double root = std::sqrt(X * X + 4.0 * P * M);
+    return X >= 0.0 ? (X + root) / (2.0 * M) : 2.0 * P / (root - X);
+}
+
+/// Multiplies the tangential part of f_ij by s: f_ij += (s - 1) (T_ij/r^2) (-y_ij, x_ij), with s = R
+/// or 1/R by the sign of T_ij; for a pair of two bodies in contact the mean of theirs, so that
+/// f_ij = -f_ji and linear momentum stays exact.
+template <class T, class Record>
+Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
+                       const Vec<2, T>& f_ij) {
+    using std::max;
+    const T torque = cross(pair.r_ij, f_ij);
+    const T s = select(torque < T(0.0), T(0.5) * (i.negative_factor + j.negative_factor),
+                       T(0.5) * (i.positive_factor + j.positive_factor));
+    // A particle's pair with itself has r = 0 and torque = 0; the floor keeps 0/0 out.
+    const T k = (s - T(1.0)) * torque / max(pair.r2, T(1e-300));
+    return {{f_ij[0] - k * pair.r_ij[1], f_ij[1] + k * pair.r_ij[0]}};
+}
+
+/// The stress force with balanced pair torques; its power enters the energy like any force's.
+struct BalancedStressForce {
+    template <class T>
+    using Sums = ForceSums<2, T>;
+
+    template <class T, class Record>
+    static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ij);
+    }
+};
+
+}  // namespace spam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/sweep.hpp>
+
+/// The velocity u that moves the particles, r_dot = u. It is a field, never an edit of v: stress and
+/// energy go on using v.
+namespace spam {
+
+/// u = v
+template <int Dim>
+struct PlainTransport {
+    template <class T>
+    struct Sums {};
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>&, const Record&, const Record&, Sums<T>&) {}
+    template <class T, class Record>
+    static Vec<Dim, T> velocity(const Record& i, const Sums<T>&) {
+        return i.v;
+    }
+};
+
+/// <v>: u_i = sum_j m_j v_j w_ij / sum_j m_j w_ij, self included, [HHM04] IV. The paper divides by
+/// rho_i, which is the same for summed density only.
+template <int Dim>
+struct AverageTransport {
+    template <class T>
+    struct Sums {
+        Vec<Dim, T> momentum;
+        T weight{};
+    };
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
+        const T m_w = j.m * pair.w_ij;
+        sums.momentum += m_w * j.v;
+        sums.weight += m_w;
+    }
+    template <class T, class Record>
+    static Vec<Dim, T> velocity(const Record&, const Sums<T>& sums) {
+        return (T(1.0) / sums.weight) * sums.momentum;
+    }
+};
+
+/// <v>_Monaghan: u_i = v_i + sum_j m_j (v_j - v_i) w_ij / rho_ij, [HHM04] IV. Keeps sum m u = sum m v
+/// and sum m u x v = 0.
+template <int Dim, class MeanDensity>
+struct MonaghanTransport {
+    template <class T>
+    struct Sums {
+        Vec<Dim, T> correction;
+    };
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        const T rho_ij = MeanDensity::mean(i.rho, j.rho);
+        sums.correction -= (j.m * pair.w_ij / rho_ij) * pair.v_ij;
+    }
+    template <class T, class Record>
+    static Vec<Dim, T> velocity(const Record& i, const Sums<T>& sums) {
+        return i.v + sums.correction;
+    }
+};
+
+}  // namespace spam

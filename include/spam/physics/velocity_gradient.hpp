@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/sweep.hpp>
+
+namespace spam {
+
+/// (grad v)_i = sum_j m_j (v_j - v_i) grad_i w_ij / rho_ij, (grad v)_ab = d v_b / d x_a.
+/// [HHM04] IX prints (v_i - v_j), which would contradict its own continuity equation.
+template <int Dim, class MeanDensity>
+struct VelocityGradient {
+    template <class T>
+    struct Sums {
+        Mat<Dim, T> grad_v;
+    };
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        const T rho_ij = MeanDensity::mean(i.rho, j.rho);
+        const Vec<Dim, T> g = (j.m / rho_ij) * pair.grad_w_ij;
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) -= g[a] * pair.v_ij[b];
+    }
+};
+
+}  // namespace spam

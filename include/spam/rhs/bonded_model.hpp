@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/harmonic_spring.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <cstdint>
+
+namespace spam {
+
+/// Molecular dynamics of points bound to their initial nearest neighbours by harmonic springs, the
+/// paper's reference solution, [HHM04] VI: y = (x, v). Keeps p exactly, L and E to integrator error.
+template <int Dim>
+class BondedModel final : public Model<Dim> {
+  public:
+    /// Bonds every pair closer than 1.2 spacings in the reference configuration.
+    BondedModel(Particles<Dim> particles, const HarmonicSpring& spring, const Box<Dim>& box = {});
+
+    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    double internal_energy(std::span<const double> y) const override;
+    Promises promises() const override;
+    std::string describe() const override;
+    std::size_t pairs() const override { return partner_.size() / 2; }
+    double reach() const override { return bond_reach_; }
+
+  private:
+    template <class View>
+    Point<Dim> bond(const View& x, std::size_t i, std::size_t j) const;
+
+    HarmonicSpring spring_;
+    double bond_reach_;
+    std::vector<std::size_t> start_;       ///< N + 1
+    std::vector<std::uint32_t> partner_;   ///< every bond from both its ends, ascending
+};
+
+extern template class BondedModel<1>;
+extern template class BondedModel<2>;
+extern template class BondedModel<3>;
+
+}  // namespace spam

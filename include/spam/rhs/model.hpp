@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/particles.hpp>
+#include <spam/neighbors/box.hpp>
+#include <spam/physics/scheme.hpp>
+
+#include <span>
+#include <string>
+
+namespace spam {
+
+/// A mechanical system as an ordinary differential equation dy/dt = f(t, y): what integrators,
+/// observers and snapshots need to know of it. One virtual call per right-hand side, none per pair.
+template <int Dim>
+class Model {
+  public:
+    Model(Particles<Dim> particles, const Box<Dim>& box, const std::vector<Field>& fields)
+        : particles_(std::move(particles)), box_(box), layout_(particles_.size(), fields) {}
+    virtual ~Model() = default;
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+
+    /// y_dot = f(t, y). Pure: the same (t, y) give the same bits with any number of threads and any
+    /// history. Never throws, never allocates after warm-up. A state without physical meaning fills
+    /// y_dot with NaN and leaves the reason in failure().
+    virtual void rates(double t, std::span<const double> y, std::span<double> y_dot) = 0;
+
+    /// Sum of the energy that is not kinetic: internal (m e) or potential.
+    virtual double internal_energy(std::span<const double> y) const = 0;
+
+    virtual Promises promises() const = 0;
+    virtual std::string describe() const = 0;  ///< one line for banner and dry run
+
+    /// Pairs (undirected) that the latest right-hand side summed over.
+    virtual std::size_t pairs() const = 0;
+    /// Distance up to which two particles act on each other.
+    virtual double reach() const = 0;
+
+    /// Why the latest rates are NaN; empty when they are not.
+    const std::string& failure() const { return failure_; }
+
+    const Particles<Dim>& particles() const { return particles_; }
+    const Box<Dim>& box() const { return box_; }
+    FieldLayout<Dim>& layout() { return layout_; }
+    const FieldLayout<Dim>& layout() const { return layout_; }
+
+  protected:
+    /// Ends a right-hand side that has no meaning.
+    void fail(std::span<double> y_dot, std::string reason);
+
+  private:
+    Particles<Dim> particles_;
+    Box<Dim> box_;
+    FieldLayout<Dim> layout_;
+
+  protected:
+    std::string failure_;
+};
+
+extern template class Model<1>;
+extern template class Model<2>;
+extern template class Model<3>;
+
+}  // namespace spam

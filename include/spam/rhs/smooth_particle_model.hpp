@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/elastic_solid.hpp>
+#include <spam/neighbors/pair_list.hpp>
+#include <spam/physics/record.hpp>
+#include <spam/rhs/model.hpp>
+
+namespace spam {
+
+/// An elastic solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme decides
+/// whether density is part of y, what velocity moves the particles, and whether pair torques are
+/// balanced.
+template <int Dim>
+class SmoothParticleModel final : public Model<Dim> {
+  public:
+    /// Throws InputError when the scheme makes no sense here (Scheme::validate), a Lame constant is
+    /// not finite, or a periodic box is not wider than twice the range.
+    SmoothParticleModel(Particles<Dim> particles, const ElasticSolid& law, const Scheme& scheme,
+                        const Box<Dim>& box = {});
+
+    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    double internal_energy(std::span<const double> y) const override;
+    Promises promises() const override { return scheme_.promises(Dim); }
+    std::string describe() const override;
+    std::size_t pairs() const override { return (list_.entries() - list_.size()) / 2; }
+    double reach() const override { return scheme_.range; }
+
+    const Scheme& scheme() const { return scheme_; }
+    const ElasticSolid& law() const { return law_; }
+    /// Densities used by the latest rates(): integrated or summed.
+    double density(std::size_t i) const { return records_[i].rho; }
+    /// R of each body in the latest rates(); 1 where torques are left free.
+    std::span<const double> torque_factors() const { return torque_factor_; }
+    std::size_t list_builds() const { return list_.builds(); }
+
+  private:
+    struct Choices;                // compile-time choices as sweeps, picked once (see the source)
+    bool load(std::span<const double> y, std::span<double> y_dot);
+    void sum_density();
+    void form_A(std::span<const double> y);
+    void balance_torques();
+    void load_transport();
+    bool density_is_physical(std::span<double> y_dot);
+
+    template <class Weight, class Mean, class Transport, class Force>
+    void first_sweep(std::span<const double> y, std::span<double> y_dot);
+    template <class Weight, class... Passes>
+    void second_sweep(std::span<double> y_dot);
+
+    using First = void (SmoothParticleModel::*)(std::span<const double>, std::span<double>);
+    using Second = void (SmoothParticleModel::*)(std::span<double>);
+    First first_sweep_ = nullptr;
+    Second second_sweep_ = nullptr;  ///< nullptr where the first sweep finds everything
+
+    ElasticSolid law_;
+    Scheme scheme_;
+    PairList<Dim> list_;
+    std::vector<Record<Dim>> records_;
+    std::vector<TransportRecord<Dim>> transport_records_;
+    std::vector<Vec<Dim>> transport_velocity_;
+    std::vector<double> positive_torque_, negative_torque_;  ///< per particle, TorqueSums
+    std::vector<double> torque_factor_;                      ///< per body
+    Points<Dim> position_;
+};
+
+extern template class SmoothParticleModel<1>;
+extern template class SmoothParticleModel<2>;
+extern template class SmoothParticleModel<3>;
+
+}  // namespace spam

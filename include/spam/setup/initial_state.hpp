@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/rhs/model.hpp>
+
+#include <functional>
+#include <vector>
+
+namespace spam {
+
+/// Velocity of a particle at reference position x.
+template <int Dim>
+using VelocityField = std::function<Point<Dim>(const Point<Dim>& x)>;
+
+/// Rigid rotation about the origin, counterclockwise, angular velocity omega.
+inline VelocityField<2> rigid_rotation(double omega) {
+    return [omega](const Point<2>& x) { return Point<2>(-omega * x.y(), omega * x.x()); };
+}
+
+/// y at the start: reference positions, the given velocities, density (where y carries it), no
+/// stress, no internal energy. Scales of the layout are set for the tolerances: position by the
+/// spacing, velocity by the largest speed (its square for the energy), density by its value, stress
+/// by `modulus`.
+template <int Dim>
+std::vector<double> initial_state(Model<Dim>& model, double density, double modulus,
+                                  const VelocityField<Dim>& velocity);
+
+}  // namespace spam

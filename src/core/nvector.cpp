@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/nvector.hpp>
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
+
+#include <new>
+#include <utility>
+
+namespace spam {
+
+SundialsContext::SundialsContext() {
+#if SUNDIALS_VERSION_MAJOR >= 7
+    const int flag = SUNContext_Create(SUN_COMM_NULL, &context_);
+#else
+    const int flag = SUNContext_Create(nullptr, &context_);
+#endif
+    if (flag != 0) throw std::bad_alloc();
+}
+
+SundialsContext::~SundialsContext() { SUNContext_Free(&context_); }
+
+Vector::Vector(std::size_t size, const SundialsContext& context)
+    : v_(N_VNew_Serial(static_cast<sunindextype>(size), context.get())) {
+    if (v_ == nullptr) throw std::bad_alloc();
+}
+
+Vector::~Vector() {
+    if (v_ != nullptr) N_VDestroy(v_);
+}
+
+Vector::Vector(Vector&& other) noexcept : v_(std::exchange(other.v_, nullptr)) {}
+
+Vector& Vector::operator=(Vector&& other) noexcept {
+    std::swap(v_, other.v_);
+    return *this;
+}
+
+Vector Vector::clone() const {
+    N_Vector copy = N_VClone(v_);
+    if (copy == nullptr) throw std::bad_alloc();
+    return Vector(copy);
+}
+
+std::size_t Vector::size() const { return static_cast<std::size_t>(N_VGetLength(v_)); }
+std::span<double> Vector::span() { return entries(v_); }
+std::span<const double> Vector::span() const { return entries(v_); }
+
+std::span<double> entries(N_Vector v) {
+    return {N_VGetArrayPointer(v), static_cast<std::size_t>(N_VGetLength(v))};
+}
+
+}  // namespace spam

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/text.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <vector>
+
+namespace spam {
+namespace {
+
+/// Levenshtein distance, letters compared without case.
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t change = diagonal + (lower(a[i]) != lower(b[j]) ? 1 : 0);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({change, diagonal + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, std::span<const std::string> candidates) {
+    const auto it = std::min_element(
+        candidates.begin(), candidates.end(),
+        [word](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
+    return it == candidates.end() ? std::string{} : *it;
+}
+
+}  // namespace spam

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/diagnostics/fits.hpp>
+
+#include <gsl/gsl_fit.h>
+
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace spam {
+
+LineFit fit_line(std::span<const double> x, std::span<const double> y) {
+    assert(x.size() == y.size() && x.size() >= 3);
+    LineFit fit{};
+    double c00 = 0.0, c01 = 0.0, c11 = 0.0, residual = 0.0;
+    gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &fit.intercept, &fit.slope, &c00, &c01, &c11,
+                   &residual);
+    fit.slope_error = std::sqrt(c11);
+    return fit;
+}
+
+double observed_order(std::span<const double> step, std::span<const double> error) {
+    std::vector<double> log_step, log_error;
+    for (const double h : step) log_step.push_back(std::log(h));
+    for (const double e : error) log_error.push_back(std::log(e));
+    return fit_line(log_step, log_error).slope;
+}
+
+}  // namespace spam

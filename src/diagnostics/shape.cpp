@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/diagnostics/shape.hpp>
+#include <spam/neighbors/pair_list.hpp>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <cmath>
+#include <limits>
+
+namespace spam {
+
+template <int Dim>
+double shape_error(const Points<Dim>& reference, const Points<Dim>& position, double spacing) {
+    const Points<Dim> from = reference.colwise() - reference.rowwise().mean().eval();
+    const Points<Dim> to = position.colwise() - position.rowwise().mean().eval();
+    using Matrix = Eigen::Matrix<double, Dim, Dim>;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(to * from.transpose()),
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Matrix u = svd.matrixU(), v = svd.matrixV();
+    Matrix flip = Matrix::Identity();
+    if ((u * v.transpose()).determinant() < 0.0) flip(Dim - 1, Dim - 1) = -1.0;
+    const Matrix rotation = u * flip * v.transpose();
+    return std::sqrt((to - rotation * from).colwise().squaredNorm().mean()) / spacing;
+}
+
+template <int Dim>
+double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& box) {
+    const auto n = static_cast<std::size_t>(position.cols());
+    double extent = 2.0 * reach;
+    for (int a = 0; a < Dim && n > 0; ++a)
+        extent += position.row(a).maxCoeff() - position.row(a).minCoeff();
+    double closest2 = std::numeric_limits<double>::infinity();
+    // In a periodic box the list may reach no further than half of it.
+    for (int a = 0; a < Dim; ++a)
+        if (box.periodic(a)) extent = std::min(extent, 0.499 * box.length(a));
+    for (double look = std::min(reach, extent); n > 1; look = std::min(2.0 * look, extent)) {
+        PairList<Dim> list(look, 0.0, box);
+        list.build(position);
+        for (std::size_t i = 0; i < n; ++i)
+            for (const std::uint32_t j : list.neighbours(i)) {
+                if (j <= i) continue;
+                double r2 = 0.0;
+                for (int a = 0; a < Dim; ++a) {
+                    double s = position(a, static_cast<Eigen::Index>(i)) - position(a, j);
+                    if (box.periodic(a)) s -= box.length(a) * std::round(s / box.length(a));
+                    r2 += s * s;
+                }
+                closest2 = std::min(closest2, r2);
+            }
+        if (std::isfinite(closest2) || look >= extent) break;
+    }
+    return std::sqrt(closest2);
+}
+
+template double shape_error<1>(const Points<1>&, const Points<1>&, double);
+template double shape_error<2>(const Points<2>&, const Points<2>&, double);
+template double shape_error<3>(const Points<3>&, const Points<3>&, double);
+template double closest_pair<1>(const Points<1>&, double, const Box<1>&);
+template double closest_pair<2>(const Points<2>&, double, const Box<2>&);
+template double closest_pair<3>(const Points<3>&, double, const Box<3>&);
+
+}  // namespace spam

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every ARKODE call of the library is in this file. For SUNDIALS 7 the calls of struct Calls become
+// ARKodeEvolve, ARKodeSetFixedStep, ... and the error handler moves to the context.
+#include "arkode.hpp"
+
+#include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
+
+#include <arkode/arkode_arkstep.h>
+#include <arkode/arkode_butcher_erk.h>
+#include <arkode/arkode_erkstep.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+namespace spam {
+namespace {
+
+struct FreeTable {
+    void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
+};
+using Table = std::unique_ptr<std::remove_pointer_t<ARKodeButcherTable>, FreeTable>;
+
+Table load_table(const std::string& method) {
+    std::string name = method.substr(std::string("arkode:").size());
+    if (!name.starts_with("ARKODE_")) name.insert(0, "ARKODE_");
+    const auto& known = arkode_tables();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(
+            fmt::format("integrator: SUNDIALS has no explicit table '{}'; did you mean arkode:{}? "
+                        "The tables: {}",
+                        name, nearest(name, known), fmt::join(known, ", ")));
+    Table table(ARKodeButcherTable_LoadERKByName(name.c_str()));
+    if (!table) throw InputError(fmt::format("integrator: SUNDIALS cannot load {}", name));
+    return table;
+}
+
+/// ERKStep before SUNDIALS 6.7 takes every table with c_s = 1 for first-same-as-last and skips its
+/// first stage: silently wrong unless the last row of A is b. Those tables run through ARKStep.
+bool erkstep_is_right(const ARKodeButcherTableMem& table) {
+    const int last = table.stages - 1;
+    if (table.c[last] != 1.0) return true;
+    for (int j = 0; j < table.stages; ++j)
+        if (table.A[last][j] != table.b[j]) return false;
+    return true;
+}
+
+}  // namespace
+
+struct Arkode::Calls {
+    decltype(&ERKStepEvolve) evolve;
+    decltype(&ERKStepReset) reset;
+    decltype(&ERKStepFree) free;
+    decltype(&ERKStepSetUserData) set_user_data;
+    decltype(&ERKStepSetErrHandlerFn) set_error_handler;
+    decltype(&ERKStepSVtolerances) set_tolerances;
+    decltype(&ERKStepSetFixedStep) set_fixed_step;
+    decltype(&ERKStepSetStopTime) set_stop_time;
+    decltype(&ERKStepSetMinStep) set_min_step;
+    decltype(&ERKStepSetAdaptivityMethod) set_adaptivity;
+    decltype(&ERKStepGetNumErrTestFails) rejected;
+    decltype(&ERKStepGetLastStep) last_step;
+};
+
+namespace {
+// Designated initialisers would name private members of Arkode; the order is that of struct Calls.
+#define SPAM_ARKODE_CALLS(S)                                                                       \
+    {S##Evolve,       S##Reset,       S##Free,        S##SetUserData,        S##SetErrHandlerFn,   \
+     S##SVtolerances, S##SetFixedStep, S##SetStopTime, S##SetMinStep,         S##SetAdaptivityMethod, \
+     S##GetNumErrTestFails, S##GetLastStep}
+}  // namespace
+
+Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
+               const SundialsContext& context)
+    : Integrator(ode, y, t0),
+      dt_(options.dt),
+      t0_(t0),
+      min_step_(options.min_step),
+      accepted_(y.clone()) {
+    static constexpr Calls erkstep = SPAM_ARKODE_CALLS(ERKStep);
+    static constexpr Calls arkstep = SPAM_ARKODE_CALLS(ARKStep);
+    const Table table = load_table(options.method);
+    if (!dt_ && table->d == nullptr)
+        throw InputError(fmt::format(
+            "integrator: {} has no embedded error estimate and cannot choose its steps; add --dt",
+            options.method));
+    const bool erk = erkstep_is_right(*table);
+    calls_ = erk ? &erkstep : &arkstep;
+    memory_ = erk ? ERKStepCreate(&Arkode::rates, t0, y.get(), context.get())
+                  : ARKStepCreate(&Arkode::rates, nullptr, t0, y.get(), context.get());
+    if (memory_ == nullptr) throw std::bad_alloc();
+    check(calls_->set_error_handler(memory_, &Arkode::remember_message, this), "SetErrHandlerFn");
+    check(calls_->set_user_data(memory_, this), "SetUserData");
+    check(erk ? ERKStepSetTable(memory_, table.get())
+              : ARKStepSetTables(memory_, table->q, table->p, nullptr, table.get()),
+          "SetTable");
+    if (dt_) {
+        check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
+    } else {
+        Vector atol = y.clone();
+        std::copy(ode.absolute_tolerance.begin(), ode.absolute_tolerance.end(), atol.span().begin());
+        check(calls_->set_tolerances(memory_, options.rtol, atol.get()), "SVtolerances");
+        check(calls_->set_min_step(memory_, options.min_step), "SetMinStep");
+        check(calls_->set_adaptivity(memory_, ARK_ADAPT_PID, 1, 0, nullptr), "SetAdaptivityMethod");
+    }
+    N_VScale(1.0, y.get(), accepted_.get());
+}
+
+Arkode::~Arkode() { calls_->free(&memory_); }
+
+void Arkode::check(int flag, const char* call) const {
+    if (flag != ARK_SUCCESS)
+        throw InputError(fmt::format("integrator: ARKODE {} failed ({}): {}", call, flag, message_));
+}
+
+int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
+    auto& me = *static_cast<Arkode*>(self);
+    ++me.statistics_.rhs_evaluations;
+    try {
+        me.ode_.rates(t, entries(y), entries(y_dot));
+        return 0;  // NaN rates make an adaptive step shrink; a positive return would be fatal
+    } catch (...) {
+        me.error_ = std::current_exception();
+        return -1;
+    }
+}
+
+void Arkode::remember_message(int, const char*, const char*, char* message, void* self) {
+    static_cast<Arkode*>(self)->message_ = message;
+}
+
+void Arkode::stop(int flag) const {
+    if (error_) std::rethrow_exception(error_);
+    const std::string reason = ode_.failure();
+    std::string message = message_;
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    if (!reason.empty()) message = reason;
+    else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE)
+        message = fmt::format("the error test failed again and again, the step fell to {:.3g}, "
+                              "near the least allowed {:.3g}", statistics_.last_step, min_step_);
+    throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
+}
+
+double Arkode::step(double t_stop) {
+    double t_next = t_stop;
+    bool last = true;
+    if (dt_) {
+        const double grid = t0_ + static_cast<double>(n_ + 1) * *dt_;
+        last = grid >= t_stop - 1e-9 * *dt_;
+        if (last) check(calls_->set_fixed_step(memory_, t_stop - t_), "SetFixedStep");
+        if (!last) t_next = grid;
+    } else {
+        check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
+    }
+    double reached = t_;
+    const int flag = calls_->evolve(memory_, t_stop + (dt_ ? *dt_ : 0.0), y_.get(), &reached, ARK_ONE_STEP);
+    try {
+        if (flag < 0) stop(flag);
+        guard(y_.span(), reached);
+    } catch (const GuardStop&) {
+        N_VScale(1.0, accepted_.get(), y_.get());
+        throw;
+    }
+    N_VScale(1.0, y_.get(), accepted_.get());
+
+    // ARKODE adds up fixed steps; the grid is computed.
+    t_ = dt_ ? t_next : reached;
+    ++n_;
+    ++statistics_.steps;
+    long rejected = 0;
+    calls_->rejected(memory_, &rejected);
+    statistics_.rejected_steps = static_cast<std::size_t>(rejected);
+    calls_->last_step(memory_, &statistics_.last_step);
+    if (dt_ && last) {
+        check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
+        t0_ = t_;
+        n_ = 0;
+    }
+    return t_;
+}
+
+void Arkode::reset(double t) {
+    t_ = t0_ = t;
+    n_ = 0;
+    check(calls_->reset(memory_, t, y_.get()), "Reset");
+    N_VScale(1.0, y_.get(), accepted_.get());
+}
+
+const std::vector<std::string>& arkode_tables() {
+    static const std::vector<std::string> names{
+        "ARKODE_HEUN_EULER_2_1_2",     "ARKODE_BOGACKI_SHAMPINE_4_2_3",
+        "ARKODE_ARK324L2SA_ERK_4_2_3", "ARKODE_ZONNEVELD_5_3_4",
+        "ARKODE_ARK436L2SA_ERK_6_3_4", "ARKODE_SAYFY_ABURUB_6_3_4",
+        "ARKODE_CASH_KARP_6_4_5",      "ARKODE_FEHLBERG_6_4_5",
+        "ARKODE_DORMAND_PRINCE_7_4_5", "ARKODE_ARK548L2SA_ERK_8_4_5",
+        "ARKODE_VERNER_8_5_6",         "ARKODE_FEHLBERG_13_7_8",
+        "ARKODE_KNOTH_WOLKE_3_3",      "ARKODE_ARK437L2SA_ERK_7_3_4",
+        "ARKODE_ARK548L2SAb_ERK_8_4_5"};
+    return names;
+}
+
+}  // namespace spam

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/integrate/integrator.hpp>
+
+#include <exception>
+
+namespace spam {
+
+/// An explicit Runge-Kutta method of ARKODE, adaptive or with a fixed step.
+class Arkode final : public Integrator {
+  public:
+    Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
+           const SundialsContext& context);
+    ~Arkode() override;
+    double step(double t_stop) override;
+    bool lands_on_stops() const override { return !dt_; }
+    void reset(double t) override;
+
+  private:
+    struct Calls;  // the ERKStep and ARKStep flavours of one ARKODE call
+
+    void check(int flag, const char* call) const;
+    [[noreturn]] void stop(int flag) const;
+    static int rates(double t, N_Vector y, N_Vector y_dot, void* self);
+    static void remember_message(int code, const char* module, const char* function, char* message,
+                                 void* self);
+
+    std::optional<double> dt_;
+    double t0_, min_step_;
+    std::size_t n_ = 0;
+    Vector accepted_;  ///< y of the last accepted step: an ARKODE failure may leave y overwritten
+    const Calls* calls_ = nullptr;
+    void* memory_ = nullptr;
+    std::string message_;
+    std::exception_ptr error_;
+};
+
+}  // namespace spam

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arkode.hpp"
+#include "rk4.hpp"
+
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spam {
+namespace {
+
+void require_positive(const char* option, double value, const char* fix) {
+    if (!(value > 0.0) || !std::isfinite(value))
+        throw InputError(fmt::format("{}: {} is not a positive number; {}", option, value, fix));
+}
+
+}  // namespace
+
+void IntegratorOptions::validate() const {
+    if (method == "rk4") {
+        require_positive("dt", dt.value_or(0.0), "rk4 needs a fixed step, e.g. --dt 0.1");
+    } else if (!method.starts_with("arkode:")) {
+        throw InputError(fmt::format(
+            "integrator: '{}' is unknown; use rk4 or arkode:<table>, e.g. "
+            "arkode:DORMAND_PRINCE_7_4_5",
+            method));
+    }
+    if (dt) require_positive("dt", *dt, "give a positive time step");
+    require_positive("rtol", rtol, "try --rtol 1e-8");
+    require_positive("atol", atol, "try --atol 1e-10");
+    if (rtol >= 1.0) throw InputError(fmt::format("rtol: {} must be below 1; try --rtol 1e-8", rtol));
+}
+
+std::string IntegratorOptions::describe() const {
+    if (dt) return fmt::format("{}, fixed step dt = {:g}", method, *dt);
+    return fmt::format("{}, adaptive, rtol = {:g}, atol = {:g} x field scale", method, rtol, atol);
+}
+
+void Integrator::guard(std::span<const double> z, double t) const {
+    // One pass without branches: a NaN or an infinity survives in the sum of x - x.
+    double spoiled = 0.0;
+    for (const double x : z) spoiled += x - x;
+    if (spoiled == 0.0) return;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+        if (std::isfinite(z[k])) continue;
+        throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
+                                    ode_.entry_name(k), z[k], t));
+    }
+}
+
+std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Ode& ode,
+                                            Vector& y, double t0, const SundialsContext& context) {
+    options.validate();
+    if (options.method == "rk4") return std::make_unique<Rk4>(ode, y, t0, *options.dt);
+    return std::make_unique<Arkode>(options, ode, y, t0, context);
+}
+
+}  // namespace spam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rk4.hpp"
+
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
+namespace spam {
+
+Rk4::Rk4(const Ode& ode, Vector& y, double t0, double dt)
+    : Integrator(ode, y, t0),
+      dt_(dt),
+      t0_(t0),
+      k_{y.clone(), y.clone(), y.clone(), y.clone()},
+      z_(y.clone()) {}
+
+void Rk4::stage(double t, const Vector& at, std::size_t k) {
+    ++statistics_.rhs_evaluations;
+    ode_.rates(t, at.span(), k_[k].span());
+    const std::string reason = ode_.failure();
+    if (!reason.empty()) throw GuardStop(fmt::format("{} at t = {:.6g}", reason, t));
+}
+
+double Rk4::step(double t_stop) {
+    double t_next = t0_ + static_cast<double>(n_ + 1) * dt_;
+    const bool last = t_next >= t_stop - 1e-9 * dt_;
+    if (last) t_next = t_stop;
+    const double h = last ? t_stop - t_ : dt_;
+
+    stage(t_, y_, 0);
+    N_VLinearSum(1.0, y_.get(), 0.5 * h, k_[0].get(), z_.get());
+    stage(t_ + 0.5 * h, z_, 1);
+    N_VLinearSum(1.0, y_.get(), 0.5 * h, k_[1].get(), z_.get());
+    stage(t_ + 0.5 * h, z_, 2);
+    N_VLinearSum(1.0, y_.get(), h, k_[2].get(), z_.get());
+    stage(t_ + h, z_, 3);
+
+    std::array<double, 5> c{1.0, h / 6.0, h / 3.0, h / 3.0, h / 6.0};
+    std::array<N_Vector, 5> v{y_.get(), k_[0].get(), k_[1].get(), k_[2].get(), k_[3].get()};
+    N_VLinearCombination(5, c.data(), v.data(), z_.get());
+    guard(z_.span(), t_next);
+    N_VScale(1.0, z_.get(), y_.get());
+
+    t_ = t_next;
+    ++n_;
+    if (last) reset(t_stop);
+    ++statistics_.steps;
+    statistics_.last_step = h;
+    return t_;
+}
+
+void Rk4::reset(double t) {
+    t_ = t0_ = t;
+    n_ = 0;
+}
+
+}  // namespace spam

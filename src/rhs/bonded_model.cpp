@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parallel.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/neighbors/pair_list.hpp>
+#include <spam/rhs/bonded_model.hpp>
+
+#include <fmt/format.h>
+
+namespace spam {
+
+template <int Dim>
+BondedModel<Dim>::BondedModel(Particles<Dim> particles, const HarmonicSpring& spring,
+                              const Box<Dim>& box)
+    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+      spring_(spring),
+      bond_reach_(1.2 * this->particles().spacing) {
+    PairList<Dim> list(bond_reach_, 0.0, box);
+    list.build(this->particles().reference_position);
+    start_.push_back(0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        for (const std::uint32_t j : list.neighbours(i))
+            if (j != i) partner_.push_back(j);
+        start_.push_back(partner_.size());
+    }
+}
+
+/// Nearest image of x_i - x_j.
+template <int Dim>
+template <class View>
+Point<Dim> BondedModel<Dim>::bond(const View& x, std::size_t i, std::size_t j) const {
+    Point<Dim> r;
+    for (int a = 0; a < Dim; ++a) {
+        const auto ci = static_cast<Eigen::Index>(i), cj = static_cast<Eigen::Index>(j);
+        r[a] = this->box().periodic(a)
+                   ? this->box().nearest_image(a, this->box().wrap(a, x(a, ci)) -
+                                                      this->box().wrap(a, x(a, cj)))
+                   : x(a, ci) - x(a, cj);
+    }
+    return r;
+}
+
+template <int Dim>
+void BondedModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+    this->failure_.clear();
+    const ConstState<Dim> state(this->layout(), y);
+    const State<Dim> rate(this->layout(), y_dot);
+    const auto x = state.position();
+    rate.position() = state.velocity();
+    auto v_dot = rate.velocity();
+    parallel_for(this->particles().size(), [&](std::size_t i) {
+        Point<Dim> force = Point<Dim>::Zero();
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
+            const Point<Dim> r_ij = bond(x, i, partner_[k]);
+            const double r = r_ij.norm();
+            force += (spring_.force(r) / r) * r_ij;
+        }
+        v_dot.col(static_cast<Eigen::Index>(i)) = force / this->particles().mass[i];
+    });
+}
+
+template <int Dim>
+double BondedModel<Dim>::internal_energy(std::span<const double> y) const {
+    const auto x = ConstState<Dim>(this->layout(), y).position();
+    CompensatedSum sum;
+    for (std::size_t i = 0; i < this->particles().size(); ++i)
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+            if (partner_[k] > i) sum += spring_.energy(bond(x, i, partner_[k]).norm());
+    return sum;
+}
+
+template <int Dim>
+Promises BondedModel<Dim>::promises() const {
+    Promises p;
+    p.angular_momentum = Promise::integrator_error;
+    return p;
+}
+
+template <int Dim>
+std::string BondedModel<Dim>::describe() const {
+    return fmt::format(
+        "molecular dynamics, {} harmonic springs kappa = {:g}, rest length {:g}, between initial "
+        "neighbours",
+        pairs(), spring_.kappa, spring_.rest_length);
+}
+
+template class BondedModel<1>;
+template class BondedModel<2>;
+template class BondedModel<3>;
+
+}  // namespace spam

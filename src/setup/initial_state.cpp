@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/setup/initial_state.hpp>
+
+#include <algorithm>
+
+namespace spam {
+
+template <int Dim>
+std::vector<double> initial_state(Model<Dim>& model, double density, double modulus,
+                                  const VelocityField<Dim>& velocity) {
+    std::vector<double> y(model.layout().size(), 0.0);
+    const State<Dim> state(model.layout(), y);
+    const auto& x = model.particles().reference_position;
+    state.position() = x;
+    auto v = state.velocity();
+    double speed = 0.0;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        v.col(i) = velocity(x.col(i));
+        speed = std::max(speed, v.col(i).norm());
+    }
+    if (state.has(Field::density)) state.density().setConstant(density);
+
+    const double speed_scale = speed > 0.0 ? speed : 1.0;
+    model.layout().set_scale(Field::position, model.particles().spacing);
+    model.layout().set_scale(Field::velocity, speed_scale);
+    model.layout().set_scale(Field::density, density);
+    model.layout().set_scale(Field::stress, modulus);
+    model.layout().set_scale(Field::energy, speed_scale * speed_scale);
+    return y;
+}
+
+template std::vector<double> initial_state(Model<1>&, double, double, const VelocityField<1>&);
+template std::vector<double> initial_state(Model<2>&, double, double, const VelocityField<2>&);
+template std::vector<double> initial_state(Model<3>&, double, double, const VelocityField<3>&);
+
+}  // namespace spam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/neighbors/connected_parts.hpp>
+#include <spam/neighbors/strip_order.hpp>
+#include <spam/setup/lattices.hpp>
+
+#include <cmath>
+
+namespace spam {
+
+Points<2> triangular_hexagon(int n, double spacing) {
+    const Eigen::Index count = 1 + 3 * static_cast<Eigen::Index>(n) * (n + 1);
+    Points<2> points(2, count);
+    Eigen::Index k = 0;
+    for (int row = -n; row <= n; ++row) {
+        const int columns = 2 * n + 1 - std::abs(row);
+        for (int c = 0; c < columns; ++c, ++k) {
+            points(0, k) = spacing * (c - 0.5 * (columns - 1));
+            points(1, k) = spacing * row * std::sqrt(0.75);
+        }
+    }
+    return points;
+}
+
+Points<2> triangular_block(int columns, int rows, double spacing) {
+    Points<2> points(2, static_cast<Eigen::Index>(columns) * rows);
+    Eigen::Index k = 0;
+    for (int row = 0; row < rows; ++row)
+        for (int c = 0; c < columns; ++c, ++k) {
+            points(0, k) = spacing * (c + 0.5 * (row % 2));
+            points(1, k) = spacing * row * std::sqrt(0.75);
+        }
+    return points;
+}
+
+template <int Dim>
+Points<Dim> square_lattice(const std::array<int, Dim>& cells, double spacing) {
+    Eigen::Index count = 1;
+    for (const int c : cells) count *= c;
+    Points<Dim> points(Dim, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        Eigen::Index rest = k;
+        for (int a = 0; a < Dim; ++a) {
+            const int n = cells[static_cast<std::size_t>(a)];
+            points(a, k) = spacing * static_cast<double>(rest % n);
+            rest /= n;
+        }
+    }
+    return points;
+}
+
+template <int Dim>
+Particles<Dim> make_particles(const Points<Dim>& position, double mass, double spacing,
+                              const Box<Dim>& box, double reach) {
+    const auto n = static_cast<std::size_t>(position.cols());
+    // Strips as wide as eight particles' share of space: about one vector of lanes across.
+    const double width = spacing * std::pow(8.0, 1.0 / Dim);
+    const auto order = strip_order<Dim>(position, width);
+    Particles<Dim> particles;
+    particles.spacing = spacing;
+    particles.mass.assign(n, mass);
+    particles.id.resize(n);
+    particles.reference_position.resize(Dim, position.cols());
+    for (std::size_t k = 0; k < n; ++k) {
+        particles.id[k] = order[k];
+        particles.reference_position.col(static_cast<Eigen::Index>(k)) = position.col(order[k]);
+    }
+    particles.body = connected_parts<Dim>(particles.reference_position,
+                                          reach > 0.0 ? reach : 1.5 * spacing, box);
+    return particles;
+}
+
+template Points<1> square_lattice<1>(const std::array<int, 1>&, double);
+template Points<2> square_lattice<2>(const std::array<int, 2>&, double);
+template Points<3> square_lattice<3>(const std::array<int, 3>&, double);
+template Particles<1> make_particles<1>(const Points<1>&, double, double, const Box<1>&, double);
+template Particles<2> make_particles<2>(const Points<2>&, double, double, const Box<2>&, double);
+template Particles<3> make_particles<3>(const Points<3>&, double, double, const Box<3>&, double);
+
+}  // namespace spam
