@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 /// Small vectors for the bodies of pair sums. The arithmetic type T is a template parameter, because
@@ -46,6 +47,10 @@ template <class T>
 constexpr T cross(const Vec<2, T>& a, const Vec<2, T>& b) {
     return a[0] * b[1] - a[1] * b[0];
 }
+
+/// max(x, 0), exactly, and without the branch that a compiler makes of max in scalar code: near the
+/// range of a weight function it would be mispredicted again and again.
+inline double positive_part(double x) { return 0.5 * (x + std::abs(x)); }
 
 /// `mask ? a : b`; a lane type brings its own overload, found by argument-dependent lookup.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }

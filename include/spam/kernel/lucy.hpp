@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/vec.hpp>
 #include <spam/kernel/weight_function.hpp>
 
-#include <algorithm>
 #include <numbers>
 
 namespace spam {
@@ -21,16 +21,14 @@ class Lucy {
 
     template <class T>
     T value(const T& r) const {
-        using std::max;
         const T u = r * inverse_h_;
-        const T q = max(T(0.0), T(1.0) - u);
+        const T q = positive_part(T(1.0) - u);
         return c_ * (T(1.0) + T(3.0) * u) * (q * q * q);
     }
 
     template <class T>
     T slope_over_r(const T& r) const {
-        using std::max;
-        const T q = max(T(0.0), T(1.0) - r * inverse_h_);
+        const T q = positive_part(T(1.0) - r * inverse_h_);
         return slope_ * (q * q);
     }
 

@@ -44,7 +44,8 @@ Pair<Dim, T> make_pair(const Weight& weight, const Box<Dim>& box, const Record& 
 template <int Dim, class... Passes, class Weight, class Record, class Store>
 void sweep(const PairList<Dim>& list, const Weight& weight, std::span<const Record> records,
            const Store& store) {
-    parallel_for(list.size(), [&](std::size_t i) {
+    // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
+    parallel_for(list.size(), [&](std::size_t i) __attribute__((flatten)) {
         std::tuple<typename Passes::template Sums<double>...> sums;
         for (const std::uint32_t j : list.neighbours(i)) {
             const auto pair = make_pair<Dim, double>(weight, list.box(), records[i], records[j]);
