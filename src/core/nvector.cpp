@@ -3,6 +3,7 @@
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_config.h>
+#include <sundials/sundials_version.h>
 
 #include <new>
 #include <utility>
@@ -45,6 +46,13 @@ Vector Vector::clone() const {
 std::size_t Vector::size() const { return static_cast<std::size_t>(N_VGetLength(v_)); }
 std::span<double> Vector::span() { return entries(v_); }
 std::span<const double> Vector::span() const { return entries(v_); }
+
+std::string sundials_version() {
+    int major = 0, minor = 0, patch = 0;
+    char label[32] = {};
+    SUNDIALSGetVersionNumber(&major, &minor, &patch, label, sizeof(label));
+    return std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch);
+}
 
 std::span<double> entries(N_Vector v) {
     return {N_VGetArrayPointer(v), static_cast<std::size_t>(N_VGetLength(v))};

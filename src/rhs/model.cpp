@@ -12,6 +12,14 @@ void Model<Dim>::fail(std::span<double> y_dot, std::string reason) {
     failure_ = std::move(reason);
 }
 
+template <int Dim>
+std::vector<double> Model<Dim>::density(std::span<const double> y) const {
+    const ConstState<Dim> state(layout_, y);
+    if (!state.has(Field::density)) return {};
+    const auto rho = state.density();
+    return {rho.data(), rho.data() + rho.size()};
+}
+
 template class Model<1>;
 template class Model<2>;
 template class Model<3>;

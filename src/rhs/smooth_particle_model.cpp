@@ -267,6 +267,25 @@ double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) cons
     return sum;
 }
 
+/// For observers: its own list, so that the one of the right-hand side stays as it is.
+template <int Dim>
+std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
+    if (scheme_.density != Density::summed) return Model<Dim>::density(y);
+    const Points<Dim> x = ConstState<Dim>(this->layout(), y).position();
+    PairList<Dim> list(scheme_.range, 0.0, this->box());
+    list.build(x);
+    std::vector<Record<Dim>> records(this->particles().size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        for (int a = 0; a < Dim; ++a)
+            records[i].x[a] = this->box().wrap(a, x(a, static_cast<Eigen::Index>(i)));
+        records[i].m = this->particles().mass[i];
+    }
+    std::vector<double> rho(records.size());
+    sweep<Dim, DensitySum>(list, Lucy<Dim>(scheme_.range), std::span<const Record<Dim>>(records),
+                           [&](std::size_t i, const auto& sums) { rho[i] = sums.rho; });
+    return rho;
+}
+
 template <int Dim>
 std::string SmoothParticleModel<Dim>::describe() const {
     return fmt::format("smooth particles, elastic solid lambda = {:.6g}, eta = {:.6g}: {}",

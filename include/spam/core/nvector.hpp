@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 /// Ownership of SUNDIALS objects. SUNDIALS is called here and in src/integrate only.
 namespace spam {
@@ -45,6 +46,9 @@ class Vector {
     explicit Vector(N_Vector v) : v_(v) {}
     N_Vector v_ = nullptr;
 };
+
+/// "6.4.1": the library in use.
+std::string sundials_version();
 
 /// Entries of any contiguous N_Vector.
 std::span<double> entries(N_Vector v);

@@ -11,8 +11,8 @@ template <int Dim, class T = double>
 struct Record {
     Vec<Dim, T> x;        ///< wrapped into the box where it is periodic
     Vec<Dim, T> v;
-    T m;
-    T rho;
+    T m{};
+    T rho{};
     SymTensor<Dim, T> A;  ///< sigma/rho^2, stored: formed inside the pair, FMA would break F_ij = -F_ji
 };
 

@@ -29,6 +29,9 @@ class Model {
     /// Sum of the energy that is not kinetic: internal (m e) or potential.
     virtual double internal_energy(std::span<const double> y) const = 0;
 
+    /// Densities of all particles; empty for a model without density.
+    virtual std::vector<double> density(std::span<const double> y) const;
+
     virtual Promises promises() const = 0;
     virtual std::string describe() const = 0;  ///< one line for banner and dry run
 

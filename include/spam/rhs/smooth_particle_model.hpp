@@ -21,6 +21,7 @@ class SmoothParticleModel final : public Model<Dim> {
 
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
     double internal_energy(std::span<const double> y) const override;
+    std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override { return scheme_.promises(Dim); }
     std::string describe() const override;
     std::size_t pairs() const override { return (list_.entries() - list_.size()) / 2; }
@@ -28,8 +29,6 @@ class SmoothParticleModel final : public Model<Dim> {
 
     const Scheme& scheme() const { return scheme_; }
     const ElasticSolid& law() const { return law_; }
-    /// Densities used by the latest rates(): integrated or summed.
-    double density(std::size_t i) const { return records_[i].rho; }
     /// R of each body in the latest rates(); 1 where torques are left free.
     std::span<const double> torque_factors() const { return torque_factor_; }
     std::size_t list_builds() const { return list_.builds(); }

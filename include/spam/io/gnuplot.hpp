@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/state.hpp>
+#include <spam/io/run_folder.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spam {
+
+/// One curve: rows of (x, y); empty cells are left out.
+struct Curve {
+    std::string title;
+    std::vector<double> x, y;
+};
+
+/// One frame of a row of curves.
+struct CurvePanel {
+    std::string title;   ///< above the frame
+    std::string x_label, y_label;
+    bool log_y = false;  ///< absolute values, zeros dropped
+    std::vector<Curve> curves;
+};
+
+/// One frame of a grid of configurations: particles coloured by a value, and outlines.
+struct ConfigurationPanel {
+    std::string title;
+    Points<2> position;
+    std::vector<double> colour;
+    std::vector<Points<2>> outlines;  ///< closed polygons
+};
+
+/// Pictures through gnuplot: <folder>/<name>.gp and <name>.dat are always written, <name>.png is
+/// drawn when gnuplot is installed. Returns false when it could not be drawn.
+/// Throws OutputError when script or data cannot be written.
+bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
+                 const std::vector<CurvePanel>& panels);
+
+/// `columns` frames in a row, all with the same scale and the same colour range.
+bool draw_configurations(const RunFolder& folder, std::string_view name, std::string_view title,
+                         const std::vector<ConfigurationPanel>& panels, std::size_t columns,
+                         std::string_view colour_label);
+
+}  // namespace spam

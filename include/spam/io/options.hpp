@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spam {
+
+/// Which numbers an option accepts. `words` completes "must be ...".
+struct Allowed {
+    std::function<bool(double)> holds;
+    std::string words;
+};
+Allowed any_number();
+Allowed positive();
+Allowed non_negative();
+Allowed at_least(double least);
+Allowed between(double least, double most);
+
+/// The options of a problem: typed, with defaults and help, from the command line (--name value) and
+/// from a TOML file (name = value; the command line wins). A wrong name, type or value throws
+/// InputError: one line with the option, the value, what is allowed and a hint.
+class Options {
+  public:
+    Options(std::string program, std::string summary);
+    ~Options();
+    Options(Options&&) noexcept;
+
+    /// Heading under which the options added next appear in --help.
+    void group(std::string title);
+
+    // `target` holds the default and receives the value; it must outlive parse().
+    void number(std::string name, double& target, std::string help, Allowed allowed);
+    void number(std::string name, std::optional<double>& target, std::string help, Allowed allowed);
+    void integer(std::string name, int& target, std::string help, Allowed allowed);
+    void text(std::string name, std::string& target, std::string help);
+    void flag(std::string name, bool& target, std::string help);
+    void choice(std::string name, std::vector<std::string> names, std::string help,
+                std::function<void(std::size_t)> set, std::function<std::size_t()> get);
+
+    /// One of an enumeration whose values are named by to_string(Enum).
+    template <class Enum>
+    void choice(std::string name, Enum& target, std::vector<Enum> values, std::string help) {
+        std::vector<std::string> names;
+        for (const Enum v : values) names.emplace_back(to_string(v));
+        choice(
+            std::move(name), std::move(names), std::move(help),
+            [&target, values](std::size_t k) { target = values[k]; },
+            [&target, values] {
+                std::size_t k = 0;
+                while (values[k] != target) ++k;
+                return k;
+            });
+    }
+
+    /// Options that say how to run rather than what to compute (--out, --quiet, ...): not part of the
+    /// case that is written back. Applies to options already added.
+    void exclude_from_case(const std::vector<std::string>& names);
+
+    /// Reads the command line and, if --config was given, its file. Returns false when help was asked
+    /// for (and printed).
+    bool parse(int argc, const char* const* argv);
+
+    /// Whether the user set the option (command line or file).
+    bool given(std::string_view name) const;
+    /// The first of `names` that the user set; empty if none.
+    std::string first_given(const std::vector<std::string>& names) const;
+
+    /// The resolved case as TOML, without the options named.
+    std::string case_toml(const std::vector<std::string>& without = {}) const;
+    /// The same as "name = value" pairs.
+    std::vector<std::pair<std::string, std::string>> resolved() const;
+
+  private:
+    struct Entry;
+    struct Parser;
+    Entry& add(std::string name, std::string help);
+    void read_config(const std::string& path);
+    std::vector<std::string> names() const;
+
+    std::string program_, summary_, group_;
+    std::string config_;
+    std::vector<std::unique_ptr<Entry>> entries_;
+};
+
+}  // namespace spam

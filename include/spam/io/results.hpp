@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/io/run_folder.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spam {
+
+/// One thing a problem measured, as written to result.json. Where `expected` is set, |value -
+/// expected| <= tolerance must hold; otherwise nothing is claimed.
+struct Check {
+    std::string name;
+    double value;
+    std::optional<double> expected;
+    double tolerance = 0.0;
+    std::string source;  ///< where the expectation comes from, e.g. "[HHM04] VIII"
+
+    bool holds() const;
+};
+
+/// What a run cost, as written to statistics.json.
+struct RunStatistics {
+    std::string problem;
+    std::size_t particles = 0;
+    double t_end = 0.0;
+    std::size_t steps = 0;
+    std::size_t rejected_steps = 0;
+    std::size_t rhs_evaluations = 0;
+    double wall_seconds = 0.0;
+    std::size_t pair_interactions = 0;  ///< undirected pairs summed over, all right-hand sides
+    std::string stopped;                ///< empty for a complete run
+};
+
+void write_results(const RunFolder& folder, const std::vector<Check>& checks);
+void write_statistics(const RunFolder& folder, const RunStatistics& statistics);
+
+/// "0.1.0", and with the commit the program was built from where known.
+std::string version();
+
+}  // namespace spam

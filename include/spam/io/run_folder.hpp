@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace spam {
+
+/// Where a run leaves its results. Never overwrites: an existing folder with contents is refused, or
+/// with `force` moved aside to <path>.old-1, -2, ... first.
+class RunFolder {
+  public:
+    /// Creates the folder. Throws InputError when it exists and is not empty (without force) or
+    /// cannot be created or written.
+    RunFolder(const std::filesystem::path& path, bool force);
+
+    /// A folder inside, created.
+    RunFolder inside(std::string_view name) const;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+
+    /// Writes a whole file: to a temporary name, then renamed, so that a reader never sees half of
+    /// it. Throws OutputError.
+    void write(std::string_view name, std::string_view contents) const;
+
+  private:
+    explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+    std::filesystem::path path_;
+};
+
+}  // namespace spam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/io/run_folder.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spam {
+
+/// Configurations for ParaView: one PolyData file per time, snapshot_0000.vtp, ... (raw appended
+/// data, little endian) and snapshots.pvd, the list of them with their times, complete after every
+/// snapshot. Point arrays: id, body, mass, particle_spacing, velocity (3), and where the model has
+/// them density, stress (3 x 3 tensor) and energy.
+template <int Dim>
+class SnapshotSeries {
+  public:
+    SnapshotSeries(const RunFolder& folder, const Model<Dim>& model)
+        : folder_(folder), model_(model) {}
+
+    /// Throws OutputError.
+    void add(double t, std::span<const double> y);
+
+  private:
+    RunFolder folder_;
+    const Model<Dim>& model_;
+    std::vector<std::pair<double, std::string>> files_;
+};
+
+extern template class SnapshotSeries<1>;
+extern template class SnapshotSeries<2>;
+extern template class SnapshotSeries<3>;
+
+}  // namespace spam

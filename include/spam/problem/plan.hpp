@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/diagnostics/drift.hpp>
+#include <spam/io/results.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <functional>
+
+namespace spam {
+
+/// A further column of invariants.csv: its name and how to measure it.
+template <int Dim>
+struct Column {
+    std::string name;
+    std::function<double(const Model<Dim>& model, std::span<const double> y)> measure;
+};
+
+/// How far a run goes and what is recorded on the way. Zero intervals are filled in by the session:
+/// rows 240, snapshots 12 over the run, unless --output-every or --snapshot-every say otherwise.
+template <int Dim>
+struct Plan {
+    double t_end = 0.0;
+    double output_every = 0.0;
+    double snapshot_every = 0.0;
+    std::vector<Column<Dim>> columns{};
+    /// Called with every snapshot; may be empty.
+    std::function<void(double t, const Model<Dim>& model, std::span<const double> y)> on_snapshot{};
+};
+
+/// One run to do: a model, where it starts, and a name for its folder when there are several.
+template <int Dim>
+struct Case {
+    Model<Dim>& model;
+    std::vector<double> y0;
+    Plan<Dim> plan;
+    std::string label{};
+};
+
+/// What a run left behind.
+struct RunRecord {
+    std::string label;
+    History history{{}};
+    RunStatistics statistics;
+    std::vector<Drift> drifts;
+    std::vector<double> y;  ///< the last accepted state
+    bool complete = false;  ///< reached t_end
+};
+
+/// Shape error against the reference configuration, column `shape_error`.
+template <int Dim>
+Column<Dim> shape_error_column();
+/// Distance of the closest two particles, column `closest_pair`.
+template <int Dim>
+Column<Dim> closest_pair_column();
+
+}  // namespace spam

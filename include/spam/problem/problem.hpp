@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/integrate/integrator.hpp>
+#include <spam/io/options.hpp>
+#include <spam/physics/scheme.hpp>
+
+#include <functional>
+#include <string>
+
+namespace spam {
+
+class Session;
+
+/// Options every problem has.
+struct CommonOptions {
+    std::string out;
+    bool force = false, dry_run = false, smoke = false, quiet = false, no_plots = false;
+    int threads = 1;
+    std::optional<double> t_end, output_every, snapshot_every;
+};
+
+/// A problem executable: its options, and the exit status contract around its body.
+///     0 done, checks hold    1 a check fails       2 bad input       3 numerical guard
+///     4 output failed        128 + signal (130, 143) interrupted
+class Problem {
+  public:
+    /// `default_dt`: the step of rk4 when none is given.
+    Problem(std::string name, std::string summary, double default_dt = 0.1);
+
+    /// For options of the problem itself.
+    Options& options() { return options_; }
+
+    /// Adds the scheme and kernel options; `standard` holds their defaults.
+    void use_scheme(const Scheme& standard = {});
+    static const std::vector<std::string>& scheme_option_names();
+
+    /// Parses, runs `body`, completes the results. Returns the exit status.
+    int main(int argc, char** argv, const std::function<void(Session&)>& body);
+
+  private:
+    friend class Session;
+    IntegratorOptions resolve_integrator();
+
+    std::string name_, summary_;
+    double default_dt_;
+    Options options_;
+    CommonOptions common_;
+    Scheme scheme_;
+    std::string method_ = "rk4";
+    std::optional<double> dt_, rtol_, atol_;
+};
+
+}  // namespace spam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/io/run_folder.hpp>
+#include <spam/io/terminal.hpp>
+#include <spam/problem/plan.hpp>
+#include <spam/problem/problem.hpp>
+
+namespace spam {
+
+/// One invocation of a problem, as its body sees it. Build everything first, then run: nothing is
+/// written before the first run(), so that whatever is wrong with the input is found before.
+class Session {
+  public:
+    bool given(std::string_view option) const { return problem_.options_.given(option); }
+    const CommonOptions& common() const { return problem_.common_; }
+    const Scheme& scheme() const { return problem_.scheme_; }
+    const IntegratorOptions& integrator() const { return integrator_; }
+
+    /// Keys that case.toml must not hold (because another option settles them).
+    void leave_out_of_case(const std::vector<std::string>& names);
+
+    /// Runs one case; its results are the result folder itself.
+    template <int Dim>
+    RunRecord run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan);
+
+    /// Runs several, each in a folder of its own named by its label. A case stopped by a guard is
+    /// recorded and the next one begins; after a signal no further case is begun.
+    template <int Dim>
+    std::vector<RunRecord> run_all(std::vector<Case<Dim>> cases);
+
+    /// Something measured, for result.json; printed at the end.
+    void check(Check check);
+    /// Checks that every invariant drifted no more than promised. `prefix` names the case.
+    void check_promises(const RunRecord& record, const std::string& prefix = "");
+
+    Terminal& terminal() { return terminal_; }
+    /// The folder of pictures; precondition: a run has begun and plots() is true.
+    RunFolder plots_folder() const { return folder_->inside("plots"); }
+    bool plots() const { return folder_ && !problem_.common_.no_plots; }
+    /// Says once that pictures could not be drawn.
+    void note_drawn(bool drawn);
+
+    /// The result folder; precondition: a run has begun.
+    const RunFolder& folder() const { return *folder_; }
+
+  private:
+    friend class Problem;
+    Session(Problem& problem, const IntegratorOptions& integrator, std::string command);
+
+    void open_folder();
+    void describe_environment();
+    int finish();
+    template <int Dim>
+    void settle_plan(Plan<Dim>& plan);
+    template <int Dim>
+    void describe(const Case<Dim>& one);
+    template <int Dim>
+    RunRecord run_one(Case<Dim>& one, const RunFolder& folder);
+    void report(const RunRecord& record);
+    double promise_limit() const;
+
+    Problem& problem_;
+    IntegratorOptions integrator_;
+    std::string command_;
+    Terminal terminal_;
+    std::optional<RunFolder> folder_;
+    std::vector<std::string> left_out_;
+    std::vector<Check> checks_;
+    std::vector<RunStatistics> statistics_;
+    std::string guard_reason_;
+    bool warned_about_plots_ = false;
+};
+
+}  // namespace spam

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// Everything a problem of one's own needs.
+#include <spam/core/error.hpp>
+#include <spam/diagnostics/invariants.hpp>
+#include <spam/diagnostics/shape.hpp>
+#include <spam/material/elastic_solid.hpp>
+#include <spam/problem/session.hpp>
+#include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/setup/initial_state.hpp>
+#include <spam/setup/lattices.hpp>

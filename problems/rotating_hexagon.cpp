@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: a rotating elastic hexagon, MD against SPAM schemes, [HHM04] VI-VIII; 15 s
+//
+// A rotating elastic hexagon of smooth particles, [HHM04] VI to VIII.
+//
+//        o o o          A free hexagon of 1 + 3n + 3n^2 particles (217 for n = 8), cut from the
+//       o o o o         triangular lattice of spacing 1, starts in rigid rotation with speed 0.1 at
+//      o o o o o        its corners, free of stress. It should turn for ever with a little elastic
+//       o o o o         breathing: with velocities v it clumps (tensile instability), with averaged
+//        o o o          velocities it keeps its shape for about a turn but loses angular momentum,
+//                       with balanced pair torques it keeps that too.
+//
+//     x_dot     = u                        transport velocity: v, <v> or <v>_Monaghan
+//     rho_dot   = sum m v_ij . grad w_ij   (or summed, or the chain rule with u)
+//     v_dot     = sum m (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad w_ij     torques scaled or not
+//     sigma_dot = lambda (div v) I + eta (grad v + grad v^t) + rotation,    lambda = eta = sqrt(3/16)
+//     e_dot     = -1/2 sum m f_ij . v_ij
+//
+// The reference is molecular dynamics of the same particles joined by harmonic springs.
+// Without scheme options: MD, plain SPAM, <v>_Monaghan, and that with balanced pair torques, compared.
+#include <spam/io/csv.hpp>
+#include <spam/io/gnuplot.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+using std::numbers::pi;
+
+enum class ModelKind { spam, md };
+std::string_view to_string(ModelKind kind) { return kind == ModelKind::spam ? "spam" : "md"; }
+
+struct Parameters {
+    int size = 8;         // n: corners are n spacings from the centre
+    double speed = 0.1;   // of the corners
+    std::optional<double> turns;
+    ModelKind model = ModelKind::spam;
+
+    double omega() const { return speed / size; }
+    double turn() const { return 2.0 * pi / omega(); }  // nominal: the hexagon's own turn is slower
+};
+
+/// A configuration worth drawing: the snapshot nearest to a wanted time.
+struct Sight {
+    double wanted;
+    double t = -1.0;
+    Points<2> position{};
+    std::vector<double> speed{};
+
+    void look(double now, const ConstState<2>& state) {
+        if (t >= 0.0 && std::abs(now - wanted) > std::abs(t - wanted)) return;
+        t = now;
+        position = state.position();
+        speed.clear();
+        for (Eigen::Index i = 0; i < position.cols(); ++i)
+            speed.push_back(state.velocity().col(i).norm());
+    }
+};
+
+/// The particles of the outermost ring, in order around it.
+std::vector<Eigen::Index> rim(const Points<2>& x, int size) {
+    std::vector<Eigen::Index> ring;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        double height = 0.0;  // distance from the centre to the hexagon's edge through this particle
+        for (int side = 0; side < 6; ++side) {
+            const double angle = pi / 6.0 + side * pi / 3.0;
+            height = std::max(height, x(0, i) * std::cos(angle) + x(1, i) * std::sin(angle));
+        }
+        if (height > (size - 0.5) * std::sqrt(0.75)) ring.push_back(i);
+    }
+    std::sort(ring.begin(), ring.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return std::atan2(x(1, a), x(0, a)) < std::atan2(x(1, b), x(0, b));
+    });
+    return ring;
+}
+
+struct Hexagon {
+    std::string label;
+    std::string title;
+    std::unique_ptr<Model<2>> model;
+    std::vector<Sight> sights{};
+};
+
+Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
+                     const std::string& label, const std::string& title) {
+    // lattice
+    auto particles = make_particles<2>(triangular_hexagon(p.size), 1.0);
+    // material and scheme
+    if (kind == ModelKind::md)
+        return {label, title, std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{})};
+    return {label, title,
+            std::make_unique<SmoothParticleModel<2>>(
+                std::move(particles), ElasticSolid::triangular_lattice(), scheme)};
+}
+
+/// What a reader of the paper compares first.
+std::vector<Hexagon> comparison(const Parameters& p, Scheme scheme) {
+    std::vector<Hexagon> all;
+    all.push_back(make_hexagon(p, ModelKind::md, scheme, "md", "molecular dynamics"));
+    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "plain", "SPAM, plain v"));
+    scheme.transport = Transport::monaghan;
+    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "monaghan", "⟨v⟩ Monaghan"));
+    scheme.angular_momentum = AngularMomentum::torque_pair;
+    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "monaghan_torque_pair",
+                               "⟨v⟩ Monaghan, pair torque"));
+    return all;
+}
+
+void refuse_contradictions(const Options& options, const Parameters& p) {
+    if (options.given("t-end") && options.given("turns"))
+        throw InputError("turns: --turns sets the end of the run and so does --t-end; leave one out");
+    if (p.model == ModelKind::spam) return;
+    auto names = Problem::scheme_option_names();
+    names.insert(names.end(), {"kernel", "range"});
+    const std::string name = options.first_given(names);
+    if (!name.empty())
+        throw InputError(fmt::format(
+            "{}: has no meaning for --model md (springs between initial neighbours); leave it out",
+            name));
+}
+
+// ---- what the paper and an independent prototype say of the standard case ----
+
+/// 217 particles, speed 0.1, one turn, Lucy with range 3, RK4 with dt <= 0.1, integrated density.
+bool is_standard(const Session& session, const Parameters& p, const Model<2>& model) {
+    const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
+    if (solid && (solid->scheme().range != 3.0 || solid->scheme().density == Density::summed))
+        return false;
+    const auto& integrator = session.integrator();
+    return p.size == 8 && p.speed == 0.1 && p.turns == 1.0 && integrator.method == "rk4" &&
+           *integrator.dt <= 0.1;
+}
+
+double momentum_per_particle(const RunRecord& run) {
+    return std::max(run.history.largest_change("momentum_x"),
+                    run.history.largest_change("momentum_y")) /
+           static_cast<double>(run.statistics.particles);
+}
+
+double smallest_in_first_half(const History& h, const char* column) {
+    const auto t = h.column("t"), values = h.column(column);
+    double smallest = values.front();
+    for (std::size_t k = 0; k < t.size() && t[k] <= 0.5 * t.back(); ++k)
+        smallest = std::min(smallest, values[k]);
+    return smallest;
+}
+
+void check_standard(Session& session, const RunRecord& run, const Model<2>& model,
+                    const std::string& prefix) {
+    const History& h = run.history;
+    const auto claim = [&](const char* name, double value, double expected, double tolerance,
+                           const char* source) {
+        session.check({prefix + name, value, expected, tolerance, source});
+    };
+    const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
+    const bool averaged = solid && solid->scheme().transport != Transport::plain;
+    const bool L_kept = model.promises().angular_momentum != Promise::not_kept;
+    const double ratio = h.last("angular_momentum") / h.first("angular_momentum");
+
+    claim("momentum_per_particle", momentum_per_particle(run), 0.0, 1e-12, "pairwise forces");
+    // Once particles of the plain scheme have clumped, RK4 with dt = 0.1 follows them less exactly.
+    claim("energy_drift", h.relative_drift("energy"), 0.0, solid && !averaged ? 1e-7 : 1e-9,
+          "to the error of RK4");
+    if (L_kept)
+        claim("angular_momentum_drift", std::abs(ratio - 1.0), 0.0, 1e-10, "[HHM04] VIII");
+    else if (averaged)
+        claim("angular_momentum_ratio", ratio, 0.6, 0.1, "[HHM04] VIII, Fig. 6: about half");
+    else
+        claim("angular_momentum_ratio", ratio, 0.25, 0.25, "below half within a turn");
+    if (solid && !averaged)
+        claim("closest_pair_before_half_turn", smallest_in_first_half(h, "closest_pair"), 0.1, 0.1,
+              "tensile instability: clumps, [HHM04] Fig. 4");
+    if (!solid)
+        claim("shape_error_largest", h.largest("shape_error"), 0.0, 0.05, "elastic breathing only");
+    else if (averaged)
+        claim("shape_error_largest", h.largest("shape_error"), 0.0,
+              solid->scheme().transport == Transport::monaghan ? 0.3 : 0.6,
+              "the hexagon survives a turn, [HHM04] Figs. 5 and 7");
+}
+
+/// What is worth knowing and not claimed.
+void report_measured(Session& session, const RunRecord& run, const std::string& prefix) {
+    const History& h = run.history;
+    const auto measured = [&](const char* name, double value) {
+        session.check({prefix + name, value, {}, 0.0, "measured"});
+    };
+    measured("angular_momentum_final", h.last("angular_momentum"));
+    measured("shape_error_final", h.last("shape_error"));
+    measured("closest_pair", h.smallest("closest_pair"));
+}
+
+// ---- pictures ----
+
+void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hexagons,
+          const std::vector<RunRecord>& runs) {
+    const auto folder = session.plots_folder();
+    std::vector<ConfigurationPanel> panels;
+    for (std::size_t s = 0; s < hexagons.front().sights.size(); ++s)
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const Sight& sight = hexagons[k].sights[s];
+            ConfigurationPanel panel{
+                fmt::format("{}, {}", hexagons[k].title,
+                            sight.wanted == p.turn() / 3.0
+                                ? std::string("2π/3")
+                                : fmt::format("{:.3g} turn", sight.t / p.turn())),
+                sight.position, sight.speed, {}};
+            const auto ring = rim(hexagons[k].model->particles().reference_position, p.size);
+            Points<2> outline(2, static_cast<Eigen::Index>(ring.size()));
+            for (std::size_t i = 0; i < ring.size(); ++i)
+                outline.col(static_cast<Eigen::Index>(i)) = sight.position.col(ring[i]);
+            panel.outlines.push_back(std::move(outline));
+            panels.push_back(std::move(panel));
+        }
+    session.note_drawn(draw_configurations(
+        folder, "configurations",
+        fmt::format("Rotating elastic hexagon, {} particles", runs.front().statistics.particles),
+        panels, runs.size() > 1 ? runs.size() : panels.size(), "speed"));
+
+    CurvePanel momentum{"angular momentum", "turns", "L(t) / L(0)", false, {}};
+    CurvePanel energy{"energy", "turns", "|E(t) - E(0)| / E(0)", true, {}};
+    CurvePanel shape{"shape", "turns", "shape error / spacing", true, {}};
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const History& h = runs[k].history;
+        auto turns = h.column("t"), ratio = h.column("angular_momentum"), drift = h.column("energy");
+        for (double& t : turns) t /= p.turn();
+        for (double& L : ratio) L /= h.first("angular_momentum");
+        for (double& E : drift) E = (E - h.first("energy")) / h.first("energy");
+        momentum.curves.push_back({hexagons[k].title, turns, ratio});
+        energy.curves.push_back({hexagons[k].title, turns, drift});
+        shape.curves.push_back({hexagons[k].title, turns, h.column("shape_error")});
+    }
+    session.note_drawn(draw_curves(folder, "curves", "Rotating elastic hexagon", {momentum, energy, shape}));
+}
+
+/// The curves of the comparison side by side, for one's own plots.
+void write_comparison(const RunFolder& folder, const std::vector<RunRecord>& runs) {
+    std::vector<std::string> names{"t"};
+    for (const auto& run : runs)
+        for (const char* what : {"angular_momentum_ratio", "energy_drift", "shape_error"})
+            names.push_back(fmt::format("{}_{}", run.label, what));
+    CsvWriter csv(folder / "comparison.csv", names);
+    for (const double t : runs.front().history.column("t")) {
+        std::vector<double> row{t};
+        for (const auto& run : runs) {
+            const History& h = run.history;
+            row.push_back(h.at(t, "angular_momentum") / h.first("angular_momentum"));
+            row.push_back((h.at(t, "energy") - h.first("energy")) / h.first("energy"));
+            row.push_back(h.at(t, "shape_error"));
+        }
+        csv.add(row);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("rotating_hexagon",
+                    "a rotating elastic hexagon of smooth particles, [HHM04] VI-VIII");
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("size", p.size, "corners are n spacings from the centre: 1 + 3n + 3n^2 particles",
+                    between(1, 2000));
+    options.number("speed", p.speed, "speed of the corners", positive());
+    options.number("turns", p.turns, "nominal turns to run (1)", positive());
+    options.choice<ModelKind>("model", p.model, {ModelKind::spam, ModelKind::md},
+                              "smooth particles, or molecular dynamics with springs");
+    problem.use_scheme();
+
+    return problem.main(argc, argv, [&](Session& session) {
+        refuse_contradictions(options, p);
+        if (session.common().smoke) {
+            if (!session.given("size")) p.size = 3;
+            if (!session.given("turns") && !session.given("t-end")) p.turns = 0.1;
+        }
+        if (!p.turns && !session.given("t-end")) p.turns = 1.0;
+        if (p.turns) session.leave_out_of_case({"t-end"});
+
+        auto scheme_options = Problem::scheme_option_names();
+        scheme_options.emplace_back("model");
+        const bool single = !options.first_given(scheme_options).empty();
+        std::vector<Hexagon> hexagons;
+        if (single) {
+            const bool md = p.model == ModelKind::md;
+            hexagons.push_back(make_hexagon(p, p.model, session.scheme(), "",
+                                            md ? "molecular dynamics" : "smooth particles"));
+            if (md) session.leave_out_of_case({"density", "transport", "mean-density",
+                                               "angular-momentum", "kernel", "range"});
+        } else {
+            session.leave_out_of_case(scheme_options);
+            hexagons = comparison(p, session.scheme());
+        }
+
+        // initial state, observers, integration
+        std::vector<Case<2>> cases;
+        for (auto& hexagon : hexagons) {
+            auto y0 = initial_state<2>(*hexagon.model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
+                                       rigid_rotation(p.omega()));
+            Plan<2> plan;
+            plan.t_end = p.turns ? *p.turns * p.turn() : *session.common().t_end;
+            plan.snapshot_every = p.turn() / 12.0;
+            plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
+            if (plan.t_end > 0.4 * p.turn()) hexagon.sights.push_back({p.turn() / 3.0});
+            hexagon.sights.push_back({plan.t_end});
+            plan.on_snapshot = [&hexagon](double t, const Model<2>& model, std::span<const double> y) {
+                for (Sight& sight : hexagon.sights) sight.look(t, {model.layout(), y});
+            };
+            cases.push_back({*hexagon.model, std::move(y0), std::move(plan), hexagon.label});
+        }
+        const auto runs = session.run_all(std::move(cases));
+
+        // what was found
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const std::string prefix = single ? "" : runs[k].label + "_";
+            const Model<2>& model = *hexagons[k].model;
+            if (runs[k].complete && is_standard(session, p, model))
+                check_standard(session, runs[k], model, prefix);
+            else
+                session.check_promises(runs[k], prefix);
+            report_measured(session, runs[k], prefix);
+        }
+        if (!single) write_comparison(session.folder(), runs);
+        if (session.plots()) draw(session, p, hexagons, runs);
+    });
+}

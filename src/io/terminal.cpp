@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/io/terminal.hpp>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace spam {
+
+namespace {
+
+/// Where lines after the first begin: under the second column of "key      text", else at 4.
+std::size_t hanging_indent(std::string_view text) {
+    const std::size_t gap = text.find("  ");
+    const std::size_t word = gap == 0 ? std::string_view::npos : text.find_first_not_of(' ', gap);
+    return gap != std::string_view::npos && word != std::string_view::npos && word <= 16 ? word : 4;
+}
+
+}  // namespace
+
+std::string wrap(std::string_view text, std::size_t width) {
+    const std::size_t indent = hanging_indent(text);
+    std::string out;
+    std::size_t column = 0;
+    std::size_t pos = 0;
+    while (pos < text.size()) {
+        const std::size_t word = std::min(text.find_first_not_of(' ', pos), text.size());
+        const std::size_t end = std::min(text.find(' ', word), text.size());
+        std::string_view piece = text.substr(pos, end - pos);  // a word and the spaces before it
+        if (column > indent && column + piece.size() > width) {
+            piece = text.substr(word, end - word);
+            out += '\n' + std::string(indent, ' ');
+            column = indent;
+        }
+        out += piece;
+        column += piece.size();
+        pos = end;
+    }
+    return out;
+}
+
+Terminal::Terminal(bool quiet) : quiet_(quiet), is_terminal_(isatty(STDOUT_FILENO) == 1) {}
+
+std::size_t Terminal::width() const {
+    winsize size{};
+    if (!is_terminal_ || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 100;
+    return size.ws_col;
+}
+
+void Terminal::log_to(const std::filesystem::path& path) {
+    log_path_ = path;
+    log_.open(path);
+    log("");
+}
+
+void Terminal::log(std::string_view text) {
+    if (log_path_.empty()) return;
+    if (!text.empty()) log_ << text << '\n';
+    log_.flush();
+    if (!log_) throw OutputError(fmt::format("cannot write '{}' (disk full?)", log_path_.string()));
+}
+
+void Terminal::say(std::string_view text) {
+    end_progress();
+    log(text);
+    if (quiet_) return;
+    std::size_t pos = 0;
+    while (pos <= text.size()) {
+        const std::size_t end = std::min(text.find('\n', pos), text.size());
+        fmt::print("{}\n", wrap(text.substr(pos, end - pos), width()));
+        pos = end + 1;
+    }
+    std::fflush(stdout);
+}
+
+void Terminal::warn(std::string_view text) {
+    end_progress();
+    fmt::print(stderr, "{}\n", text);
+    log(text);
+}
+
+bool Terminal::progress_due(double fraction) {
+    if (!is_terminal_ || quiet_) return fraction >= 0.1 * next_tenth_;
+    return std::chrono::steady_clock::now() - drawn_ >= std::chrono::milliseconds(100);
+}
+
+void Terminal::progress(double fraction, std::string_view text) {
+    if (fraction >= 0.1 * next_tenth_) {
+        while (fraction >= 0.1 * next_tenth_) ++next_tenth_;
+        log(text);
+        if (!is_terminal_ && !quiet_) {
+            fmt::print("{}\n", text);
+            std::fflush(stdout);
+        }
+    }
+    if (!is_terminal_ || quiet_) return;
+    drawn_ = std::chrono::steady_clock::now();
+    fmt::print("\r\x1b[K{}", text.substr(0, std::min(text.size(), width() - 1)));
+    std::fflush(stdout);
+    line_open_ = true;
+}
+
+void Terminal::begin_progress() { next_tenth_ = 1; }
+
+void Terminal::end_progress() {
+    if (!line_open_) return;
+    fmt::print("\r\x1b[K");
+    std::fflush(stdout);
+    line_open_ = false;
+}
+
+}  // namespace spam

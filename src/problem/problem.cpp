@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/integrate/interrupt.hpp>
+#include <spam/problem/session.hpp>
+
+#include <fmt/format.h>
+
+#include "dry_run.hpp"
+
+namespace spam {
+
+Problem::Problem(std::string name, std::string summary, double default_dt)
+    : name_(std::move(name)),
+      summary_(std::move(summary)),
+      default_dt_(default_dt),
+      options_(name_, summary_) {
+    common_.out = name_ + "-out";
+    options_.group("Running");
+    options_.text("out", common_.out, "result folder");
+    options_.flag("force", common_.force, "move an existing result folder aside");
+    options_.flag("dry-run", common_.dry_run, "describe the case, compute and write nothing");
+    options_.flag("smoke", common_.smoke, "a version that takes seconds");
+    options_.flag("quiet", common_.quiet, "print nothing but errors");
+    options_.flag("no-plots", common_.no_plots, "leave out the pictures");
+    options_.integer("threads", common_.threads, "threads for the sums over particles",
+                     between(1, 1024));
+    options_.number("t-end", common_.t_end, "time at which the run ends", positive());
+    options_.number("output-every", common_.output_every, "interval between rows of invariants.csv",
+                    positive());
+    options_.number("snapshot-every", common_.snapshot_every, "interval between .vtp snapshots",
+                    positive());
+    options_.exclude_from_case(
+        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads"});
+    options_.group("Integrator");
+    options_.text("integrator", method_, "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
+    options_.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt), positive());
+    options_.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
+    options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)", positive());
+    options_.group("Problem");
+}
+
+const std::vector<std::string>& Problem::scheme_option_names() {
+    static const std::vector<std::string> names{"density", "transport", "mean-density",
+                                                "angular-momentum"};
+    return names;
+}
+
+void Problem::use_scheme(const Scheme& standard) {
+    scheme_ = standard;
+    options_.group("Weight function");
+    options_.choice<Kernel>("kernel", scheme_.kernel, {Kernel::lucy}, "weight function");
+    options_.number("range", scheme_.range, "distance at which the weight function vanishes",
+                    positive());
+    options_.group("Scheme");
+    options_.choice<Density>("density", scheme_.density,
+                             {Density::continuity, Density::summed, Density::chain_rule},
+                             "how density is found");
+    options_.choice<Transport>("transport", scheme_.transport,
+                               {Transport::plain, Transport::average, Transport::monaghan},
+                               "velocity that moves the particles: v, <v>, <v>_Monaghan");
+    options_.choice<MeanDensityKind>("mean-density", scheme_.mean_density,
+                                     {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
+                                     "rho_ij of a pair");
+    options_.choice<AngularMomentum>("angular-momentum", scheme_.angular_momentum,
+                                     {AngularMomentum::free, AngularMomentum::torque_pair},
+                                     "leave it free, or balance pair torques");
+    options_.group("Problem");
+}
+
+/// The integrator that the options mean; an option without effect is refused.
+IntegratorOptions Problem::resolve_integrator() {
+    IntegratorOptions integrator;
+    integrator.method = method_;
+    const bool rk4 = method_ == "rk4";
+    const std::string tolerance = options_.first_given({"rtol", "atol"});
+    if (rk4 && !tolerance.empty())
+        throw InputError(fmt::format(
+            "{}: rk4 has a fixed step and no tolerance; use --dt, or --integrator "
+            "arkode:DORMAND_PRINCE_7_4_5",
+            tolerance));
+    if (!rk4 && dt_ && !tolerance.empty())
+        throw InputError(fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
+                                     tolerance, tolerance));
+    if (rk4 && !dt_) dt_ = default_dt_;
+    integrator.dt = dt_;
+    if (rtol_) integrator.rtol = *rtol_;
+    if (atol_) integrator.atol = *atol_;
+    if (integrator.adaptive()) {
+        rtol_ = integrator.rtol;
+        atol_ = integrator.atol;
+    }
+    integrator.validate();
+    return integrator;
+}
+
+int Problem::main(int argc, char** argv, const std::function<void(Session&)>& body) {
+    std::string command = name_;
+    for (int k = 1; k < argc; ++k) command += fmt::format(" {}", argv[k]);
+    const auto complain = [&](const std::exception& error, int status) {
+        fmt::print(stderr, "{}: {}\n", name_, error.what());
+        return status;
+    };
+    const InterruptWatch watch;
+    try {
+        if (!options_.parse(argc, argv)) return 0;
+        const IntegratorOptions integrator = resolve_integrator();
+        set_threads(common_.threads);
+        Session session(*this, integrator, command);
+        try {
+            body(session);
+        } catch (const DryRunDone&) {
+            return 0;
+        }
+        return session.finish();
+    } catch (const InputError& error) {
+        return complain(error, 2);
+    } catch (const GuardStop& error) {
+        return complain(error, 3);
+    } catch (const OutputError& error) {
+        return complain(error, 4);
+    } catch (const std::bad_alloc&) {
+        return complain(InputError("not enough memory for this many particles"), 2);
+    }
+}
+
+}  // namespace spam

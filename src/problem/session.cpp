@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/integrate/interrupt.hpp>
+#include <spam/problem/session.hpp>
+
+#include <Eigen/Core>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+namespace spam {
+
+Session::Session(Problem& problem, const IntegratorOptions& integrator, std::string command)
+    : problem_(problem),
+      integrator_(integrator),
+      command_(std::move(command)),
+      terminal_(problem.common_.quiet) {}
+
+void Session::leave_out_of_case(const std::vector<std::string>& names) {
+    left_out_.insert(left_out_.end(), names.begin(), names.end());
+}
+
+/// The folder comes into being with the first run: everything before may still be refused.
+void Session::open_folder() {
+    if (folder_) return;
+    folder_.emplace(problem_.common_.out, problem_.common_.force);
+    terminal_.log_to(*folder_ / "run.log");
+    describe_environment();
+    folder_->write("case.toml", problem_.options_.case_toml(left_out_));
+}
+
+void Session::describe_environment() {
+    std::array<char, 256> host{};
+    gethostname(host.data(), host.size() - 1);
+    terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
+    terminal_.say(fmt::format("command     {}", command_));
+    terminal_.say(fmt::format("built       spam {}, SUNDIALS {}, Eigen {}.{}.{}, compiler {}", version(),
+                              sundials_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                              EIGEN_MINOR_VERSION, __VERSION__));
+    terminal_.say(fmt::format("machine     {}, {} thread{}", host.data(), problem_.common_.threads,
+                              problem_.common_.threads == 1 ? "" : "s"));
+    terminal_.say(fmt::format("results     {}", folder_->path().string()));
+}
+
+void Session::check(Check check) { checks_.push_back(std::move(check)); }
+
+void Session::check_promises(const RunRecord& record, const std::string& prefix) {
+    for (const Drift& drift : record.drifts) {
+        if (drift.promise == Promise::not_kept) continue;
+        std::string name = prefix + drift.name + "_drift";
+        std::replace(name.begin(), name.end(), ' ', '_');
+        check({name, drift.change, 0.0, drift.limit,
+               fmt::format("promise of the scheme: {}", to_string(drift.promise))});
+    }
+}
+
+double Session::promise_limit() const {
+    return integrator_.adaptive() ? std::max(1e-12, 1e3 * integrator_.rtol) : 1e-6;
+}
+
+void Session::note_drawn(bool drawn) {
+    if (drawn || warned_about_plots_) return;
+    warned_about_plots_ = true;
+    terminal_.warn(fmt::format(
+        "{}: no pictures: gnuplot is missing or failed; the scripts are in the plots folder",
+        problem_.name_));
+}
+
+void Session::report(const RunRecord& record) {
+    terminal_.say(fmt::format("{:<18}{:<21}{:<11}", "invariant", "promise", "change"));
+    for (const Drift& drift : record.drifts)
+        terminal_.say(fmt::format("{:<18}{:<21}{:<11.1e}{}", drift.name, to_string(drift.promise),
+                                  drift.change,
+                                  drift.promise == Promise::not_kept ? "-"
+                                  : drift.kept()                     ? "kept"
+                                                                     : "BROKEN"));
+    const RunStatistics& s = record.statistics;
+    terminal_.say(fmt::format("{} steps, {} rejected, {} right-hand sides, {:.2f} s", s.steps,
+                              s.rejected_steps, s.rhs_evaluations, s.wall_seconds));
+}
+
+/// Completes the results and decides the exit status.
+int Session::finish() {
+    if (!folder_) return 0;
+    write_results(*folder_, checks_);
+    if (statistics_.size() > 1) {
+        RunStatistics total = statistics_.front();
+        for (std::size_t k = 1; k < statistics_.size(); ++k) {
+            total.steps += statistics_[k].steps;
+            total.rejected_steps += statistics_[k].rejected_steps;
+            total.rhs_evaluations += statistics_[k].rhs_evaluations;
+            total.wall_seconds += statistics_[k].wall_seconds;
+            total.pair_interactions += statistics_[k].pair_interactions;
+            if (total.stopped.empty()) total.stopped = statistics_[k].stopped;
+        }
+        write_statistics(*folder_, total);
+    }
+    const int signal = InterruptWatch::received();
+    bool all_hold = true;
+    if (signal == 0 && guard_reason_.empty() && !checks_.empty()) {
+        terminal_.say("");
+        terminal_.say("checks");
+    }
+    for (const Check& check : checks_) {
+        all_hold = all_hold && check.holds();
+        if (signal != 0 || !guard_reason_.empty()) continue;
+        const std::string claim =
+            check.expected ? fmt::format(" (expected {:.6g} +- {:.2g})", *check.expected, check.tolerance)
+                           : std::string{};
+        terminal_.say(fmt::format("{:<6}{} = {:.6g}{}",
+                                  !check.expected ? "-" : check.holds() ? "ok" : "FAIL", check.name,
+                                  check.value, claim));
+    }
+    terminal_.say(fmt::format("results in {}", folder_->path().string()));
+    if (signal != 0) {
+        terminal_.warn(fmt::format("{}: interrupted by signal {}; the results so far are complete",
+                                   problem_.name_, signal));
+        return 128 + signal;
+    }
+    if (!guard_reason_.empty()) {
+        terminal_.warn(fmt::format("{}: stopped: {}", problem_.name_, guard_reason_));
+        return 3;
+    }
+    return all_hold ? 0 : 1;
+}
+
+}  // namespace spam

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/integrate/driver.hpp>
+#include <spam/integrate/interrupt.hpp>
+#include <spam/io/gnuplot.hpp>
+#include <spam/io/snapshot.hpp>
+#include <spam/problem/session.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "dry_run.hpp"
+#include "recorder.hpp"
+
+namespace spam {
+namespace {
+
+template <int Dim>
+Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
+    Ode ode;
+    ode.rates = [&](double t, std::span<const double> y, std::span<double> y_dot) {
+        model.rates(t, y, y_dot);
+        pair_interactions += model.pairs();
+    };
+    ode.failure = [&model] { return model.failure(); };
+    ode.entry_name = [&model](std::size_t k) {
+        const auto entry = model.layout().entry(k);
+        return fmt::format("{}[{}] of particle {}", field_name(entry.field), entry.component,
+                           model.particles().id[entry.particle]);
+    };
+    ode.absolute_tolerance.resize(model.layout().size());
+    for (const auto& block : model.layout().blocks())
+        std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
+                    block.components * model.layout().particles(), atol * block.scale);
+    return ode;
+}
+
+/// "about 3 min" from seconds.
+std::string duration(double seconds) {
+    if (!std::isfinite(seconds)) return "-";
+    if (seconds < 100.0) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+    return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// "momentum_x" as a reader wants it in a key.
+std::string words(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
+
+void draw_invariants(const RunFolder& folder, const History& history, const std::string& title,
+                     Session& session) {
+    const auto t = history.column("t");
+    CurvePanel energy{"energies", "t", "energy", false, {}};
+    for (const char* name : {"kinetic", "internal", "energy"})
+        energy.curves.push_back({words(name), t, history.column(name)});
+    const auto changes = [&](const char* name) {
+        auto values = history.column(name);
+        const double start = values.front();
+        for (double& v : values) v -= start;
+        return Curve{words(name), t, values};
+    };
+    CurvePanel drift{"drift since t = 0", "t", "|change|", true, {}};
+    for (const char* name : {"energy", "momentum_x", "momentum_y", "angular_momentum"})
+        if (history.has(name)) drift.curves.push_back(changes(name));
+    session.note_drawn(draw_curves(folder, "invariants", title, {energy, drift}));
+}
+
+}  // namespace
+
+template <int Dim>
+void Session::settle_plan(Plan<Dim>& plan) {
+    auto& common = problem_.common_;
+    if (!common.t_end) common.t_end = plan.t_end;
+    plan.t_end = *common.t_end;
+    if (!(plan.t_end > 0.0) || !std::isfinite(plan.t_end))
+        throw InputError(fmt::format("t-end: {} must be a number above 0", plan.t_end));
+    const auto settle = [&](std::optional<double>& given, double& interval, double parts) {
+        if (!given) given = interval > 0.0 ? interval : plan.t_end / parts;
+        interval = *given;
+    };
+    settle(common.output_every, plan.output_every, 240.0);
+    settle(common.snapshot_every, plan.snapshot_every, 12.0);
+}
+
+template <int Dim>
+void Session::describe(const Case<Dim>& one) {
+    const auto& particles = one.model.particles();
+    const Promises p = one.model.promises();
+    terminal_.say("");
+    if (!one.label.empty()) terminal_.say(fmt::format("case        {}", one.label));
+    terminal_.say(fmt::format("particles   {} in {} bod{}, {} numbers in y", particles.size(),
+                              particles.bodies(), particles.bodies() == 1 ? "y" : "ies",
+                              one.model.layout().size()));
+    terminal_.say(fmt::format("model       {}", one.model.describe()));
+    terminal_.say(fmt::format(
+        "promise     mass {}, momentum {}, angular momentum {}, energy {}", to_string(p.mass),
+        to_string(p.momentum), to_string(p.angular_momentum), to_string(p.energy)));
+    terminal_.say(fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
+    if (integrator_.adaptive()) {
+        std::string tolerances;
+        for (const auto& block : one.model.layout().blocks())
+            tolerances += fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ",
+                                      field_name(block.field), integrator_.atol * block.scale);
+        terminal_.say(fmt::format("atol        {}", tolerances));
+    }
+}
+
+template <int Dim>
+RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan) {
+    std::vector<Case<Dim>> cases;
+    cases.push_back({model, std::move(y0), std::move(plan)});
+    return std::move(run_all(std::move(cases)).front());
+}
+
+template <int Dim>
+std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
+    for (auto& one : cases) settle_plan(one.plan);
+    {   // Finds out about tables and tolerances before anything is written.
+        const SundialsContext context;
+        Vector y(cases.front().y0.size(), context);
+        std::size_t unused = 0;
+        const Ode ode = as_ode(cases.front().model, integrator_.atol, unused);
+        make_integrator(integrator_, ode, y, 0.0, context);
+    }
+    if (problem_.common_.dry_run) {
+        terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
+        for (const auto& one : cases) describe(one);
+        terminal_.say("");
+        terminal_.say(fmt::format("dry run: nothing computed; results would go to {}",
+                                  problem_.common_.out));
+        throw DryRunDone{};
+    }
+    open_folder();
+    std::vector<RunRecord> records;
+    for (auto& one : cases) {
+        if (!records.empty() && InterruptWatch::received() != 0) break;
+        describe(one);
+        records.push_back(run_one(one, one.label.empty() ? *folder_ : folder_->inside(one.label)));
+        report(records.back());
+    }
+    return records;
+}
+
+template <int Dim>
+RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
+    Model<Dim>& model = one.model;
+    const Plan<Dim>& plan = one.plan;
+    RunRecord record;
+    record.label = one.label;
+    record.statistics.problem = problem_.name_;
+    record.statistics.particles = model.particles().size();
+
+    const SundialsContext context;
+    Vector y(one.y0.size(), context);
+    std::copy(one.y0.begin(), one.y0.end(), y.span().begin());
+    const Ode ode = as_ode(model, integrator_.atol, record.statistics.pair_interactions);
+    const auto integrator = make_integrator(integrator_, ode, y, 0.0, context);
+    Recorder<Dim> recorder(model, plan, folder);
+    SnapshotSeries<Dim> snapshots(folder, model);
+
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    Observers observers;
+    observers.output = [&](double t) {
+        recorder.add(t, integrator->statistics().last_step, y.span());
+    };
+    observers.snapshot = [&](double t) {
+        snapshots.add(t, y.span());
+        if (plan.on_snapshot) plan.on_snapshot(t, model, y.span());
+    };
+    observers.step = [&](double t) {
+        const double fraction = t / plan.t_end;
+        if (!terminal_.progress_due(fraction)) return;
+        std::string drifts;
+        for (const Drift& drift : recorder.drifts(promise_limit()))
+            if (drift.name == "energy" || drift.name == "angular momentum")
+                drifts += fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
+        const auto& s = integrator->statistics();
+        terminal_.progress(fraction, fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}",
+                                                 100.0 * fraction, t,
+                                                 duration(seconds() * (1.0 / fraction - 1.0)), drifts,
+                                                 s.last_step, s.rejected_steps));
+    };
+    terminal_.begin_progress();
+    try {
+        const int signal = drive(*integrator, {plan.t_end, plan.output_every, plan.snapshot_every},
+                                 observers);
+        record.complete = signal == 0;
+        if (signal != 0) record.statistics.stopped = fmt::format("signal {}", signal);
+    } catch (const GuardStop& stop) {
+        record.statistics.stopped = stop.what();
+        if (guard_reason_.empty()) guard_reason_ = stop.what();
+    }
+    terminal_.end_progress();
+    if (!record.complete) terminal_.say(fmt::format("stopped     {}", record.statistics.stopped));
+
+    const auto& s = integrator->statistics();
+    record.statistics.t_end = integrator->t();
+    record.statistics.steps = s.steps;
+    record.statistics.rejected_steps = s.rejected_steps;
+    record.statistics.rhs_evaluations = s.rhs_evaluations;
+    record.statistics.wall_seconds = seconds();
+    write_statistics(folder, record.statistics);
+    statistics_.push_back(record.statistics);
+    record.history = recorder.history();
+    record.drifts = recorder.drifts(promise_limit());
+    record.y.assign(y.span().begin(), y.span().end());
+    if (plots())
+        draw_invariants(folder.inside("plots"), record.history,
+                        words(problem_.name_ + (one.label.empty() ? "" : ": " + one.label)), *this);
+    return record;
+}
+
+template RunRecord Session::run(Model<1>&, std::vector<double>, Plan<1>);
+template RunRecord Session::run(Model<2>&, std::vector<double>, Plan<2>);
+template RunRecord Session::run(Model<3>&, std::vector<double>, Plan<3>);
+template std::vector<RunRecord> Session::run_all(std::vector<Case<1>>);
+template std::vector<RunRecord> Session::run_all(std::vector<Case<2>>);
+template std::vector<RunRecord> Session::run_all(std::vector<Case<3>>);
+
+}  // namespace spam
