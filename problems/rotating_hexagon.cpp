@@ -13,11 +13,12 @@
 //     x_dot     = u                        transport velocity: v, <v> or <v>_Monaghan
 //     rho_dot   = sum m v_ij . grad w_ij   (or summed, or the chain rule with u)
 //     v_dot     = sum m (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad w_ij     torques scaled or not
-//     sigma_dot = lambda (div v) I + eta (grad v + grad v^t) + rotation,    lambda = eta = sqrt(3/16)
-//     e_dot     = -1/2 sum m f_ij . v_ij
+//     sigma_dot = lambda (div v) I + eta (grad v + grad v^t) + rotation,    lambda = eta =
+//     sqrt(3/16) e_dot     = -1/2 sum m f_ij . v_ij
 //
 // The reference is molecular dynamics of the same particles joined by harmonic springs.
-// Without scheme options: MD, plain SPAM, <v>_Monaghan, and that with balanced pair torques, compared.
+// Without scheme options: MD, plain SPAM, <v>_Monaghan, and that with balanced pair torques,
+// compared.
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/spam.hpp>
@@ -37,8 +38,8 @@ enum class ModelKind { spam, md };
 std::string_view to_string(ModelKind kind) { return kind == ModelKind::spam ? "spam" : "md"; }
 
 struct Parameters {
-    int size = 8;         // n: corners are n spacings from the centre
-    double speed = 0.1;   // of the corners
+    int size = 8;        // n: corners are n spacings from the centre
+    double speed = 0.1;  // of the corners
     std::optional<double> turns;
     ModelKind model = ModelKind::spam;
 
@@ -67,7 +68,8 @@ struct Sight {
 std::vector<Eigen::Index> rim(const Points<2>& x, int size) {
     std::vector<Eigen::Index> ring;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        double height = 0.0;  // distance from the centre to the hexagon's edge through this particle
+        double height =
+            0.0;  // distance from the centre to the hexagon's edge through this particle
         for (int side = 0; side < 6; ++side) {
             const double angle = pi / 6.0 + side * pi / 3.0;
             height = std::max(height, x(0, i) * std::cos(angle) + x(1, i) * std::sin(angle));
@@ -93,10 +95,11 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
     auto particles = make_particles<2>(triangular_hexagon(p.size), 1.0);
     // material and scheme
     if (kind == ModelKind::md)
-        return {label, title, std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{})};
+        return {label, title,
+                std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{})};
     return {label, title,
-            std::make_unique<SmoothParticleModel<2>>(
-                std::move(particles), ElasticSolid::triangular_lattice(), scheme)};
+            std::make_unique<SmoothParticleModel<2>>(std::move(particles),
+                                                     ElasticSolid::triangular_lattice(), scheme)};
 }
 
 /// What a reader of the paper compares first.
@@ -114,7 +117,8 @@ std::vector<Hexagon> comparison(const Parameters& p, Scheme scheme) {
 
 void refuse_contradictions(const Options& options, const Parameters& p) {
     if (options.given("t-end") && options.given("turns"))
-        throw InputError("turns: --turns sets the end of the run and so does --t-end; leave one out");
+        throw InputError(
+            "turns: --turns sets the end of the run and so does --t-end; leave one out");
     if (p.model == ModelKind::spam) return;
     auto names = Problem::scheme_option_names();
     names.insert(names.end(), {"kernel", "range"});
@@ -209,7 +213,9 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
                             sight.wanted == p.turn() / 3.0
                                 ? std::string("2π/3")
                                 : fmt::format("{:.3g} turn", sight.t / p.turn())),
-                sight.position, sight.speed, {}};
+                sight.position,
+                sight.speed,
+                {}};
             const auto ring = rim(hexagons[k].model->particles().reference_position, p.size);
             Points<2> outline(2, static_cast<Eigen::Index>(ring.size()));
             for (std::size_t i = 0; i < ring.size(); ++i)
@@ -227,7 +233,8 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
     CurvePanel shape{"shape", "turns", "shape error / spacing", true, {}};
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const History& h = runs[k].history;
-        auto turns = h.column("t"), ratio = h.column("angular_momentum"), drift = h.column("energy");
+        auto turns = h.column("t"), ratio = h.column("angular_momentum"),
+             drift = h.column("energy");
         for (double& t : turns) t /= p.turn();
         for (double& L : ratio) L /= h.first("angular_momentum");
         for (double& E : drift) E = (E - h.first("energy")) / h.first("energy");
@@ -235,7 +242,8 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
         energy.curves.push_back({hexagons[k].title, turns, drift});
         shape.curves.push_back({hexagons[k].title, turns, h.column("shape_error")});
     }
-    session.note_drawn(draw_curves(folder, "curves", "Rotating elastic hexagon", {momentum, energy, shape}));
+    session.note_drawn(
+        draw_curves(folder, "curves", "Rotating elastic hexagon", {momentum, energy, shape}));
 }
 
 /// The curves of the comparison side by side, for one's own plots.
@@ -264,7 +272,8 @@ int main(int argc, char** argv) {
                     "a rotating elastic hexagon of smooth particles, [HHM04] VI-VIII");
     Parameters p;
     auto& options = problem.options();
-    options.integer("size", p.size, "corners are n spacings from the centre: 1 + 3n + 3n^2 particles",
+    options.integer("size", p.size,
+                    "corners are n spacings from the centre: 1 + 3n + 3n^2 particles",
                     between(1, 2000));
     options.number("speed", p.speed, "speed of the corners", positive());
     options.number("turns", p.turns, "nominal turns to run (1)", positive());
@@ -289,8 +298,9 @@ int main(int argc, char** argv) {
             const bool md = p.model == ModelKind::md;
             hexagons.push_back(make_hexagon(p, p.model, session.scheme(), "",
                                             md ? "molecular dynamics" : "smooth particles"));
-            if (md) session.leave_out_of_case({"density", "transport", "mean-density",
-                                               "angular-momentum", "kernel", "range"});
+            if (md)
+                session.leave_out_of_case({"density", "transport", "mean-density",
+                                           "angular-momentum", "kernel", "range"});
         } else {
             session.leave_out_of_case(scheme_options);
             hexagons = comparison(p, session.scheme());
@@ -307,7 +317,8 @@ int main(int argc, char** argv) {
             plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
             if (plan.t_end > 0.4 * p.turn()) hexagon.sights.push_back({p.turn() / 3.0});
             hexagon.sights.push_back({plan.t_end});
-            plan.on_snapshot = [&hexagon](double t, const Model<2>& model, std::span<const double> y) {
+            plan.on_snapshot = [&hexagon](double t, const Model<2>& model,
+                                          std::span<const double> y) {
                 for (Sight& sight : hexagon.sights) sight.look(t, {model.layout(), y});
             };
             cases.push_back({*hexagon.model, std::move(y0), std::move(plan), hexagon.label});

@@ -16,10 +16,13 @@ template <int Dim>
 std::size_t FieldLayout<Dim>::components(Field field) {
     switch (field) {
         case Field::position:
-        case Field::velocity: return Dim;
-        case Field::stress: return static_cast<std::size_t>(symmetric_size(Dim));
+        case Field::velocity:
+            return Dim;
+        case Field::stress:
+            return static_cast<std::size_t>(symmetric_size(Dim));
         case Field::density:
-        case Field::energy: break;
+        case Field::energy:
+            break;
     }
     return 1;
 }

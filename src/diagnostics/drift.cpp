@@ -11,7 +11,8 @@ namespace {
 double largest_vector_change(const History& history, const std::string& name) {
     double change = history.has(name) ? history.largest_change(name) : 0.0;
     for (const char* axis : {"_x", "_y", "_z"})
-        if (history.has(name + axis)) change = std::max(change, history.largest_change(name + axis));
+        if (history.has(name + axis))
+            change = std::max(change, history.largest_change(name + axis));
     return change;
 }
 
@@ -24,7 +25,8 @@ std::vector<Drift> measure_drifts(const History& history, const Promises& promis
     const auto relative = [](double change, double scale) {
         return change == 0.0 ? 0.0 : change / (scale > 0.0 ? scale : 1.0);
     };
-    const double energy_scale = std::max(std::abs(history.first("energy")), history.largest("kinetic"));
+    const double energy_scale =
+        std::max(std::abs(history.first("energy")), history.largest("kinetic"));
     std::vector<Drift> drifts{
         {"mass", promises.mass, relative(history.largest_change("mass"), history.first("mass")),
          limit(promises.mass)},
@@ -32,10 +34,10 @@ std::vector<Drift> measure_drifts(const History& history, const Promises& promis
          relative(largest_vector_change(history, "momentum"), momentum_scale),
          limit(promises.momentum)}};
     if (history.has("angular_momentum") || history.has("angular_momentum_z"))
-        drifts.push_back({"angular momentum", promises.angular_momentum,
-                          relative(largest_vector_change(history, "angular_momentum"),
-                                   angular_momentum_scale),
-                          limit(promises.angular_momentum)});
+        drifts.push_back(
+            {"angular momentum", promises.angular_momentum,
+             relative(largest_vector_change(history, "angular_momentum"), angular_momentum_scale),
+             limit(promises.angular_momentum)});
     drifts.push_back({"energy", promises.energy,
                       relative(history.largest_change("energy"), energy_scale),
                       limit(promises.energy)});

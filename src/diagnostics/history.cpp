@@ -54,7 +54,8 @@ double History::relative_drift(std::string_view name) const {
 
 double History::largest_change(std::string_view name) const {
     double change = 0.0;
-    for (const double value : column(name)) change = std::max(change, std::abs(value - first(name)));
+    for (const double value : column(name))
+        change = std::max(change, std::abs(value - first(name)));
     return change;
 }
 

@@ -66,10 +66,12 @@ struct Arkode::Calls {
 
 namespace {
 // Designated initialisers would name private members of Arkode; the order is that of struct Calls.
-#define SPAM_ARKODE_CALLS(S)                                                                       \
-    {S##Evolve,       S##Reset,       S##Free,        S##SetUserData,        S##SetErrHandlerFn,   \
-     S##SVtolerances, S##SetFixedStep, S##SetStopTime, S##SetMinStep,         S##SetAdaptivityMethod, \
-     S##GetNumErrTestFails, S##GetLastStep}
+#define SPAM_ARKODE_CALLS(S)                                                               \
+    {                                                                                      \
+        S##Evolve, S##Reset, S##Free, S##SetUserData, S##SetErrHandlerFn, S##SVtolerances, \
+            S##SetFixedStep, S##SetStopTime, S##SetMinStep, S##SetAdaptivityMethod,        \
+            S##GetNumErrTestFails, S##GetLastStep                                          \
+    }
 }  // namespace
 
 Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
@@ -100,7 +102,8 @@ Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, doub
         check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
     } else {
         Vector atol = y.clone();
-        std::copy(ode.absolute_tolerance.begin(), ode.absolute_tolerance.end(), atol.span().begin());
+        std::copy(ode.absolute_tolerance.begin(), ode.absolute_tolerance.end(),
+                  atol.span().begin());
         check(calls_->set_tolerances(memory_, options.rtol, atol.get()), "SVtolerances");
         check(calls_->set_min_step(memory_, options.min_step), "SetMinStep");
         check(calls_->set_adaptivity(memory_, ARK_ADAPT_PID, 1, 0, nullptr), "SetAdaptivityMethod");
@@ -112,7 +115,8 @@ Arkode::~Arkode() { calls_->free(&memory_); }
 
 void Arkode::check(int flag, const char* call) const {
     if (flag != ARK_SUCCESS)
-        throw InputError(fmt::format("integrator: ARKODE {} failed ({}): {}", call, flag, message_));
+        throw InputError(
+            fmt::format("integrator: ARKODE {} failed ({}): {}", call, flag, message_));
 }
 
 int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
@@ -136,10 +140,13 @@ void Arkode::stop(int flag) const {
     const std::string reason = ode_.failure();
     std::string message = message_;
     std::replace(message.begin(), message.end(), '\n', ' ');
-    if (!reason.empty()) message = reason;
+    if (!reason.empty())
+        message = reason;
     else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE)
-        message = fmt::format("the error test failed again and again, the step fell to {:.3g}, "
-                              "near the least allowed {:.3g}", statistics_.last_step, min_step_);
+        message = fmt::format(
+            "the error test failed again and again, the step fell to {:.3g}, "
+            "near the least allowed {:.3g}",
+            statistics_.last_step, min_step_);
     throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
 }
 
@@ -155,7 +162,8 @@ double Arkode::step(double t_stop) {
         check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
     }
     double reached = t_;
-    const int flag = calls_->evolve(memory_, t_stop + (dt_ ? *dt_ : 0.0), y_.get(), &reached, ARK_ONE_STEP);
+    const int flag =
+        calls_->evolve(memory_, t_stop + (dt_ ? *dt_ : 0.0), y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);
         guard(y_.span(), reached);

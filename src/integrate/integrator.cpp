@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arkode.hpp"
 #include "rk4.hpp"
-
 #include <spam/core/error.hpp>
 
 #include <fmt/format.h>
@@ -22,15 +21,16 @@ void IntegratorOptions::validate() const {
     if (method == "rk4") {
         require_positive("dt", dt.value_or(0.0), "rk4 needs a fixed step, e.g. --dt 0.1");
     } else if (!method.starts_with("arkode:")) {
-        throw InputError(fmt::format(
-            "integrator: '{}' is unknown; use rk4 or arkode:<table>, e.g. "
-            "arkode:DORMAND_PRINCE_7_4_5",
-            method));
+        throw InputError(
+            fmt::format("integrator: '{}' is unknown; use rk4 or arkode:<table>, e.g. "
+                        "arkode:DORMAND_PRINCE_7_4_5",
+                        method));
     }
     if (dt) require_positive("dt", *dt, "give a positive time step");
     require_positive("rtol", rtol, "try --rtol 1e-8");
     require_positive("atol", atol, "try --atol 1e-10");
-    if (rtol >= 1.0) throw InputError(fmt::format("rtol: {} must be below 1; try --rtol 1e-8", rtol));
+    if (rtol >= 1.0)
+        throw InputError(fmt::format("rtol: {} must be below 1; try --rtol 1e-8", rtol));
 }
 
 std::string IntegratorOptions::describe() const {
@@ -46,7 +46,7 @@ void Integrator::guard(std::span<const double> z, double t) const {
     for (std::size_t k = 0; k < z.size(); ++k) {
         if (std::isfinite(z[k])) continue;
         throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
-                                    ode_.entry_name(k), z[k], t));
+                                    ode_.entry_name(k), std::isnan(z[k]) ? "nan" : "infinite", t));
     }
 }
 

@@ -7,7 +7,8 @@
 namespace spam {
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& names)
-    : path_(path), out_(path) {
+    : path_(path),
+      out_(path) {
     out_ << fmt::format("{}\n", fmt::join(names, ","));
     flush();
 }

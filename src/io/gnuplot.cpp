@@ -110,8 +110,9 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
     std::string data, script = fmt::format(preamble, name, width, height, 13);
     script += line_styles;
     script += fmt::format("set multiplot title \"{}\" font ',15'\n", escaped(title));
-    script += "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset border 3\nset tics nomirror\n"
-              "set autoscale xfix\nset tmargin at screen 0.83\nset bmargin at screen 0.24\n";
+    script +=
+        "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset border 3\nset tics nomirror\n"
+        "set autoscale xfix\nset tmargin at screen 0.83\nset bmargin at screen 0.24\n";
     int block = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const CurvePanel& panel = panels[k];
@@ -119,11 +120,13 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
         script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n",
                               (left + 95) / width, (left + 600) / width);
         script += shared ? (k == 0 ? shared_key(panel) : std::string("unset label\nunset arrow\n"))
-                         : fmt::format("set key at screen {:.5f},0.055 center horizontal samplen 2 "
-                                       "maxrows 2\n",
-                                       (left + 347) / width);
-        script += fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n",
-                              escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label));
+                         : fmt::format(
+                               "set key at screen {:.5f},0.055 center horizontal samplen 2 "
+                               "maxrows 2\n",
+                               (left + 347) / width);
+        script +=
+            fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n",
+                        escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label));
         script += panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
                               : "unset logscale y\nset format y '%g'\n";
         std::string plots;
@@ -167,11 +170,12 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
     double spacing = 2.0 * reach;
     for (const auto& panel : panels)
         if (panel.position.cols() > 1)
-            spacing = std::min(
-                spacing, 1.7 * reach / std::sqrt(static_cast<double>(panel.position.cols())));
+            spacing = std::min(spacing,
+                               1.7 * reach / std::sqrt(static_cast<double>(panel.position.cols())));
     script += fmt::format(
         "set multiplot title \"{}\" font ',15' offset 0,-0.2\n"
-        "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n"
+        "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 "
+        "'#fde725')\n"
         "set cbrange [{:g}:{:g}]\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
         "unset tics\nunset key\nset border lc rgb '#bbbbbb'\nset style fill solid 1 noborder\n",
         escaped(title), low, high, -reach, reach, -reach, reach);
@@ -192,19 +196,22 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
             lines += fmt::format(", '{}.dat' index {} with lines lw 1.2 lc rgb '#333333'", name,
                                  block++);
         }
-        const auto row = static_cast<double>(k / columns), column = static_cast<double>(k % columns);
-        const double left = side * column / width, bottom = (height - top - side * (row + 1)) / height;
+        const auto row = static_cast<double>(k / columns),
+                   column = static_cast<double>(k % columns);
+        const double left = side * column / width,
+                     bottom = (height - top - side * (row + 1)) / height;
         script += fmt::format(
             "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
             "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
             "set label 1 \"{}\" at graph 0.5,0.957 center font ',12'\n",
             left + 6 / width, left + (side - 6) / width, bottom + 6 / height,
             bottom + (side - 6) / height, escaped(panel.title));
-        script += k == 0 ? fmt::format("set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
-                                       "set cbtics font ',11'\nset cblabel \"{}\" font ',12'\n",
-                                       1.0 - (bar - 8) / width, 0.25, 16 / width, 0.5,
-                                       escaped(colour_label))
-                         : std::string("unset colorbox\n");
+        script += k == 0
+                      ? fmt::format(
+                            "set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
+                            "set cbtics font ',11'\nset cblabel \"{}\" font ',12'\n",
+                            1.0 - (bar - 8) / width, 0.25, 16 / width, 0.5, escaped(colour_label))
+                      : std::string("unset colorbox\n");
         script += fmt::format(
             "plot '{0}.dat' index {1} using 1:2:({2:.5g}):3 with circles fc palette{3}\n", name,
             points, 0.42 * spacing, lines);

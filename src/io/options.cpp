@@ -14,9 +14,15 @@
 
 namespace spam {
 
-Allowed any_number() { return {[](double) { return true; }, "a finite number"}; }
-Allowed positive() { return {[](double x) { return x > 0.0; }, "a number above 0"}; }
-Allowed non_negative() { return {[](double x) { return x >= 0.0; }, "0 or above"}; }
+Allowed any_number() {
+    return {[](double) { return true; }, "a finite number"};
+}
+Allowed positive() {
+    return {[](double x) { return x > 0.0; }, "a number above 0"};
+}
+Allowed non_negative() {
+    return {[](double x) { return x >= 0.0; }, "0 or above"};
+}
 Allowed at_least(double least) {
     return {[least](double x) { return x >= least; }, fmt::format("at least {:g}", least)};
 }
@@ -53,7 +59,8 @@ int parse_integer(const std::string& name, const std::string& text, const Allowe
     const char* last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, value);
     if (error != std::errc{} || end != last || !allowed.holds(value))
-        throw InputError(fmt::format("{}: '{}' must be a whole number, {}", name, text, allowed.words));
+        throw InputError(
+            fmt::format("{}: '{}' must be a whole number, {}", name, text, allowed.words));
     return value;
 }
 
@@ -72,7 +79,9 @@ std::string toml_string(const std::string& text) {
 }  // namespace
 
 Options::Options(std::string program, std::string summary)
-    : program_(std::move(program)), summary_(std::move(summary)), group_("Options") {}
+    : program_(std::move(program)),
+      summary_(std::move(summary)),
+      group_("Options") {}
 Options::~Options() = default;
 Options::Options(Options&&) noexcept = default;
 
@@ -278,8 +287,8 @@ std::vector<std::pair<std::string, std::string>> Options::resolved() const {
 }
 
 std::string Options::case_toml(const std::vector<std::string>& without) const {
-    std::string text = fmt::format("# {}: the resolved case. Run it again with\n#   {} --config FILE\n",
-                                   program_, program_);
+    std::string text = fmt::format(
+        "# {}: the resolved case. Run it again with\n#   {} --config FILE\n", program_, program_);
     for (const auto& [name, value] : resolved())
         if (std::find(without.begin(), without.end(), name) == without.end())
             text += fmt::format("{} = {}\n", name, value);

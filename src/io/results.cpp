@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "spam_version.h"  // written by every build
 #include <spam/io/results.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-
-#include "spam_version.h"  // written by every build
 
 namespace spam {
 

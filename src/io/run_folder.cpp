@@ -45,8 +45,8 @@ RunFolder::RunFolder(const fs::path& path, bool force) : path_(path) {
                                      path_.string(), error.message()));
     const fs::path probe = path_ / ".writable";
     if (!std::ofstream(probe))
-        throw InputError(fmt::format("out: cannot write into '{}'; choose another --out",
-                                     path_.string()));
+        throw InputError(
+            fmt::format("out: cannot write into '{}'; choose another --out", path_.string()));
     fs::remove(probe, error);
 }
 
@@ -54,8 +54,8 @@ RunFolder RunFolder::inside(std::string_view name) const {
     std::error_code error;
     fs::create_directories(path_ / name, error);
     if (error)
-        throw OutputError(fmt::format("cannot create '{}': {}", (path_ / name).string(),
-                                      error.message()));
+        throw OutputError(
+            fmt::format("cannot create '{}': {}", (path_ / name).string(), error.message()));
     return RunFolder(path_ / name);
 }
 

@@ -84,8 +84,7 @@ std::string snapshot_text(const Model<Dim>& model, std::span<const double> y) {
     file.reals("particle_spacing", 1, [&](std::size_t, int) { return particles.spacing; });
     file.reals("velocity", 3, [&](std::size_t i, int c) { return in_space(v, i, c); });
     const auto density = model.density(y);
-    if (!density.empty())
-        file.reals("density", 1, [&](std::size_t i, int) { return density[i]; });
+    if (!density.empty()) file.reals("density", 1, [&](std::size_t i, int) { return density[i]; });
     if (state.has(Field::stress)) {
         const auto stress = state.stress();
         file.reals("stress", 9, [&](std::size_t i, int c) {
@@ -120,7 +119,8 @@ void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
     std::string list =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
     for (const auto& [time, file] : files_)
-        list += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, file);
+        list +=
+            fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, file);
     folder_.write("snapshots.pvd", list + "  </Collection>\n</VTKFile>\n");
 }
 

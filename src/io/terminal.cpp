@@ -47,7 +47,8 @@ Terminal::Terminal(bool quiet) : quiet_(quiet), is_terminal_(isatty(STDOUT_FILEN
 
 std::size_t Terminal::width() const {
     winsize size{};
-    if (!is_terminal_ || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 100;
+    if (!is_terminal_ || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20)
+        return 100;
     return size.ws_col;
 }
 

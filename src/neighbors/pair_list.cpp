@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/neighbors/pair_list.hpp>
-
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/neighbors/pair_list.hpp>
 
 #include <fmt/format.h>
 
@@ -12,7 +11,9 @@ namespace spam {
 
 template <int Dim>
 PairList<Dim>::PairList(double range, double skin, const Box<Dim>& box)
-    : range_(range), skin_(skin), box_(box) {
+    : range_(range),
+      skin_(skin),
+      box_(box) {
     for (int a = 0; a < Dim; ++a) {
         const double least = 2.0 * (range + skin);
         if (box.periodic(a) && box.length(a) <= least)

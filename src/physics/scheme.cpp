@@ -38,18 +38,24 @@ std::string Scheme::describe() const {
 
 std::string_view to_string(Density d) {
     switch (d) {
-        case Density::continuity: return "continuity";
-        case Density::summed: return "summed";
-        case Density::chain_rule: break;
+        case Density::continuity:
+            return "continuity";
+        case Density::summed:
+            return "summed";
+        case Density::chain_rule:
+            break;
     }
     return "chain_rule";
 }
 
 std::string_view to_string(Transport t) {
     switch (t) {
-        case Transport::plain: return "plain";
-        case Transport::average: return "average";
-        case Transport::monaghan: break;
+        case Transport::plain:
+            return "plain";
+        case Transport::average:
+            return "average";
+        case Transport::monaghan:
+            break;
     }
     return "monaghan";
 }
@@ -66,9 +72,12 @@ std::string_view to_string(Kernel) { return "lucy"; }
 
 std::string_view to_string(Promise p) {
     switch (p) {
-        case Promise::exact: return "exact";
-        case Promise::integrator_error: return "to integrator error";
-        case Promise::not_kept: break;
+        case Promise::exact:
+            return "exact";
+        case Promise::integrator_error:
+            return "to integrator error";
+        case Promise::not_kept:
+            break;
     }
     return "not kept";
 }

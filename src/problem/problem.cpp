@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
 
 #include <fmt/format.h>
-
-#include "dry_run.hpp"
 
 namespace spam {
 
@@ -33,10 +32,12 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
     options_.exclude_from_case(
         {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads"});
     options_.group("Integrator");
-    options_.text("integrator", method_, "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
+    options_.text("integrator", method_,
+                  "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
     options_.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt), positive());
     options_.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
-    options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)", positive());
+    options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
+                    positive());
     options_.group("Problem");
 }
 
@@ -75,13 +76,14 @@ IntegratorOptions Problem::resolve_integrator() {
     const bool rk4 = method_ == "rk4";
     const std::string tolerance = options_.first_given({"rtol", "atol"});
     if (rk4 && !tolerance.empty())
-        throw InputError(fmt::format(
-            "{}: rk4 has a fixed step and no tolerance; use --dt, or --integrator "
-            "arkode:DORMAND_PRINCE_7_4_5",
-            tolerance));
+        throw InputError(
+            fmt::format("{}: rk4 has a fixed step and no tolerance; use --dt, or --integrator "
+                        "arkode:DORMAND_PRINCE_7_4_5",
+                        tolerance));
     if (!rk4 && dt_ && !tolerance.empty())
-        throw InputError(fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
-                                     tolerance, tolerance));
+        throw InputError(
+            fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
+                        tolerance, tolerance));
     if (rk4 && !dt_) dt_ = default_dt_;
     integrator.dt = dt_;
     if (rtol_) integrator.rtol = *rtol_;

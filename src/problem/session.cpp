@@ -5,7 +5,6 @@
 #include <spam/problem/session.hpp>
 
 #include <Eigen/Core>
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -38,9 +37,9 @@ void Session::describe_environment() {
     gethostname(host.data(), host.size() - 1);
     terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
     terminal_.say(fmt::format("command     {}", command_));
-    terminal_.say(fmt::format("built       spam {}, SUNDIALS {}, Eigen {}.{}.{}, compiler {}", version(),
-                              sundials_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                              EIGEN_MINOR_VERSION, __VERSION__));
+    terminal_.say(fmt::format("built       spam {}, SUNDIALS {}, Eigen {}.{}.{}, compiler {}",
+                              version(), sundials_version(), EIGEN_WORLD_VERSION,
+                              EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
     terminal_.say(fmt::format("machine     {}, {} thread{}", host.data(), problem_.common_.threads,
                               problem_.common_.threads == 1 ? "" : "s"));
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
@@ -108,12 +107,14 @@ int Session::finish() {
     for (const Check& check : checks_) {
         all_hold = all_hold && check.holds();
         if (signal != 0 || !guard_reason_.empty()) continue;
-        const std::string claim =
-            check.expected ? fmt::format(" (expected {:.6g} +- {:.2g})", *check.expected, check.tolerance)
-                           : std::string{};
+        const std::string claim = check.expected ? fmt::format(" (expected {:.6g} +- {:.2g})",
+                                                               *check.expected, check.tolerance)
+                                                 : std::string{};
         terminal_.say(fmt::format("{:<6}{} = {:.6g}{}",
-                                  !check.expected ? "-" : check.holds() ? "ok" : "FAIL", check.name,
-                                  check.value, claim));
+                                  !check.expected ? "-"
+                                  : check.holds() ? "ok"
+                                                  : "FAIL",
+                                  check.name, check.value, claim));
     }
     terminal_.say(fmt::format("results in {}", folder_->path().string()));
     if (signal != 0) {

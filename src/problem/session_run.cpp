@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dry_run.hpp"
+#include "recorder.hpp"
 #include <spam/core/error.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/interrupt.hpp>
@@ -11,9 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-
-#include "dry_run.hpp"
-#include "recorder.hpp"
 
 namespace spam {
 namespace {
@@ -97,10 +96,11 @@ void Session::describe(const Case<Dim>& one) {
                               particles.bodies(), particles.bodies() == 1 ? "y" : "ies",
                               one.model.layout().size()));
     terminal_.say(fmt::format("model       {}", one.model.describe()));
-    terminal_.say(fmt::format(
-        "promise     mass {}, momentum {}, angular momentum {}, energy {}", to_string(p.mass),
-        to_string(p.momentum), to_string(p.angular_momentum), to_string(p.energy)));
-    terminal_.say(fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
+    terminal_.say(fmt::format("promise     mass {}, momentum {}, angular momentum {}, energy {}",
+                              to_string(p.mass), to_string(p.momentum),
+                              to_string(p.angular_momentum), to_string(p.energy)));
+    terminal_.say(
+        fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
     if (integrator_.adaptive()) {
         std::string tolerances;
         for (const auto& block : one.model.layout().blocks())
@@ -120,7 +120,7 @@ RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan
 template <int Dim>
 std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (auto& one : cases) settle_plan(one.plan);
-    {   // Finds out about tables and tolerances before anything is written.
+    {  // Finds out about tables and tolerances before anything is written.
         const SundialsContext context;
         Vector y(cases.front().y0.size(), context);
         std::size_t unused = 0;
@@ -131,8 +131,8 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
         for (const auto& one : cases) describe(one);
         terminal_.say("");
-        terminal_.say(fmt::format("dry run: nothing computed; results would go to {}",
-                                  problem_.common_.out));
+        terminal_.say(
+            fmt::format("dry run: nothing computed; results would go to {}", problem_.common_.out));
         throw DryRunDone{};
     }
     open_folder();
@@ -181,17 +181,18 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
         std::string drifts;
         for (const Drift& drift : recorder.drifts(promise_limit()))
             if (drift.name == "energy" || drift.name == "angular momentum")
-                drifts += fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
+                drifts +=
+                    fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
         const auto& s = integrator->statistics();
-        terminal_.progress(fraction, fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}",
-                                                 100.0 * fraction, t,
-                                                 duration(seconds() * (1.0 / fraction - 1.0)), drifts,
-                                                 s.last_step, s.rejected_steps));
+        terminal_.progress(
+            fraction, fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}",
+                                  100.0 * fraction, t, duration(seconds() * (1.0 / fraction - 1.0)),
+                                  drifts, s.last_step, s.rejected_steps));
     };
     terminal_.begin_progress();
     try {
-        const int signal = drive(*integrator, {plan.t_end, plan.output_every, plan.snapshot_every},
-                                 observers);
+        const int signal =
+            drive(*integrator, {plan.t_end, plan.output_every, plan.snapshot_every}, observers);
         record.complete = signal == 0;
         if (signal != 0) record.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const GuardStop& stop) {

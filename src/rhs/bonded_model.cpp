@@ -32,8 +32,8 @@ Point<Dim> BondedModel<Dim>::bond(const View& x, std::size_t i, std::size_t j) c
     for (int a = 0; a < Dim; ++a) {
         const auto ci = static_cast<Eigen::Index>(i), cj = static_cast<Eigen::Index>(j);
         r[a] = this->box().periodic(a)
-                   ? this->box().nearest_image(a, this->box().wrap(a, x(a, ci)) -
-                                                      this->box().wrap(a, x(a, cj)))
+                   ? this->box().nearest_image(
+                         a, this->box().wrap(a, x(a, ci)) - this->box().wrap(a, x(a, cj)))
                    : x(a, ci) - x(a, cj);
     }
     return r;

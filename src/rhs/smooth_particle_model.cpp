@@ -63,9 +63,12 @@ struct SmoothParticleModel<Dim>::Choices {
     template <class Mean>
     static First first(const Scheme& scheme) {
         switch (scheme.transport) {
-            case Transport::plain: return first<Mean, PlainTransport<Dim>>(scheme);
-            case Transport::average: return first<Mean, AverageTransport<Dim>>(scheme);
-            case Transport::monaghan: break;
+            case Transport::plain:
+                return first<Mean, PlainTransport<Dim>>(scheme);
+            case Transport::average:
+                return first<Mean, AverageTransport<Dim>>(scheme);
+            case Transport::monaghan:
+                break;
         }
         return first<Mean, MonaghanTransport<Dim, Mean>>(scheme);
     }
@@ -243,19 +246,19 @@ template <class Weight, class... Passes>
 void SmoothParticleModel<Dim>::second_sweep(std::span<double> y_dot) {
     const State<Dim> rate(this->layout(), y_dot);
     const std::span<const TransportRecord<Dim>> records(transport_records_);
-    sweep<Dim, Passes...>(
-        list_, Weight(scheme_.range), records, [&](std::size_t i, const auto&... sums) {
-            const auto c = static_cast<Eigen::Index>(i);
-            const auto store_one = [&](const auto& s) {
-                if constexpr (requires { s.rho_dot; }) {
-                    rate.density()(0, c) = s.rho_dot;
-                } else {
-                    store<Dim>(rate.velocity(), i, s.v_dot);
-                    rate.energy()(0, c) = s.e_dot;
-                }
-            };
-            (store_one(sums), ...);
-        });
+    sweep<Dim, Passes...>(list_, Weight(scheme_.range), records,
+                          [&](std::size_t i, const auto&... sums) {
+                              const auto c = static_cast<Eigen::Index>(i);
+                              const auto store_one = [&](const auto& s) {
+                                  if constexpr (requires { s.rho_dot; }) {
+                                      rate.density()(0, c) = s.rho_dot;
+                                  } else {
+                                      store<Dim>(rate.velocity(), i, s.v_dot);
+                                      rate.energy()(0, c) = s.e_dot;
+                                  }
+                              };
+                              (store_one(sums), ...);
+                          });
 }
 
 template <int Dim>

@@ -17,7 +17,8 @@ std::string_view field_name(Field field);
 
 /// Where each field lies in y. y holds one block per field, each block `components x particles`,
 /// column-major (the components of one particle are adjacent):
-///     y = [ x_0 y_0 x_1 y_1 ... | vx_0 vy_0 ... | rho_0 rho_1 ... | sxx_0 syy_0 sxy_0 ... | e_0 ... ]
+///     y = [ x_0 y_0 x_1 y_1 ... | vx_0 vy_0 ... | rho_0 rho_1 ... | sxx_0 syy_0 sxy_0 ... | e_0
+///     ... ]
 /// Which blocks exist follows from scheme and material (the model decides).
 template <int Dim>
 class FieldLayout {

@@ -20,8 +20,9 @@ template <int Dim>
 using Point = Eigen::Matrix<double, Dim, 1>;
 
 /// Named views of a state vector y (or of its rates), which it does not own.
-/// Shapes: position, velocity Dim x N; density, energy 1 x N; stress D(D+1)/2 x N, tension-positive,
-/// components in the order of symmetric_index(). `Scalar` is double or const double.
+/// Shapes: position, velocity Dim x N; density, energy 1 x N; stress D(D+1)/2 x N,
+/// tension-positive, components in the order of symmetric_index(). `Scalar` is double or const
+/// double.
 template <int Dim, class Scalar = double>
 class StateView {
     template <int Rows>

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-/// Small vectors for the bodies of pair sums. The arithmetic type T is a template parameter, because
-/// a pair body is written once and compiled for `double` (oracle, tests) as well as for vectors of
-/// lanes. Eigen stays outside the pair loops: it is for whole fields (state.hpp).
+/// Small vectors for the bodies of pair sums. The arithmetic type T is a template parameter,
+/// because a pair body is written once and compiled for `double` (oracle, tests) as well as for
+/// vectors of lanes. Eigen stays outside the pair loops: it is for whole fields (state.hpp).
 namespace spam {
 
 template <int Dim, class T = double>

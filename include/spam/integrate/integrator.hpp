@@ -42,7 +42,8 @@ struct IntegratorOptions {
 
 /// The step contract. An integrator is bound to one Ode and one state vector y:
 /// - step(t_stop) advances y by one accepted step, not past t_stop, and returns the new time;
-/// - after it y is finite; where it could not be, GuardStop is thrown with the reason and y and t are
+/// - after it y is finite; where it could not be, GuardStop is thrown with the reason and y and t
+/// are
 ///   those of the last accepted step;
 /// - lands_on_stops(): whether steps may be shortened to hit intermediate times (adaptive methods);
 ///   a fixed-step method keeps its grid t_n = t_0 + n dt and shortens only the step that reaches

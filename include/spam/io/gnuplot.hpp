@@ -18,7 +18,7 @@ struct Curve {
 
 /// One frame of a row of curves.
 struct CurvePanel {
-    std::string title;   ///< above the frame
+    std::string title;  ///< above the frame
     std::string x_label, y_label;
     bool log_y = false;  ///< absolute values, zeros dropped
     std::vector<Curve> curves;

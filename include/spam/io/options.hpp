@@ -21,8 +21,8 @@ Allowed non_negative();
 Allowed at_least(double least);
 Allowed between(double least, double most);
 
-/// The options of a problem: typed, with defaults and help, from the command line (--name value) and
-/// from a TOML file (name = value; the command line wins). A wrong name, type or value throws
+/// The options of a problem: typed, with defaults and help, from the command line (--name value)
+/// and from a TOML file (name = value; the command line wins). A wrong name, type or value throws
 /// InputError: one line with the option, the value, what is allowed and a hint.
 class Options {
   public:
@@ -57,12 +57,12 @@ class Options {
             });
     }
 
-    /// Options that say how to run rather than what to compute (--out, --quiet, ...): not part of the
-    /// case that is written back. Applies to options already added.
+    /// Options that say how to run rather than what to compute (--out, --quiet, ...): not part of
+    /// the case that is written back. Applies to options already added.
     void exclude_from_case(const std::vector<std::string>& names);
 
-    /// Reads the command line and, if --config was given, its file. Returns false when help was asked
-    /// for (and printed).
+    /// Reads the command line and, if --config was given, its file. Returns false when help was
+    /// asked for (and printed).
     bool parse(int argc, const char* const* argv);
 
     /// Whether the user set the option (command line or file).

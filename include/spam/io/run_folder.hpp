@@ -7,8 +7,8 @@
 
 namespace spam {
 
-/// Where a run leaves its results. Never overwrites: an existing folder with contents is refused, or
-/// with `force` moved aside to <path>.old-1, -2, ... first.
+/// Where a run leaves its results. Never overwrites: an existing folder with contents is refused,
+/// or with `force` moved aside to <path>.old-1, -2, ... first.
 class RunFolder {
   public:
     /// Creates the folder. Throws InputError when it exists and is not empty (without force) or

@@ -19,7 +19,8 @@ template <int Dim>
 class SnapshotSeries {
   public:
     SnapshotSeries(const RunFolder& folder, const Model<Dim>& model)
-        : folder_(folder), model_(model) {}
+        : folder_(folder),
+          model_(model) {}
 
     /// Throws OutputError.
     void add(double t, std::span<const double> y);

@@ -10,7 +10,8 @@
 namespace spam {
 
 /// Breaks `text` into lines of at most `width` characters at spaces. Lines after the first are
-/// indented: below the text of "key      text", otherwise by 4. A word longer than a line stays whole.
+/// indented: below the text of "key      text", otherwise by 4. A word longer than a line stays
+/// whole.
 std::string wrap(std::string_view text, std::size_t width);
 
 /// What a run tells its user: lines on the terminal, wrapped to its width, and the same lines whole
@@ -30,7 +31,8 @@ class Terminal {
 
     /// A new run starts at 0 %.
     void begin_progress();
-    /// Progress: `fraction` in [0, 1], `text` the whole line, most important first; cut to the width.
+    /// Progress: `fraction` in [0, 1], `text` the whole line, most important first; cut to the
+    /// width.
     void progress(double fraction, std::string_view text);
     /// Whether a progress line is due, so that its text need not be composed for nothing.
     bool progress_due(double fraction);

@@ -9,13 +9,17 @@
 namespace spam {
 
 /// Lucy's weight function, [HHM04] II, u = r/h:
-///     w    = C (1 + 3u)(1 - u)^3,     C = 5/(4h), 5/(pi h^2), 105/(16 pi h^3) in 1, 2, 3 dimensions
-///     w'/r = -12 C (1 - u)^2 / h^2
+///     w    = C (1 + 3u)(1 - u)^3,     C = 5/(4h), 5/(pi h^2), 105/(16 pi h^3) in 1, 2, 3
+///     dimensions w'/r = -12 C (1 - u)^2 / h^2
 /// Two continuous derivatives; the third jumps at r = h.
 template <int Dim>
 class Lucy {
   public:
-    explicit Lucy(double h) : h_(h), inverse_h_(1.0 / h), c_(normalisation(h)), slope_(-12.0 * c_ / (h * h)) {}
+    explicit Lucy(double h)
+        : h_(h),
+          inverse_h_(1.0 / h),
+          c_(normalisation(h)),
+          slope_(-12.0 * c_ / (h * h)) {}
 
     double range() const { return h_; }
 

@@ -24,7 +24,8 @@ struct ElasticSolid {
     }
 
     template <int Dim, class T>
-    SymTensor<Dim, T> stress_rate(const Mat<Dim, T>& grad_v, const SymTensor<Dim, T>& stress) const {
+    SymTensor<Dim, T> stress_rate(const Mat<Dim, T>& grad_v,
+                                  const SymTensor<Dim, T>& stress) const {
         const T dilation = lambda * grad_v.trace();
         SymTensor<Dim, T> rate;
         for (int a = 0; a < Dim; ++a) {
@@ -41,6 +42,7 @@ struct ElasticSolid {
     }
 };
 
-static_assert(StressLaw<ElasticSolid, 1> && StressLaw<ElasticSolid, 2> && StressLaw<ElasticSolid, 3>);
+static_assert(StressLaw<ElasticSolid, 1> && StressLaw<ElasticSolid, 2> &&
+              StressLaw<ElasticSolid, 3>);
 
 }  // namespace spam

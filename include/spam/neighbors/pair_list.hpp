@@ -5,10 +5,10 @@
 
 namespace spam {
 
-/// For every particle i the particles j with |r_ij| < range + skin at the time of building, i itself
-/// included, in **ascending j**. Weight functions vanish exactly beyond the range, and adding an
-/// exact zero changes no bit, so a sum over the list depends on the positions alone: neither on the
-/// skin, nor on when the list was built, nor on the number of threads.
+/// For every particle i the particles j with |r_ij| < range + skin at the time of building, i
+/// itself included, in **ascending j**. Weight functions vanish exactly beyond the range, and
+/// adding an exact zero changes no bit, so a sum over the list depends on the positions alone:
+/// neither on the skin, nor on when the list was built, nor on the number of threads.
 template <int Dim>
 class PairList {
   public:

@@ -24,7 +24,8 @@ struct Pair {
 /// Everything a pair body may ask of a pair, from two records that hold at least x and v.
 /// Exactly antisymmetric: exchanging i and j flips the sign of r_ij, grad_w_ij, v_ij bit for bit.
 template <int Dim, class T, class Weight, class Record>
-Pair<Dim, T> make_pair(const Weight& weight, const Box<Dim>& box, const Record& i, const Record& j) {
+Pair<Dim, T> make_pair(const Weight& weight, const Box<Dim>& box, const Record& i,
+                       const Record& j) {
     using std::sqrt;
     Pair<Dim, T> pair;
     for (int a = 0; a < Dim; ++a) pair.r_ij[a] = box.nearest_image(a, i.x[a] - j.x[a]);
@@ -45,15 +46,17 @@ template <int Dim, class... Passes, class Weight, class Record, class Store>
 void sweep(const PairList<Dim>& list, const Weight& weight, std::span<const Record> records,
            const Store& store) {
     // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
-    parallel_for(list.size(), [&](std::size_t i) __attribute__((flatten)) {
-        std::tuple<typename Passes::template Sums<double>...> sums;
-        for (const std::uint32_t j : list.neighbours(i)) {
-            const auto pair = make_pair<Dim, double>(weight, list.box(), records[i], records[j]);
-            std::apply(
-                [&](auto&... s) { (Passes::add(pair, records[i], records[j], s), ...); }, sums);
-        }
-        std::apply([&](const auto&... s) { store(i, s...); }, sums);
-    });
+    parallel_for(
+        list.size(), [&](std::size_t i) __attribute__((flatten)) {
+            std::tuple<typename Passes::template Sums<double>...> sums;
+            for (const std::uint32_t j : list.neighbours(i)) {
+                const auto pair =
+                    make_pair<Dim, double>(weight, list.box(), records[i], records[j]);
+                std::apply([&](auto&... s) { (Passes::add(pair, records[i], records[j], s), ...); },
+                           sums);
+            }
+            std::apply([&](const auto&... s) { store(i, s...); }, sums);
+        });
 }
 
 }  // namespace spam

@@ -15,7 +15,8 @@ enum class Kernel { lucy };
 /// How well an invariant is kept by the equations themselves.
 enum class Promise {
     exact,             ///< to round-off, whatever the step
-    integrator_error,  ///< the ordinary differential equations keep it, the integrator to its accuracy
+    integrator_error,  ///< the ordinary differential equations keep it, the integrator to its
+                       ///< accuracy
     not_kept           ///< the scheme changes it; its drift is physics of the scheme
 };
 

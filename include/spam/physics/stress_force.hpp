@@ -6,8 +6,9 @@
 
 namespace spam {
 
-/// Force of j on i for unit masses, f_ij = (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij, [HHM04]
-/// II; f_ij = -f_ji bit for bit. In general not along r_ij: hence the angular momentum's drift.
+/// Force of j on i for unit masses, f_ij = (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij,
+/// [HHM04] II; f_ij = -f_ji bit for bit. In general not along r_ij: hence the angular momentum's
+/// drift.
 template <int Dim, class T, class Record>
 Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, const Record& j) {
     return (i.A + j.A) * pair.grad_w_ij;

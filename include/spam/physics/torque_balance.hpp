@@ -10,7 +10,9 @@
 /// Pair-torque scaling, [HHM04] VIII, made exact: in the plane the pair torques
 ///     T_ij = x_ij F_y - y_ij F_x
 /// of each body are multiplied by R where negative and by 1/R where positive, with R such that the
-/// body's angular momentum is constant. Bodies: connected parts, each with its own R.
+/// body's angular momentum about the origin is constant. Bodies: connected parts, each with its own
+/// R. With u = <v> the term X depends on the frame (sum m u differs from sum m v), so that scheme
+/// is not Galilean covariant; with v or <v>_Monaghan X vanishes and it is.
 namespace spam {
 
 /// Sums over the pairs of particle i: of its positive torques and of minus its negative ones (every
@@ -38,8 +40,8 @@ inline double torque_balance(double P, double M, double X) {
     return X >= 0.0 ? (X + root) / (2.0 * M) : 2.0 * P / (root - X);
 }
 
-/// Multiplies the tangential part of f_ij by s: f_ij += (s - 1) (T_ij/r^2) (-y_ij, x_ij), with s = R
-/// or 1/R by the sign of T_ij; for a pair of two bodies in contact the mean of theirs, so that
+/// Multiplies the tangential part of f_ij by s: f_ij += (s - 1) (T_ij/r^2) (-y_ij, x_ij), with s =
+/// R or 1/R by the sign of T_ij; for a pair of two bodies in contact the mean of theirs, so that
 /// f_ij = -f_ji and linear momentum stays exact.
 template <class T, class Record>
 Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,

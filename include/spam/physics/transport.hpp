@@ -3,8 +3,8 @@
 
 #include <spam/neighbors/sweep.hpp>
 
-/// The velocity u that moves the particles, r_dot = u. It is a field, never an edit of v: stress and
-/// energy go on using v.
+/// The velocity u that moves the particles, r_dot = u. It is a field, never an edit of v: stress
+/// and energy go on using v.
 namespace spam {
 
 /// u = v
@@ -41,8 +41,8 @@ struct AverageTransport {
     }
 };
 
-/// <v>_Monaghan: u_i = v_i + sum_j m_j (v_j - v_i) w_ij / rho_ij, [HHM04] IV. Keeps sum m u = sum m v
-/// and sum m u x v = 0.
+/// <v>_Monaghan: u_i = v_i + sum_j m_j (v_j - v_i) w_ij / rho_ij, [HHM04] IV. Keeps sum m u = sum m
+/// v and sum m u x v = 0.
 template <int Dim, class MeanDensity>
 struct MonaghanTransport {
     template <class T>

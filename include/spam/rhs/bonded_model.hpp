@@ -9,7 +9,8 @@
 namespace spam {
 
 /// Molecular dynamics of points bound to their initial nearest neighbours by harmonic springs, the
-/// paper's reference solution, [HHM04] VI: y = (x, v). Keeps p exactly, L and E to integrator error.
+/// paper's reference solution, [HHM04] VI: y = (x, v). Keeps p exactly, L and E to integrator
+/// error.
 template <int Dim>
 class BondedModel final : public Model<Dim> {
   public:
@@ -29,8 +30,8 @@ class BondedModel final : public Model<Dim> {
 
     HarmonicSpring spring_;
     double bond_reach_;
-    std::vector<std::size_t> start_;       ///< N + 1
-    std::vector<std::uint32_t> partner_;   ///< every bond from both its ends, ascending
+    std::vector<std::size_t> start_;      ///< N + 1
+    std::vector<std::uint32_t> partner_;  ///< every bond from both its ends, ascending
 };
 
 extern template class BondedModel<1>;

@@ -16,7 +16,9 @@ template <int Dim>
 class Model {
   public:
     Model(Particles<Dim> particles, const Box<Dim>& box, const std::vector<Field>& fields)
-        : particles_(std::move(particles)), box_(box), layout_(particles_.size(), fields) {}
+        : particles_(std::move(particles)),
+          box_(box),
+          layout_(particles_.size(), fields) {}
     virtual ~Model() = default;
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;

@@ -8,9 +8,9 @@
 
 namespace spam {
 
-/// An elastic solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme decides
-/// whether density is part of y, what velocity moves the particles, and whether pair torques are
-/// balanced.
+/// An elastic solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
+/// decides whether density is part of y, what velocity moves the particles, and whether pair
+/// torques are balanced.
 template <int Dim>
 class SmoothParticleModel final : public Model<Dim> {
   public:
@@ -34,7 +34,7 @@ class SmoothParticleModel final : public Model<Dim> {
     std::size_t list_builds() const { return list_.builds(); }
 
   private:
-    struct Choices;                // compile-time choices as sweeps, picked once (see the source)
+    struct Choices;  // compile-time choices as sweeps, picked once (see the source)
     bool load(std::span<const double> y, std::span<double> y_dot);
     void sum_density();
     void form_A(std::span<const double> y);

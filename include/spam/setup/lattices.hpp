@@ -10,16 +10,18 @@ namespace spam {
 /// n spacings away (one on the +x axis): 2 x (1 + 3n + 3n^2). [HHM04] VIII. n >= 0.
 Points<2> triangular_hexagon(int n, double spacing = 1.0);
 
-/// Rows of triangular lattice: 2 x (columns rows), first particle at the origin; odd rows are shifted
-/// by half a spacing. Periodic in columns * spacing and (rows even) rows * sqrt(3/4) spacing.
+/// Rows of triangular lattice: 2 x (columns rows), first particle at the origin; odd rows are
+/// shifted by half a spacing. Periodic in columns * spacing and (rows even) rows * sqrt(3/4)
+/// spacing.
 Points<2> triangular_block(int columns, int rows, double spacing = 1.0);
 
 /// Square (cubic, linear) lattice, `cells` particles in each direction, first one at the origin.
 template <int Dim>
 Points<Dim> square_lattice(const std::array<int, Dim>& cells, double spacing = 1.0);
 
-/// Particles of equal mass at rest positions, put into strip order, with ids that remember the order
-/// given and bodies found as parts connected within `reach` (1.5 spacings connects a lattice).
+/// Particles of equal mass at rest positions, put into strip order, with ids that remember the
+/// order given and bodies found as parts connected within `reach` (1.5 spacings connects a
+/// lattice).
 template <int Dim>
 Particles<Dim> make_particles(const Points<Dim>& position, double mass, double spacing = 1.0,
                               const Box<Dim>& box = {}, double reach = 0.0);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random_state.hpp"
+#include <spam/diagnostics/drift.hpp>
+#include <spam/diagnostics/fits.hpp>
+#include <spam/diagnostics/invariants.hpp>
+#include <spam/diagnostics/shape.hpp>
+#include <spam/rhs/bonded_model.hpp>
+#include <spam/setup/initial_state.hpp>
+#include <spam/setup/lattices.hpp>
+
+#include <Eigen/Geometry>
+#include <boost/test/unit_test.hpp>
+
+using namespace spam;
+using namespace spam::test;
+
+BOOST_AUTO_TEST_CASE(invariants_of_a_rigid_rotation) {
+    BondedModel<2> model(make_particles<2>(triangular_hexagon(8), 1.0), {});
+    const auto y = initial_state<2>(model, 1.0, 1.0, rigid_rotation(0.0125));
+    const auto now = measure_invariants<2>(model, y);
+    double inertia = 0.0;
+    for (const auto& x : model.particles().reference_position.colwise()) inertia += x.squaredNorm();
+    BOOST_TEST(now.mass == 217.0);
+    BOOST_TEST(now.momentum.norm() < 1e-14);
+    BOOST_TEST(now.angular_momentum[0] == 0.0125 * inertia, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(now.kinetic == 0.5 * 0.0125 * 0.0125 * inertia, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(now.energy == now.kinetic + now.internal);
+    BOOST_TEST(angular_momentum_of_bodies(model, y)[0] == now.angular_momentum[0],
+               boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(angular_momentum_in_space_is_a_vector) {
+    BondedModel<3> model(jittered_particles<3>(4, 71), {});
+    const auto y = random_state(model, 72);
+    const ConstState<3> s(model.layout(), y);
+    Eigen::Vector3d L = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < s.position().cols(); ++i)
+        L += model.particles().mass[static_cast<std::size_t>(i)] *
+             Eigen::Vector3d(s.position().col(i)).cross(Eigen::Vector3d(s.velocity().col(i)));
+    BOOST_TEST((measure_invariants<3>(model, y).angular_momentum - L).norm() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(shape_error_ignores_rigid_motion) {
+    const Points<2> shape = triangular_hexagon(4);
+    const Points<2> turned =
+        (Eigen::Rotation2Dd(2.5).toRotationMatrix() * shape).colwise() + Eigen::Vector2d(3.0, -1.0);
+    BOOST_TEST(shape_error<2>(shape, turned, 1.0) < 1e-14);
+    const Points<2> stretched = 1.01 * turned;
+    const double rms = std::sqrt(shape.colwise().squaredNorm().mean());
+    BOOST_TEST(shape_error<2>(shape, stretched, 0.5) == 0.01 * rms / 0.5,
+               boost::test_tools::tolerance(1e-12));
+    Points<2> mirrored = shape;
+    mirrored.row(0) *= -1.0;
+    mirrored(0, 3) += 0.4;  // the hexagon itself is its own mirror image up to the particles' names
+    BOOST_TEST(shape_error<2>(shape, mirrored, 1.0) > 0.5);
+    const Points<3> cube = square_lattice<3>({3, 3, 3});
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(1.0, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const Points<3> moved = turn * cube;
+    BOOST_TEST(shape_error<3>(cube, moved, 1.0) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(closest_pairs) {
+    Points<2> x = triangular_hexagon(4);
+    BOOST_TEST(closest_pair<2>(x, 1.0, {}) == 1.0, boost::test_tools::tolerance(1e-12));
+    x.col(7) = x.col(30) + Eigen::Vector2d(0.03, 0.04);
+    BOOST_TEST(closest_pair<2>(x, 1.0, {}) == 0.05, boost::test_tools::tolerance(1e-10));
+    Points<2> far(2, 2);
+    far << 0, 300, 0, 400;
+    BOOST_TEST(closest_pair<2>(far, 1.0, {}) == 500.0);
+    BOOST_TEST(closest_pair<2>(far.leftCols(1), 1.0, {}) == HUGE_VAL);
+    Points<1> edge(1, 3);
+    edge << 0.1, 5.0, 9.95;
+    BOOST_TEST(closest_pair<1>(edge, 1.0, Box<1>({10.0})) == 0.15,
+               boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(history_answers_by_name) {
+    History h({"t", "energy"});
+    h.add({0.0, 2.0});
+    h.add({1.0, 3.0});
+    h.add({3.0, 1.0});
+    BOOST_TEST(h.relative_drift("energy") == 0.5);
+    BOOST_TEST(h.largest_change("energy") == 1.0);
+    BOOST_TEST(h.at(2.0, "energy") == 2.0);
+    BOOST_TEST(h.at(-1.0, "energy") == 2.0);
+    BOOST_TEST(h.at(9.0, "energy") == 1.0);
+    BOOST_CHECK_THROW(h.column("enrgy"), std::out_of_range);
+}
+
+BOOST_AUTO_TEST_CASE(drifts_are_judged_by_the_promise) {
+    History h({"t", "dt", "mass", "momentum_x", "momentum_y", "angular_momentum", "kinetic",
+               "internal", "energy"});
+    h.add({0, 0.1, 10, 0, 0, 5.0, 1.0, 0.0, 1.0});
+    h.add({1, 0.1, 10, 0, 1e-9, 4.0, 0.9, 0.1 + 1e-8, 1.0 + 1e-8});
+    const auto drifts = measure_drifts(h, Scheme{}.promises(2), 10.0, 5.0, 1e-6);
+    BOOST_TEST(drifts.size() == 4U);
+    BOOST_TEST(drifts[0].kept());
+    BOOST_TEST(!drifts[1].kept());  // momentum is promised exactly
+    BOOST_TEST(drifts[1].change == 1e-10, boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(drifts[2].kept());  // not promised
+    BOOST_TEST(drifts[2].change == 0.2, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(drifts[3].kept());  // to integrator error
+    Promises strict = Scheme{}.promises(2);
+    strict.angular_momentum = Promise::integrator_error;
+    BOOST_TEST(!measure_drifts(h, strict, 10.0, 5.0, 1e-6)[2].kept());
+}
+
+BOOST_AUTO_TEST_CASE(fits_recover_lines_and_orders) {
+    const std::vector<double> x{0, 1, 2, 3, 4}, y{1.0, 3.0, 5.0, 7.0, 9.0};
+    BOOST_TEST(fit_line(x, y).slope == 2.0, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(fit_line(x, y).intercept == 1.0, boost::test_tools::tolerance(1e-14));
+    const std::vector<double> steps{0.1, 0.05, 0.025}, errors{3e-4, 3e-4 / 16, 3e-4 / 256};
+    BOOST_TEST(observed_order(steps, errors) == 4.0, boost::test_tools::tolerance(1e-12));
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Integrators on a small smooth problem with a known answer: orders, grids, stops, guards.
+#include <spam/core/error.hpp>
+#include <spam/diagnostics/fits.hpp>
+#include <spam/integrate/driver.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace spam;
+
+namespace {
+
+/// Nonlinear and not autonomous: y0' = y1, y1' = -y0 + (cos t - y0)^2 with y0 = cos t.
+Ode cosine() {
+    Ode ode;
+    ode.rates = [](double t, std::span<const double> y, std::span<double> y_dot) {
+        y_dot[0] = y[1];
+        y_dot[1] =
+            -y[0] + std::pow(std::cos(t) - y[0], 2) + 0.3 * std::sin(t) * (std::cos(t) - y[0]);
+    };
+    ode.failure = [] { return std::string{}; };
+    ode.entry_name = [](std::size_t k) { return std::to_string(k); };
+    ode.absolute_tolerance = {1e-12, 1e-12};
+    return ode;
+}
+
+/// y0 = exp(sin t), y1 = 1/(1 + t): another one, with error terms of every kind.
+Ode growth() {
+    Ode ode = cosine();
+    ode.rates = [](double t, std::span<const double> y, std::span<double> y_dot) {
+        y_dot[0] = y[0] * std::cos(t);
+        y_dot[1] = -y[1] * y[1];
+    };
+    return ode;
+}
+
+struct Run {
+    double error;
+    Integrator::Statistics statistics;
+};
+
+Run run(const IntegratorOptions& options, double t_end) {
+    const SundialsContext context;
+    const Ode ode = cosine();
+    Vector y(2, context);
+    y.span()[0] = 1.0;
+    y.span()[1] = 0.0;
+    const auto integrator = make_integrator(options, ode, y, 0.0, context);
+    double error = 0.0;  // the largest on the way: at one time alone it may cross zero
+    Observers observers;
+    observers.output = [&](double t) {
+        error = std::max(error, std::hypot(y.span()[0] - std::cos(t), y.span()[1] + std::sin(t)));
+    };
+    drive(*integrator, {t_end, 0.8, t_end}, observers);
+    return {error, integrator->statistics()};
+}
+
+IntegratorOptions fixed(const std::string& method, double dt) {
+    IntegratorOptions options;
+    options.method = method;
+    options.dt = dt;
+    return options;
+}
+
+IntegratorOptions adaptive(const std::string& method, double rtol = 1e-8, double atol = 1e-10) {
+    IntegratorOptions options;
+    options.method = method;
+    options.rtol = rtol;
+    options.atol = atol;
+    return options;
+}
+
+double order_of(const std::string& method, double largest_step) {
+    std::vector<double> steps, errors;
+    for (int k = 0; k < 4; ++k) {
+        const SundialsContext context;
+        const Ode ode = growth();
+        Vector y(2, context);
+        y.span()[0] = y.span()[1] = 1.0;
+        steps.push_back(largest_step * std::pow(0.5, k));
+        const auto integrator = make_integrator(fixed(method, steps.back()), ode, y, 0.0, context);
+        drive(*integrator, {3.2, 3.2, 3.2}, {});
+        errors.push_back(
+            std::hypot(y.span()[0] - std::exp(std::sin(3.2)), y.span()[1] - 1.0 / 4.2));
+    }
+    return observed_order(steps, errors);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_table_has_its_order) {
+    // Regression: ERKStep before SUNDIALS 6.7 runs tables with c_s = 1 wrongly (orders lost without
+    // a word); those go through ARKStep.
+    const std::vector<std::pair<const char*, double>> nominal{
+        {"HEUN_EULER_2_1_2", 2},     {"BOGACKI_SHAMPINE_4_2_3", 3}, {"ARK324L2SA_ERK_4_2_3", 3},
+        {"ZONNEVELD_5_3_4", 4},      {"ARK436L2SA_ERK_6_3_4", 4},   {"SAYFY_ABURUB_6_3_4", 4},
+        {"CASH_KARP_6_4_5", 5},      {"FEHLBERG_6_4_5", 5},         {"DORMAND_PRINCE_7_4_5", 5},
+        {"ARK548L2SA_ERK_8_4_5", 5}, {"VERNER_8_5_6", 6},           {"FEHLBERG_13_7_8", 8},
+        {"KNOTH_WOLKE_3_3", 3},      {"ARK437L2SA_ERK_7_3_4", 4},   {"ARK548L2SAb_ERK_8_4_5", 5}};
+    BOOST_TEST(nominal.size() == arkode_tables().size());
+    for (const auto& [name, order] : nominal) {
+        const double step = order >= 8 ? 0.8 : order >= 5 ? 0.2 : 0.1;
+        const double observed = order_of(std::string("arkode:") + name, step);
+        // Not below nominal; a problem may be kind to a method.
+        BOOST_TEST(observed > order - 0.15, name << " has observed order " << observed);
+    }
+    BOOST_TEST(std::abs(order_of("rk4", 0.1) - 4.0) < 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(classical_rk4_is_zonneveld_with_a_fixed_step) {
+    BOOST_TEST(std::abs(run(fixed("rk4", 0.1), 10.0).error -
+                        run(fixed("arkode:ZONNEVELD_5_3_4", 0.1), 10.0).error) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(tolerances_steer_the_error) {
+    const auto loose = run(adaptive("arkode:DORMAND_PRINCE_7_4_5", 1e-4, 1e-6), 20.0);
+    const auto tight = run(adaptive("arkode:DORMAND_PRINCE_7_4_5", 1e-10, 1e-12), 20.0);
+    BOOST_TEST(loose.error < 1e-2);
+    BOOST_TEST(tight.error < 1e-8);
+    BOOST_TEST(tight.error < 1e-3 * loose.error);
+    BOOST_TEST(tight.statistics.steps > loose.statistics.steps);
+    BOOST_TEST(tight.statistics.rhs_evaluations >= 6 * tight.statistics.steps);
+}
+
+BOOST_AUTO_TEST_CASE(fixed_steps_stay_on_their_grid_and_reach_the_end) {
+    for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4"}) {
+        const SundialsContext context;
+        const Ode ode = cosine();
+        Vector y(2, context);
+        y.span()[0] = 1.0;
+        const auto integrator = make_integrator(fixed(method, 0.1), ode, y, 0.0, context);
+        std::vector<double> outputs, steps;
+        Observers observers;
+        observers.output = [&](double t) { outputs.push_back(t); };
+        observers.step = [&](double t) { steps.push_back(t); };
+        drive(*integrator, {1.03, 0.25, 10.0}, observers);
+        for (std::size_t n = 0; n + 1 < steps.size(); ++n)
+            BOOST_TEST(steps[n] == static_cast<double>(n + 1) * 0.1);  // not accumulated
+        BOOST_TEST(steps.back() == 1.03);
+        BOOST_TEST(std::abs(y.span()[0] - std::cos(1.03)) < 2e-6);
+        const std::vector<double> expected{0.0, 3 * 0.1, 5 * 0.1, 8 * 0.1, 10 * 0.1, 1.03};
+        BOOST_TEST(outputs == expected, boost::test_tools::per_element());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(adaptive_steps_land_on_output_times) {
+    const SundialsContext context;
+    const Ode ode = cosine();
+    Vector y(2, context);
+    y.span()[0] = 1.0;
+    const auto integrator =
+        make_integrator(adaptive("arkode:DORMAND_PRINCE_7_4_5"), ode, y, 0.0, context);
+    std::vector<double> outputs;
+    Observers observers;
+    observers.output = [&](double t) { outputs.push_back(t); };
+    drive(*integrator, {1.0, 0.25, 0.4}, observers);
+    const std::vector<double> expected{0.0, 0.25, 0.5, 0.75, 1.0};
+    BOOST_TEST(outputs == expected, boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_bad_rate_stops_a_fixed_step_with_the_last_good_state) {
+    for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4"}) {
+        const SundialsContext context;
+        Ode ode = cosine();
+        const auto good = ode.rates;
+        ode.rates = [good](double t, std::span<const double> y, std::span<double> y_dot) {
+            good(t, y, y_dot);
+            if (t > 0.45) y_dot[1] = std::numeric_limits<double>::quiet_NaN();
+        };
+        Vector y(2, context);
+        y.span()[0] = 1.0;
+        const auto integrator = make_integrator(fixed(method, 0.1), ode, y, 0.0, context);
+        std::string reason;
+        try {
+            drive(*integrator, {1.0, 1.0, 1.0}, {});
+        } catch (const GuardStop& stop) {
+            reason = stop.what();
+        }
+        BOOST_TEST((reason.find("became nan at t = 0.5") != std::string::npos), reason);
+        BOOST_TEST(integrator->t() == 0.4);
+        BOOST_TEST(std::abs(y.span()[0] - std::cos(0.4)) < 1e-6);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(an_adaptive_step_that_cannot_succeed_stops) {
+    const SundialsContext context;
+    Ode ode = cosine();
+    const auto good = ode.rates;
+    ode.rates = [good](double t, std::span<const double> y, std::span<double> y_dot) {
+        good(t, y, y_dot);
+        if (t > 0.45) y_dot[1] = std::numeric_limits<double>::quiet_NaN();
+    };
+    Vector y(2, context);
+    y.span()[0] = 1.0;
+    IntegratorOptions options = adaptive("arkode:DORMAND_PRINCE_7_4_5");
+    options.min_step = 1e-6;
+    const auto integrator = make_integrator(options, ode, y, 0.0, context);
+    BOOST_CHECK_THROW(drive(*integrator, {1.0, 1.0, 1.0}, {}), GuardStop);
+    BOOST_TEST(integrator->t() <= 0.45);
+    BOOST_TEST(integrator->t() > 0.3);
+    BOOST_TEST(std::abs(y.span()[0] - std::cos(integrator->t())) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(a_state_changed_from_outside_needs_a_reset) {
+    for (const auto& options : {fixed("rk4", 0.01), fixed("arkode:ZONNEVELD_5_3_4", 0.01),
+                                adaptive("arkode:DORMAND_PRINCE_7_4_5")}) {
+        const SundialsContext context;
+        const Ode ode = cosine();
+        Vector y(2, context);
+        y.span()[0] = 1.0;
+        const auto integrator = make_integrator(options, ode, y, 0.0, context);
+        drive(*integrator, {0.5, 1.0, 1.0}, {});
+        y.span()[0] = 1.0;  // back to the start
+        y.span()[1] = 0.0;
+        integrator->reset(0.0);
+        drive(*integrator, {0.5, 1.0, 1.0}, {});
+        BOOST_TEST(std::abs(y.span()[0] - std::cos(0.5)) < 1e-6);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(methods_that_cannot_run_are_refused) {
+    const SundialsContext context;
+    const Ode ode = cosine();
+    Vector y(2, context);
+    const auto refused = [&](const IntegratorOptions& options) {
+        BOOST_CHECK_THROW(make_integrator(options, ode, y, 0.0, context), InputError);
+    };
+    refused(adaptive("rk4"));
+    refused(fixed("rk4", -0.1));
+    refused(fixed("euler", 0.1));
+    refused(adaptive("arkode:NO_SUCH_TABLE"));
+    refused(adaptive("arkode:KNOTH_WOLKE_3_3"));
+    refused(adaptive("arkode:DORMAND_PRINCE_7_4_5", -1.0));
+    refused(adaptive("arkode:DORMAND_PRINCE_7_4_5", 1e-8, 0.0));
+}

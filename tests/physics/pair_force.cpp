@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// F_ij = -F_ji bit for bit, and the balance of pair torques.
+#include <spam/kernel/lucy.hpp>
+#include <spam/physics/torque_balance.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+
+using namespace spam;
+
+namespace {
+
+template <int Dim>
+TransportRecord<Dim> random_record(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    TransportRecord<Dim> r;
+    for (int a = 0; a < Dim; ++a) {
+        r.x[a] = u(random);
+        r.v[a] = u(random);
+    }
+    r.m = 1.0 + 0.3 * u(random);
+    r.rho = 1.0 + 0.3 * u(random);
+    for (double& s : r.A.c) s = u(random);
+    r.negative_factor = 1.0 + 0.3 * u(random);
+    r.positive_factor = 1.0 / r.negative_factor;
+    return r;
+}
+
+/// How often f(i, j) differs from -f(j, i) in any bit, of 10000 random pairs.
+template <int Dim, class Force>
+int asymmetric_pairs(const Force& force) {
+    std::mt19937_64 random(31);
+    int count = 0;
+    for (int k = 0; k < 10000; ++k) {
+        const auto i = random_record<Dim>(random), j = random_record<Dim>(random);
+        const Lucy<Dim> w(3.0);
+        const auto ij = make_pair<Dim, double>(w, Box<Dim>(), i, j);
+        const auto ji = make_pair<Dim, double>(w, Box<Dim>(), j, i);
+        const auto f_ij = force(ij, i, j), f_ji = force(ji, j, i);
+        bool same = true;
+        for (int a = 0; a < Dim; ++a) same = same && f_ij[a] == -f_ji[a];
+        count += same ? 0 : 1;
+    }
+    return count;
+}
+
+const auto stress = [](const auto& pair, const auto& i, const auto& j) {
+    return stress_force(pair, i, j);
+};
+const auto balanced = [](const auto& pair, const auto& i, const auto& j) {
+    return scale_torque(pair, i, j, stress_force(pair, i, j));
+};
+// sigma/rho^2 of one particle only: momentum would drift.
+const auto one_sided = [](const auto& pair, const auto& i, const auto&) {
+    return i.A * pair.grad_w_ij;
+};
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(forces_are_antisymmetric_bit_for_bit) {
+    BOOST_TEST(asymmetric_pairs<1>(stress) == 0);
+    BOOST_TEST(asymmetric_pairs<2>(stress) == 0);
+    BOOST_TEST(asymmetric_pairs<3>(stress) == 0);
+    BOOST_TEST(asymmetric_pairs<2>(balanced) == 0);
+    BOOST_TEST(asymmetric_pairs<2>(one_sided) > 9000);
+}
+
+BOOST_AUTO_TEST_CASE(one_particles_factor_alone_is_not_antisymmetric) {
+    // Matters where two bodies touch.
+    const auto wrong = [](const auto& pair, const auto& i, const auto& j) {
+        return scale_torque(pair, i, i, stress_force(pair, i, j));
+    };
+    BOOST_TEST(asymmetric_pairs<2>(wrong) > 1000);
+}
+
+BOOST_AUTO_TEST_CASE(scaling_multiplies_the_torque_and_leaves_the_radial_force) {
+    std::mt19937_64 random(33);
+    for (int k = 0; k < 1000; ++k) {
+        auto i = random_record<2>(random), j = random_record<2>(random);
+        j.negative_factor = i.negative_factor;
+        j.positive_factor = i.positive_factor;
+        const auto pair = make_pair<2, double>(Lucy<2>(3.0), Box<2>(), i, j);
+        const auto before = stress_force(pair, i, j), after = scale_torque(pair, i, j, before);
+        const double torque = cross(pair.r_ij, before);
+        const double s = torque < 0.0 ? i.negative_factor : i.positive_factor;
+        BOOST_TEST(std::abs(cross(pair.r_ij, after) - s * torque) < 1e-14);
+        BOOST_TEST(std::abs(dot(pair.r_ij, after) - dot(pair.r_ij, before)) < 1e-14);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(balance_solves_its_equation) {
+    for (const double X : {0.0, 1e-12, 0.3, -0.3, 5.0, -5.0, 1e3, -1e3})
+        for (const double P : {1e-20, 0.1, 2.0})
+            for (const double M : {1e-20, 0.1, 2.0}) {
+                const double R = torque_balance(P, M, X);
+                BOOST_TEST(R > 0.0);
+                const double size = P / R + M * R + std::abs(X);
+                BOOST_TEST(std::abs(P / R - M * R + X) < 1e-14 * size);
+            }
+    BOOST_TEST(torque_balance(0.0, 1.0, 0.0) == 1.0);  // nothing to balance with
+    BOOST_TEST(torque_balance(0.0, 0.0, 0.0) == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_particle_does_not_act_on_itself) {
+    std::mt19937_64 random(34);
+    const auto i = random_record<2>(random);
+    const auto pair = make_pair<2, double>(Lucy<2>(3.0), Box<2>(), i, i);
+    const auto f = balanced(pair, i, i);
+    BOOST_TEST(f[0] == 0.0);
+    BOOST_TEST(f[1] == 0.0);
+}

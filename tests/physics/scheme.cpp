@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/physics/scheme.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam;
+
+BOOST_AUTO_TEST_CASE(combinations_without_meaning_are_refused) {
+    BOOST_CHECK_THROW((Scheme{.density = Density::chain_rule}.validate(2)), InputError);
+    BOOST_CHECK_THROW((Scheme{.angular_momentum = AngularMomentum::torque_pair}.validate(3)),
+                      InputError);
+    BOOST_CHECK_THROW((Scheme{.angular_momentum = AngularMomentum::torque_pair}.validate(1)),
+                      InputError);
+    BOOST_CHECK_THROW((Scheme{.range = 0.0}.validate(2)), InputError);
+    BOOST_CHECK_THROW((Scheme{.range = -3.0}.validate(2)), InputError);
+    BOOST_CHECK_NO_THROW(
+        (Scheme{.density = Density::chain_rule, .transport = Transport::average}.validate(3)));
+}
+
+BOOST_AUTO_TEST_CASE(promises_follow_the_scheme) {
+    const Scheme free{}, balanced{.angular_momentum = AngularMomentum::torque_pair};
+    BOOST_TEST((free.promises(2).angular_momentum == Promise::not_kept));
+    BOOST_TEST((free.promises(3).angular_momentum == Promise::not_kept));
+    BOOST_TEST((balanced.promises(2).angular_momentum == Promise::integrator_error));
+    BOOST_TEST((balanced.promises(2).momentum == Promise::exact));
+    BOOST_TEST((free.promises(2).energy == Promise::integrator_error));
+}
+
+BOOST_AUTO_TEST_CASE(description_names_every_choice) {
+    const std::string words = Scheme{.density = Density::summed,
+                                     .transport = Transport::monaghan,
+                                     .mean_density = MeanDensityKind::geometric,
+                                     .angular_momentum = AngularMomentum::torque_pair,
+                                     .range = 2.5}
+                                  .describe();
+    for (const char* word : {"summed", "monaghan", "geometric", "torque_pair", "lucy", "2.5"})
+        BOOST_TEST((words.find(word) != std::string::npos), word << " in " << words);
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The second right-hand side allocates nothing. malloc is counted by a wrapper of our own, which
+// sanitizers and other C libraries do not allow: there the test only runs the code.
+#include "support/random_state.hpp"
+#include <spam/core/parallel.hpp>
+#include <spam/rhs/smooth_particle_model.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <atomic>
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__clang__)
+#define SPAM_COUNTS_ALLOCATIONS
+#endif
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+#ifdef SPAM_COUNTS_ALLOCATIONS
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* malloc(std::size_t n) {
+    ++allocations;
+    return __libc_malloc(n);
+}
+void* calloc(std::size_t n, std::size_t size) {
+    ++allocations;
+    return __libc_calloc(n, size);
+}
+void* realloc(void* p, std::size_t n) {
+    ++allocations;
+    return __libc_realloc(p, n);
+}
+}
+#endif
+
+using namespace spam;
+using namespace spam::test;
+
+namespace {
+
+long allocations_of_second_call(int cells, const Scheme& scheme, int threads) {
+    set_threads(threads);
+    SmoothParticleModel<2> model(jittered_particles<2>(cells, 61), {0.7, 0.4}, scheme);
+    const auto y = random_state(model, 62);
+    std::vector<double> y_dot(y.size());
+    model.rates(0.0, y, y_dot);
+    const long before = allocations;
+    model.rates(0.0, y, y_dot);
+    const long count = allocations - before;
+    set_threads(1);
+    return count;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_second_right_hand_side_allocates_nothing) {
+    for (const Scheme& scheme : all_schemes<2>()) {
+        BOOST_TEST(allocations_of_second_call(8, scheme, 1) == 0, scheme.describe());
+        BOOST_TEST(allocations_of_second_call(40, scheme, 2) == 0, scheme.describe());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(the_counter_counts) {
+#ifdef SPAM_COUNTS_ALLOCATIONS
+    const long before = allocations;
+    const std::vector<double> block(1000);
+    BOOST_TEST(block.size() == 1000U);
+    BOOST_TEST(allocations > before);
+#endif
+}

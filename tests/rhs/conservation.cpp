@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the right-hand side keeps for any state, all schemes, 1 to 3 dimensions; and that each of
+// the properties can fail.
+#include "support/oracle_model.hpp"
+#include "support/random_state.hpp"
+#include <spam/rhs/smooth_particle_model.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam;
+using namespace spam::test;
+
+namespace {
+
+const ElasticSolid solid{0.7, 0.4};
+
+template <int Dim>
+int cells() {
+    return Dim == 1 ? 20 : Dim == 2 ? 7 : 4;
+}
+
+/// |d/dt sum m (e + v^2/2)| relative to the sum of the magnitudes of its terms.
+template <int Dim>
+double energy_residual(Model<Dim>& model, unsigned seed) {
+    const auto y = random_state(model, seed);
+    const auto y_dot = rates_of(model, y);
+    const ConstState<Dim> s(model.layout(), y), r(model.layout(), y_dot);
+    double sum = 0.0, size = 0.0;
+    for (Eigen::Index i = 0; i < s.position().cols(); ++i) {
+        const double m = model.particles().mass[static_cast<std::size_t>(i)];
+        const double heat = m * r.energy()(0, i);
+        const double work = m * s.velocity().col(i).dot(r.velocity().col(i));
+        sum += heat + work;
+        size += std::abs(heat) + std::abs(work);
+    }
+    return std::abs(sum) / size;
+}
+
+template <int Dim>
+double momentum_residual(Model<Dim>& model, unsigned seed) {
+    const auto y = random_state(model, seed);
+    const auto y_dot = rates_of(model, y);
+    const ConstState<Dim> r(model.layout(), y_dot);
+    Point<Dim> sum = Point<Dim>::Zero();
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < r.velocity().cols(); ++i) {
+        const double m = model.particles().mass[static_cast<std::size_t>(i)];
+        sum += m * r.velocity().col(i);
+        size += m * r.velocity().col(i).norm();
+    }
+    return sum.norm() / size;
+}
+
+/// |dL/dt| of one body relative to the size of its terms.
+double torque_residual(Model<2>& model, unsigned seed, int body) {
+    const auto y = random_state(model, seed);
+    const auto y_dot = rates_of(model, y);
+    const ConstState<2> s(model.layout(), y), r(model.layout(), y_dot);
+    double sum = 0.0, size = 0.0;
+    for (Eigen::Index i = 0; i < s.position().cols(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (model.particles().body[k] != body) continue;
+        const auto x = s.position().col(i), v = s.velocity().col(i);
+        const auto u = r.position().col(i), a = r.velocity().col(i);
+        const double orbital = model.particles().mass[k] * (u[0] * v[1] - u[1] * v[0]);
+        const double torque = model.particles().mass[k] * (x[0] * a[1] - x[1] * a[0]);
+        sum += orbital + torque;
+        size += std::abs(orbital) + std::abs(torque);
+    }
+    return std::abs(sum) / size;
+}
+
+template <int Dim>
+void check_energy_and_momentum() {
+    for (const Scheme& scheme : all_schemes<Dim>()) {
+        BOOST_TEST_CONTEXT(scheme.describe()) {
+            SmoothParticleModel<Dim> model(jittered_particles<Dim>(cells<Dim>(), 1), solid, scheme);
+            BOOST_TEST(energy_residual(model, 2) < 1e-14);
+            BOOST_TEST(momentum_residual(model, 2) < 1e-14);
+            OracleModel<Dim> wrong(model.particles(), solid, scheme, Mutation::full_work);
+            BOOST_TEST(energy_residual<Dim>(wrong, 2) > 1e-3);
+            OracleModel<Dim> lopsided(model.particles(), solid, scheme, Mutation::half_list);
+            BOOST_TEST(momentum_residual<Dim>(lopsided, 2) > 1e-3);
+        }
+    }
+}
+
+/// Two jittered blocks out of each other's reach.
+Particles<2> two_blocks() {
+    const auto one = jittered_particles<2>(6, 5);
+    Points<2> both(2, 2 * one.reference_position.cols());
+    both << one.reference_position,
+        (0.9 * one.reference_position).colwise() + Eigen::Vector2d(20.0, 3.0);
+    return make_particles<2>(both, 1.3);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(energy_and_momentum_1d) { check_energy_and_momentum<1>(); }
+BOOST_AUTO_TEST_CASE(energy_and_momentum_2d) { check_energy_and_momentum<2>(); }
+BOOST_AUTO_TEST_CASE(energy_and_momentum_3d) { check_energy_and_momentum<3>(); }
+
+BOOST_AUTO_TEST_CASE(balanced_torques_work_in_the_energy) {
+    Scheme scheme{.angular_momentum = AngularMomentum::torque_pair, .range = 2.6};
+    OracleModel<2> wrong(jittered_particles<2>(7, 1), solid, scheme, Mutation::work_before_scaling);
+    BOOST_TEST(energy_residual<2>(wrong, 2) > 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(balanced_torques_keep_the_angular_momentum_of_every_body) {
+    for (Scheme scheme : all_schemes<2>()) {
+        if (scheme.angular_momentum != AngularMomentum::torque_pair) continue;
+        BOOST_TEST_CONTEXT(scheme.describe()) {
+            SmoothParticleModel<2> model(two_blocks(), solid, scheme);
+            BOOST_TEST_REQUIRE(model.particles().bodies() == 2);
+            BOOST_TEST(torque_residual(model, 3, 0) < 1e-13);
+            BOOST_TEST(torque_residual(model, 3, 1) < 1e-13);
+            BOOST_TEST(model.torque_factors()[0] != model.torque_factors()[1]);
+            scheme.angular_momentum = AngularMomentum::free;
+            SmoothParticleModel<2> unbalanced(two_blocks(), solid, scheme);
+            BOOST_TEST(torque_residual(unbalanced, 3, 0) > 1e-4);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(the_average_velocity_needs_its_own_term_in_the_balance) {
+    Scheme scheme{.transport = Transport::average,
+                  .angular_momentum = AngularMomentum::torque_pair,
+                  .range = 2.6};
+    OracleModel<2> wrong(two_blocks(), solid, scheme, Mutation::without_X);
+    BOOST_TEST(torque_residual(wrong, 3, 0) > 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(monaghan_transport_keeps_momentum_and_has_no_orbital_term) {
+    Scheme scheme{.transport = Transport::monaghan, .range = 2.6};
+    const auto orbital_and_momentum = [](Model<2>& model) {
+        const auto y = random_state(model, 7);
+        const auto y_dot = rates_of(model, y);
+        const ConstState<2> s(model.layout(), y), r(model.layout(), y_dot);
+        double orbital = 0.0;
+        Point<2> shift = Point<2>::Zero();
+        for (Eigen::Index i = 0; i < s.position().cols(); ++i) {
+            const double m = model.particles().mass[static_cast<std::size_t>(i)];
+            const auto u = r.position().col(i), v = s.velocity().col(i);
+            orbital += m * (u[0] * v[1] - u[1] * v[0]);
+            shift += m * (u - v);
+        }
+        return std::max(std::abs(orbital), shift.norm());
+    };
+    SmoothParticleModel<2> monaghan(jittered_particles<2>(7, 1), solid, scheme);
+    BOOST_TEST(orbital_and_momentum(monaghan) < 1e-12);
+    scheme.transport = Transport::average;
+    SmoothParticleModel<2> average(jittered_particles<2>(7, 1), solid, scheme);
+    BOOST_TEST(orbital_and_momentum(average) > 1e-3);
+}

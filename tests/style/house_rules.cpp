@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rules of the house that a compiler does not check: a room includes only rooms before it, SUNDIALS
+// is called in two places, every source carries its licence, files stay readable.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> rooms{"core",        "kernel",  "material", "neighbors",
+                                     "boundary",    "physics", "rhs",      "integrate",
+                                     "diagnostics", "setup",   "io",       "problem"};
+
+/// kernel and material are neighbours on one floor: both include only core.
+/// integrate knows vectors and callables, not particles: only core as well.
+const std::map<std::string, std::set<std::string>> special{
+    {"kernel", {"core"}}, {"material", {"core"}}, {"integrate", {"core"}}};
+
+bool allowed(const std::string& from, const std::string& to) {
+    if (from == to) return true;
+    if (const auto it = special.find(from); it != special.end()) return it->second.contains(to);
+    const auto level = [](const std::string& r) {
+        return std::find(rooms.begin(), rooms.end(), r);
+    };
+    return level(to) < level(from);
+}
+
+std::vector<fs::path> sources(const std::vector<std::string>& folders) {
+    std::vector<fs::path> result;
+    for (const auto& folder : folders)
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPAM_SOURCE) / folder))
+            if (const auto e = entry.path().extension(); e == ".hpp" || e == ".cpp")
+                result.push_back(entry.path());
+    return result;
+}
+
+std::vector<std::string> lines_of(const fs::path& path) {
+    std::ifstream in(path);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// The room a file of include/spam or src lives in, empty outside.
+std::string room_of(const fs::path& path) {
+    const auto relative = fs::relative(path, SPAM_SOURCE).generic_string();
+    static const std::regex pattern("^(?:include/spam|src)/([a-z]+)/.*");
+    std::smatch match;
+    return std::regex_match(relative, match, pattern) ? match[1].str() : std::string{};
+}
+
+/// Includes of `lines` that break the direction, for a file of `room`.
+std::vector<std::string> wrong_includes(const std::string& room,
+                                        const std::vector<std::string>& lines) {
+    static const std::regex pattern("^\\s*#\\s*include\\s*[<\"]spam/([a-z]+)/.*");
+    std::vector<std::string> wrong;
+    std::smatch match;
+    for (const auto& line : lines)
+        if (std::regex_match(line, match, pattern) && !allowed(room, match[1]))
+            wrong.push_back(line);
+    return wrong;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(rooms_include_only_rooms_before_them) {
+    int checked = 0;
+    for (const auto& path : sources({"include", "src"})) {
+        const auto room = room_of(path);
+        if (room.empty()) continue;
+        BOOST_TEST((std::find(rooms.begin(), rooms.end(), room) != rooms.end()),
+                   path << " is in no known room");
+        for (const auto& line : wrong_includes(room, lines_of(path)))
+            BOOST_TEST(false, path << ": " << room << " must not know: " << line);
+        ++checked;
+    }
+    BOOST_TEST(checked > 40);
+}
+
+BOOST_AUTO_TEST_CASE(the_direction_check_can_fail) {
+    BOOST_TEST(wrong_includes("core", {"#include <spam/kernel/lucy.hpp>"}).size() == 1U);
+    BOOST_TEST(wrong_includes("integrate", {"#include <spam/rhs/model.hpp>"}).size() == 1U);
+    BOOST_TEST(wrong_includes("material", {"#include \"spam/kernel/lucy.hpp\""}).size() == 1U);
+    BOOST_TEST(wrong_includes("rhs", {"#include <spam/physics/record.hpp>"}).empty());
+}
+
+BOOST_AUTO_TEST_CASE(sundials_is_called_in_two_places) {
+    static const std::regex pattern(
+        "^\\s*#\\s*include\\s*<(sundials|nvector|arkode|cvode|sunmatrix|sunlinsol|sunnonlinsol)/"
+        ".*");
+    for (const auto& path : sources({"include", "src", "problems"})) {
+        const auto relative = fs::relative(path, SPAM_SOURCE).generic_string();
+        if (room_of(path) == "integrate" || relative.find("core/nvector") != std::string::npos)
+            continue;
+        for (const auto& line : lines_of(path))
+            BOOST_TEST(!std::regex_match(line, pattern), relative << ": " << line);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
+    for (const auto& path : sources({"include", "src", "problems", "tests"})) {
+        const auto lines = lines_of(path);
+        BOOST_TEST(
+            (!lines.empty() && lines.front() == "// SPDX-License-Identifier: GPL-3.0-or-later"),
+            path << " lacks its SPDX line");
+    }
+}
+
+BOOST_AUTO_TEST_CASE(files_stay_readable) {
+    for (const auto& path : sources({"include", "src", "problems", "tests"}))
+        BOOST_TEST(lines_of(path).size() <= 350U, path << " is longer than 350 lines");
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/elastic_solid.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <Eigen/Dense>
+
+#include <numbers>
+
+namespace spam::test {
+
+/// Laws that are wrong on purpose: each must make a property fail.
+enum class Mutation {
+    none,
+    full_work,            ///< energy without the factor 1/2
+    work_before_scaling,  ///< energy from the force before torques were balanced
+    without_X,            ///< torque balance that forgets sum m u x v
+    printed_average,      ///< <v> divided by rho_i, as printed, with integrated density
+    printed_gradient,     ///< (v_i - v_j) in grad v, as printed
+    anisotropic,          ///< shear modulus that knows the axes
+    reversed_spin,        ///< rotation of the stress with the wrong sign
+    half_list,            ///< pairs of i with later j only
+    absolute_position     ///< a force that knows where the origin is
+};
+
+/// The equations of smooth particles written straight from the papers as loops over all pairs, with
+/// Eigen, sharing no sum, list or weight function with the library. Slow, simple, and the judge of
+/// the pipeline. Free space.
+template <int Dim>
+class OracleModel final : public Model<Dim> {
+    using V = Point<Dim>;
+    using M = Eigen::Matrix<double, Dim, Dim>;
+
+  public:
+    OracleModel(Particles<Dim> particles, const ElasticSolid& law, const Scheme& scheme,
+                Mutation mutation = Mutation::none)
+        : Model<Dim>(std::move(particles), {}, fields(scheme)),
+          law_(law),
+          scheme_(scheme),
+          mutation_(mutation) {}
+
+    void rates(double, std::span<const double> y, std::span<double> y_dot) override {
+        load(y);
+        transport();
+        const State<Dim> rate(this->layout(), y_dot);
+        Eigen::MatrixXd stress_dot(symmetric_size(Dim), n_);
+        for (int i = 0; i < n_; ++i) {
+            rate.position().col(i) = u_[at(i)];
+            M G = M::Zero();
+            double rho_dot = 0.0;
+            for (int j = 0; j < n_; ++j) {
+                if (skip(i, j)) continue;
+                const V g = gradient(i, j);
+                const double sign = mutation_ == Mutation::printed_gradient ? -1.0 : 1.0;
+                G += sign * m(j) / mean(i, j) * g * (v_[at(j)] - v_[at(i)]).transpose();
+                const bool chain = scheme_.density == Density::chain_rule;
+                const V w = chain ? V(u_[at(i)] - u_[at(j)]) : V(v_[at(i)] - v_[at(j)]);
+                rho_dot += m(j) * w.dot(g);
+            }
+            if (rate.has(Field::density)) rate.density()(0, i) = rho_dot;
+            store_stress(rate, i, stress_rate(G, stress_[at(i)]));
+        }
+        forces(rate);
+    }
+
+    double internal_energy(std::span<const double>) const override { return 0.0; }
+    Promises promises() const override { return scheme_.promises(Dim); }
+    std::string describe() const override { return "oracle"; }
+    std::size_t pairs() const override { return 0; }
+    double reach() const override { return scheme_.range; }
+
+  private:
+    static std::vector<Field> fields(const Scheme& s) {
+        std::vector<Field> f{Field::position, Field::velocity, Field::stress, Field::energy};
+        if (s.density != Density::summed) f.push_back(Field::density);
+        return f;
+    }
+    static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+    double m(int i) const { return this->particles().mass[at(i)]; }
+    bool skip(int i, int j) const { return mutation_ == Mutation::half_list && j < i; }
+
+    double weight(double r) const {
+        const double h = scheme_.range, pi = std::numbers::pi;
+        if (r >= h) return 0.0;
+        const double C = Dim == 1   ? 5.0 / (4.0 * h)
+                         : Dim == 2 ? 5.0 / (pi * h * h)
+                                    : 105.0 / (16.0 * pi * h * h * h);
+        return C * (1.0 + 3.0 * r / h) * std::pow(1.0 - r / h, 3);
+    }
+    V gradient(int i, int j) const {
+        const V r = x_[at(i)] - x_[at(j)];
+        const double h = scheme_.range, d = r.norm();
+        if (d >= h || d == 0.0) return V::Zero();
+        // From w itself: w' = w (3/(h + 3r) - 3/(h - r)).
+        return weight(d) * (3.0 / (h + 3.0 * d) - 3.0 / (h - d)) / d * r;
+    }
+    double mean(int i, int j) const {
+        return scheme_.mean_density == MeanDensityKind::arithmetic
+                   ? 0.5 * (rho_[at(i)] + rho_[at(j)])
+                   : std::sqrt(rho_[at(i)] * rho_[at(j)]);
+    }
+    V force(int i, int j) const {  // of j on i, times nothing: for unit masses
+        const M A =
+            stress_[at(i)] / std::pow(rho_[at(i)], 2) + stress_[at(j)] / std::pow(rho_[at(j)], 2);
+        V f = A * gradient(i, j);
+        if (mutation_ == Mutation::absolute_position) f *= 1.0 + 0.01 * x_[at(i)][0] * x_[at(j)][0];
+        return f;
+    }
+    static double cross(const V& a, const V& b) {
+        if constexpr (Dim == 2) return a[0] * b[1] - a[1] * b[0];
+        return 0.0;
+    }
+
+    void load(std::span<const double> y) {
+        const ConstState<Dim> state(this->layout(), y);
+        n_ = static_cast<int>(this->particles().size());
+        x_.assign(at(n_), V::Zero());
+        v_ = u_ = x_;
+        rho_.assign(at(n_), 0.0);
+        stress_.assign(at(n_), M::Zero());
+        for (int i = 0; i < n_; ++i) {
+            x_[at(i)] = state.position().col(i);
+            v_[at(i)] = state.velocity().col(i);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = 0; b < Dim; ++b)
+                    stress_[at(i)](a, b) =
+                        state.stress()(symmetric_index(Dim, std::min(a, b), std::max(a, b)), i);
+        }
+        for (int i = 0; i < n_; ++i) {
+            if (state.has(Field::density))
+                rho_[at(i)] = state.density()(0, i);
+            else
+                for (int j = 0; j < n_; ++j)
+                    rho_[at(i)] += m(j) * weight((x_[at(i)] - x_[at(j)]).norm());
+        }
+    }
+
+    void transport() {
+        for (int i = 0; i < n_; ++i) {
+            V momentum = V::Zero(), correction = V::Zero();
+            double sum = 0.0;
+            for (int j = 0; j < n_; ++j) {
+                const double mw = m(j) * weight((x_[at(i)] - x_[at(j)]).norm());
+                momentum += mw * v_[at(j)];
+                sum += mw;
+                correction += mw / mean(i, j) * (v_[at(j)] - v_[at(i)]);
+            }
+            u_[at(i)] = v_[at(i)];
+            if (mutation_ == Mutation::printed_average) sum = rho_[at(i)];
+            if (scheme_.transport == Transport::average) u_[at(i)] = momentum / sum;
+            if (scheme_.transport == Transport::monaghan) u_[at(i)] += correction;
+        }
+    }
+
+    M stress_rate(const M& G, const M& s) const {  // G_ab = d v_b / d x_a
+        M rate = law_.lambda * G.trace() * M::Identity() + law_.eta * (G + G.transpose());
+        if (mutation_ == Mutation::anisotropic) rate(0, 0) += 0.1 * law_.eta * G(0, 0);
+        const M W = 0.5 * (G.transpose() - G) * (mutation_ == Mutation::reversed_spin ? -1.0 : 1.0);
+        return rate + W * s - s * W;
+    }
+    void store_stress(const State<Dim>& rate, int i, const M& s) const {
+        for (int a = 0; a < Dim; ++a)
+            for (int b = a; b < Dim; ++b) rate.stress()(symmetric_index(Dim, a, b), i) = s(a, b);
+    }
+
+    /// R of every body, [HHM04] VIII with physics X = sum m u x v.
+    std::vector<double> factors() const {
+        std::vector<double> R;
+        for (int body = 0; body < this->particles().bodies(); ++body) {
+            double P = 0.0, Q = 0.0, X = 0.0;
+            for (int i = 0; i < n_; ++i) {
+                if (this->particles().body[at(i)] != body) continue;
+                if (mutation_ != Mutation::without_X) X += m(i) * cross(u_[at(i)], v_[at(i)]);
+                for (int j = 0; j < n_; ++j) {
+                    const double T = 0.5 * m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
+                    (T > 0.0 ? P : Q) += std::abs(T);
+                }
+            }
+            R.push_back((X + std::sqrt(X * X + 4.0 * P * Q)) / (2.0 * Q));
+        }
+        return R;
+    }
+
+    void forces(const State<Dim>& rate) const {
+        const bool balance = scheme_.angular_momentum == AngularMomentum::torque_pair;
+        const auto R = balance ? factors() : std::vector<double>{};
+        for (int i = 0; i < n_; ++i) {
+            V v_dot = V::Zero();
+            double e_dot = 0.0;
+            for (int j = 0; j < n_; ++j) {
+                if (j == i || skip(i, j)) continue;
+                const V before = force(i, j);
+                V f = before;
+                if constexpr (Dim == 2)
+                    if (balance) {
+                        const V r = x_[at(i)] - x_[at(j)];
+                        const double T = cross(r, f);
+                        const double Ri = R[at(this->particles().body[at(i)])];
+                        const double s = T < 0.0 ? Ri : 1.0 / Ri;
+                        f += (s - 1.0) * T / r.squaredNorm() * V(-r[1], r[0]);
+                    }
+                v_dot += m(j) * f;
+                const V& working = mutation_ == Mutation::work_before_scaling ? before : f;
+                e_dot -= (mutation_ == Mutation::full_work ? 1.0 : 0.5) * m(j) *
+                         working.dot(v_[at(i)] - v_[at(j)]);
+            }
+            rate.velocity().col(i) = v_dot;
+            rate.energy()(0, i) = e_dot;
+        }
+    }
+
+    ElasticSolid law_;
+    Scheme scheme_;
+    Mutation mutation_;
+    int n_ = 0;
+    std::vector<V> x_, v_, u_;
+    std::vector<double> rho_;
+    std::vector<M> stress_;
+};
+
+}  // namespace spam::test

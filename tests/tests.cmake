@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The tests, room by room.
+spam_test(rhs/oracle unit)
+spam_test(rhs/conservation property)
+spam_test(rhs/covariance property)
+spam_test(physics/pair_force property)
+spam_test(physics/scheme unit)
+spam_test(kernel/lucy property GSL::gsl GSL::gslcblas)
+spam_test(material/elastic_solid property)
+spam_test(core/state unit)
+spam_test(neighbors/pair_list property)
+spam_test(neighbors/ordering unit)
+spam_test(rhs/purity property)
+spam_test(rhs/allocation unit)
+spam_test(integrate/methods unit)
+spam_test(diagnostics/measures unit)
+spam_test(drift/hexagon drift)
+spam_test(io/text unit)
+spam_test(style/house_rules style)
+target_compile_definitions(test.style.house_rules PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
+
+find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
+add_test(NAME style.format COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
+                                   -DCLANG_FORMAT=${CLANG_FORMAT}
+                                   -P ${CMAKE_CURRENT_SOURCE_DIR}/style/format.cmake)
+set_tests_properties(style.format PROPERTIES LABELS style)
+if(NOT CLANG_FORMAT)
+  set_tests_properties(style.format PROPERTIES DISABLED TRUE)
+endif()
