@@ -54,14 +54,14 @@ struct SmoothParticleModel<Dim>::Choices {
     using Weight = Lucy<Dim>;
 
     template <class Mean, class Transport>
-    static First first(const Scheme& scheme) {
+    static Sweep first(const Scheme& scheme) {
         if constexpr (Dim == 2)
             if (scheme.angular_momentum == AngularMomentum::torque_pair)
                 return &M::template first_sweep<Weight, Mean, Transport, TorqueSums>;
         return &M::template first_sweep<Weight, Mean, Transport, StressForce<Dim>>;
     }
     template <class Mean>
-    static First first(const Scheme& scheme) {
+    static Sweep first(const Scheme& scheme) {
         switch (scheme.transport) {
             case Transport::plain:
                 return first<Mean, PlainTransport<Dim>>(scheme);
@@ -72,11 +72,11 @@ struct SmoothParticleModel<Dim>::Choices {
         }
         return first<Mean, MonaghanTransport<Dim, Mean>>(scheme);
     }
-    static First first_of(const Scheme& scheme) {
+    static Sweep first_of(const Scheme& scheme) {
         return scheme.mean_density == MeanDensityKind::arithmetic ? first<ArithmeticMean>(scheme)
                                                                   : first<GeometricMean>(scheme);
     }
-    static Second second_of(const Scheme& scheme) {
+    static Sweep second_of(const Scheme& scheme) {
         const bool chain_rule = scheme.density == Density::chain_rule;
         if constexpr (Dim == 2)
             if (scheme.angular_momentum == AngularMomentum::torque_pair)
@@ -88,20 +88,19 @@ struct SmoothParticleModel<Dim>::Choices {
 };
 
 template <int Dim>
-SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles, const ElasticSolid& law,
-                                              const Scheme& scheme, const Box<Dim>& box)
+SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
+                                              const Material<Dim>& material, const Scheme& scheme,
+                                              const Box<Dim>& box)
     : Model<Dim>(std::move(particles), box, fields_of(validated(scheme, Dim))),
-      law_(law),
+      material_(material),
       scheme_(scheme),
       list_(scheme.range, list_skin(scheme.range, box), box) {
-    if (!std::isfinite(law.lambda) || !std::isfinite(law.eta))
-        throw InputError(fmt::format("material: lambda = {}, eta = {} must be finite numbers",
-                                     law.lambda, law.eta));
     first_sweep_ = Choices::first_of(scheme_);
     second_sweep_ = Choices::second_of(scheme_);
     const std::size_t n = this->particles().size();
     records_.resize(n);
     transport_velocity_.resize(n);
+    grad_v_.resize(n);
     position_.resize(Dim, static_cast<Eigen::Index>(n));
     torque_factor_.assign(static_cast<std::size_t>(this->particles().bodies()), 1.0);
     if (second_sweep_ != nullptr) transport_records_.resize(n);
@@ -112,7 +111,7 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles, const El
 }
 
 /// The order that the physics forces: pairs - density if summed - A - everything that needs one
-/// sweep - torque balance per body - what needs u or the balance.
+/// sweep - constitutive law - torque balance per body - what needs u or the balance.
 template <int Dim>
 void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
@@ -120,7 +119,8 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
     if (scheme_.density == Density::summed) sum_density();
     if (!density_is_physical(y_dot)) return;
     form_A(y);
-    (this->*first_sweep_)(y, y_dot);
+    (this->*first_sweep_)(y_dot);
+    material_.stress_rates(grad_v_, {this->layout(), y}, {this->layout(), y_dot});
     if (second_sweep_ == nullptr) return;
     if (scheme_.angular_momentum == AngularMomentum::torque_pair) balance_torques();
     load_transport();
@@ -185,8 +185,7 @@ void SmoothParticleModel<Dim>::form_A(std::span<const double> y) {
 
 template <int Dim>
 template <class Weight, class Mean, class Transport, class Force>
-void SmoothParticleModel<Dim>::first_sweep(std::span<const double> y, std::span<double> y_dot) {
-    const auto stress = ConstState<Dim>(this->layout(), y).stress();
+void SmoothParticleModel<Dim>::first_sweep(std::span<double> y_dot) {
     const State<Dim> rate(this->layout(), y_dot);
     const std::span<const Record<Dim>> records(records_);
     sweep<Dim, VelocityGradient<Dim, Mean>, Continuity, Transport, Force>(
@@ -197,12 +196,7 @@ void SmoothParticleModel<Dim>::first_sweep(std::span<const double> y, std::span<
             transport_velocity_[i] = Transport::velocity(records_[i], transport);
             store<Dim>(rate.position(), i, transport_velocity_[i]);
             if (scheme_.density == Density::continuity) rate.density()(0, c) = continuity.rho_dot;
-            SymTensor<Dim> sigma;
-            for (std::size_t k = 0; k < sigma.c.size(); ++k)
-                sigma.c[k] = stress(static_cast<Eigen::Index>(k), c);
-            const auto sigma_dot = law_.stress_rate(gradient.grad_v, sigma);
-            for (std::size_t k = 0; k < sigma.c.size(); ++k)
-                rate.stress()(static_cast<Eigen::Index>(k), c) = sigma_dot.c[k];
+            grad_v_[i] = gradient.grad_v;
             if constexpr (std::is_same_v<Force, TorqueSums>) {
                 positive_torque_[i] = force.positive;
                 negative_torque_[i] = force.negative;
@@ -291,8 +285,7 @@ std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y)
 
 template <int Dim>
 std::string SmoothParticleModel<Dim>::describe() const {
-    return fmt::format("smooth particles, elastic solid lambda = {:.6g}, eta = {:.6g}: {}",
-                       law_.lambda, law_.eta, scheme_.describe());
+    return fmt::format("smooth particles, {}: {}", material_.describe(), scheme_.describe());
 }
 
 template class SmoothParticleModel<1>;

@@ -7,6 +7,7 @@
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/integrate/driver.hpp>
+#include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/bonded_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>

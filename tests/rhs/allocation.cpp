@@ -3,6 +3,7 @@
 // sanitizers and other C libraries do not allow: there the test only runs the code.
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
+#include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -45,7 +46,7 @@ namespace {
 
 long allocations_of_second_call(int cells, const Scheme& scheme, int threads) {
     set_threads(threads);
-    SmoothParticleModel<2> model(jittered_particles<2>(cells, 61), {0.7, 0.4}, scheme);
+    SmoothParticleModel<2> model(jittered_particles<2>(cells, 61), ElasticSolid{0.7, 0.4}, scheme);
     const auto y = random_state(model, 62);
     std::vector<double> y_dot(y.size());
     model.rates(0.0, y, y_dot);

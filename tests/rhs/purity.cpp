@@ -3,6 +3,7 @@
 // bits; and states without meaning are named.
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
+#include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/bonded_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 

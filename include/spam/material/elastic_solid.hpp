@@ -3,6 +3,8 @@
 
 #include <spam/material/stress_law.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace spam {
@@ -21,6 +23,10 @@ struct ElasticSolid {
     static ElasticSolid triangular_lattice(double kappa = 1.0) {
         const double modulus = std::sqrt(3.0 / 16.0) * kappa;
         return {modulus, modulus};
+    }
+
+    std::string describe() const {
+        return fmt::format("elastic solid, lambda = {:.6g}, eta = {:.6g}", lambda, eta);
     }
 
     template <int Dim, class T>
