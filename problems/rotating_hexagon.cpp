@@ -89,8 +89,21 @@ struct Hexagon {
     std::vector<Sight> sights{};
 };
 
+/// What distinguishes a case in a picture.
+std::string title_of(ModelKind kind, const Scheme& scheme) {
+    if (kind == ModelKind::md) return "molecular dynamics";
+    std::string title = scheme.transport == Transport::plain     ? "SPAM, plain v"
+                        : scheme.transport == Transport::average ? "⟨v⟩"
+                                                                 : "⟨v⟩ Monaghan";
+    if (scheme.density == Density::summed) title += ", summed density";
+    if (scheme.density == Density::chain_rule) title += ", chain rule";
+    if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
+    return title;
+}
+
 Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
-                     const std::string& label, const std::string& title) {
+                     const std::string& label) {
+    const std::string title = title_of(kind, scheme);
     // lattice
     auto particles = make_particles<2>(triangular_hexagon(p.size), 1.0);
     // material and scheme
@@ -105,13 +118,12 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
 /// What a reader of the paper compares first.
 std::vector<Hexagon> comparison(const Parameters& p, Scheme scheme) {
     std::vector<Hexagon> all;
-    all.push_back(make_hexagon(p, ModelKind::md, scheme, "md", "molecular dynamics"));
-    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "plain", "SPAM, plain v"));
+    all.push_back(make_hexagon(p, ModelKind::md, scheme, "md"));
+    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "plain"));
     scheme.transport = Transport::monaghan;
-    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "monaghan", "⟨v⟩ Monaghan"));
+    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "monaghan"));
     scheme.angular_momentum = AngularMomentum::torque_pair;
-    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "monaghan_torque_pair",
-                               "⟨v⟩ Monaghan, pair torque"));
+    all.push_back(make_hexagon(p, ModelKind::spam, scheme, "monaghan_torque_pair"));
     return all;
 }
 
@@ -296,8 +308,7 @@ int main(int argc, char** argv) {
         std::vector<Hexagon> hexagons;
         if (single) {
             const bool md = p.model == ModelKind::md;
-            hexagons.push_back(make_hexagon(p, p.model, session.scheme(), "",
-                                            md ? "molecular dynamics" : "smooth particles"));
+            hexagons.push_back(make_hexagon(p, p.model, session.scheme(), ""));
             if (md)
                 session.leave_out_of_case({"density", "transport", "mean-density",
                                            "angular-momentum", "kernel", "range"});

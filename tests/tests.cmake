@@ -27,3 +27,15 @@ set_tests_properties(style.format PROPERTIES LABELS style)
 if(NOT CLANG_FORMAT)
   set_tests_properties(style.format PROPERTIES DISABLED TRUE)
 endif()
+
+set(readme_flags "${CMAKE_CXX_FLAGS}")
+if(SPAM_SANITIZE)
+  string(APPEND readme_flags " -fsanitize=${SPAM_SANITIZE}")
+elseif(SPAM_COVERAGE)
+  string(APPEND readme_flags " --coverage")
+endif()
+add_test(NAME readme.example COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
+  -DSOURCE=${PROJECT_SOURCE_DIR} -DWORK=${CMAKE_CURRENT_BINARY_DIR}/readme
+  -DCXX=${CMAKE_CXX_COMPILER} "-DFLAGS=${readme_flags}"
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/readme/example.cmake)
+set_tests_properties(readme.example PROPERTIES LABELS problem TIMEOUT 300)

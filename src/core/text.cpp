@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/text.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <numeric>
@@ -33,6 +35,20 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
         candidates.begin(), candidates.end(),
         [word](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
     return it == candidates.end() ? std::string{} : *it;
+}
+
+std::string one_line(std::string_view text) {
+    std::string line;
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '\n')
+            line += "\\n";
+        else if (code < 0x20 || code == 0x7f)
+            line += fmt::format("\\x{:02x}", code);
+        else
+            line += c;
+    }
+    return line;
 }
 
 }  // namespace spam

@@ -54,8 +54,11 @@ double History::relative_drift(std::string_view name) const {
 
 double History::largest_change(std::string_view name) const {
     double change = 0.0;
-    for (const double value : column(name))
-        change = std::max(change, std::abs(value - first(name)));
+    for (const double value : column(name)) {
+        const double here = std::abs(value - first(name));
+        if (!(here <= change)) change = here;  // NaN stays
+        if (std::isnan(change)) break;
+    }
     return change;
 }
 

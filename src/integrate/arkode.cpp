@@ -124,7 +124,9 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     ++me.statistics_.rhs_evaluations;
     try {
         me.ode_.rates(t, entries(y), entries(y_dot));
-        return 0;  // NaN rates make an adaptive step shrink; a positive return would be fatal
+        // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
+        // ends here, before later stages cover the first reason by their own.
+        return me.dt_ && !me.ode_.failure().empty() ? -1 : 0;
     } catch (...) {
         me.error_ = std::current_exception();
         return -1;

@@ -28,6 +28,7 @@ class Once {
 
 bool DueTimes::reached(double t, double slack) {
     if (t < next() - slack) return false;
+    k_ = std::max(k_ + 1, static_cast<std::size_t>(std::min(1e18, (t - t0_ + slack) / every_)));
     while (t >= next() - slack) ++k_;
     return true;
 }

@@ -18,6 +18,7 @@ extern "C" void remember_signal(int signal) {
 InterruptWatch::InterruptWatch() {
     std::signal(SIGINT, remember_signal);
     std::signal(SIGTERM, remember_signal);
+    std::signal(SIGPIPE, SIG_IGN);  // whoever reads the output may leave; the run goes on
 }
 
 InterruptWatch::~InterruptWatch() {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 namespace spam {
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& names)
@@ -20,9 +22,18 @@ void CsvWriter::add(std::span<const double> row) {
     flush();
 }
 
+/// A row that did not fit on the disk is taken back, so that the table ends with a whole one.
 void CsvWriter::flush() {
     out_.flush();
-    if (!out_) throw OutputError(fmt::format("cannot write '{}' (disk full?)", path_.string()));
+    if (out_) {
+        whole_ = out_.tellp();
+        return;
+    }
+    out_.clear();
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(whole_), ignored);
+    throw OutputError(fmt::format("cannot write '{}' (disk full?)", path_.string()));
 }
 
 }  // namespace spam

@@ -30,7 +30,7 @@ std::string escaped(std::string_view text) {
 /// Runs gnuplot on <name>.gp inside the folder; false when it is missing or fails.
 bool run_gnuplot(const RunFolder& folder, std::string_view name) {
     const std::string script = fmt::format("{}.gp", name);
-    std::string command = "cd \"$1\" && exec gnuplot \"$2\" >/dev/null 2>\"$2.err\"";
+    std::string command = "cd -- \"$1\" && exec gnuplot \"$2\" >/dev/null 2>\"$2.err\"";
     std::string shell = "sh", flag = "-c", self = "plot", path = folder.path().string(),
                 file = script;
     char* argv[] = {shell.data(), flag.data(), command.data(), self.data(),
@@ -160,7 +160,6 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         }
     }
     if (!(high > low)) high = low + 1.0;
-    reach *= 1.16;  // room for the titles
     const double side = 340.0, bar = 90.0, top = 50.0;
     const double width = side * static_cast<double>(columns) + bar;
     const double height = side * static_cast<double>(rows) + top;
@@ -178,7 +177,8 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         "'#fde725')\n"
         "set cbrange [{:g}:{:g}]\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
         "unset tics\nunset key\nset border lc rgb '#bbbbbb'\nset style fill solid 1 noborder\n",
-        escaped(title), low, high, -reach, reach, -reach, reach);
+        escaped(title), low, high, -1.1 * reach, 1.1 * reach, -1.02 * reach,
+        1.18 * reach);  // titles on top
     int block = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const auto& panel = panels[k];

@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 
 namespace spam {
 
@@ -34,6 +37,7 @@ Allowed between(double least, double most) {
 /// One option. Values travel as text: what the command line holds, and what a TOML value prints as.
 struct Options::Entry {
     std::string name, help, group, type;
+    std::string allowed;                          ///< completes "must be ..."
     std::function<void(const std::string&)> set;  ///< throws InputError
     std::function<std::string()> get;             ///< as a TOML value, empty when unset
     bool is_flag = false;
@@ -62,6 +66,16 @@ int parse_integer(const std::string& name, const std::string& text, const Allowe
         throw InputError(
             fmt::format("{}: '{}' must be a whole number, {}", name, text, allowed.words));
     return value;
+}
+
+/// The whole of a file of options; throws InputError when there is nothing to read.
+std::string text_of(const std::string& path) {
+    if (path.empty()) throw InputError("config: must not be empty; give the name of a TOML file");
+    std::error_code error;
+    std::ifstream in(path, std::ios::binary);
+    if (!in || std::filesystem::is_directory(path, error))
+        throw InputError(fmt::format("config: '{}' is not a file that can be read", path));
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string toml_string(const std::string& text) {
@@ -99,6 +113,7 @@ Options::Entry& Options::add(std::string name, std::string help) {
 void Options::number(std::string name, double& target, std::string help, Allowed allowed) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "NUMBER";
+    entry.allowed = allowed.words;
     entry.set = [&entry, &target, allowed](const std::string& text) {
         target = parse_number(entry.name, text, allowed);
     };
@@ -109,6 +124,7 @@ void Options::number(std::string name, std::optional<double>& target, std::strin
                      Allowed allowed) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "NUMBER";
+    entry.allowed = allowed.words;
     entry.set = [&entry, &target, allowed](const std::string& text) {
         target = parse_number(entry.name, text, allowed);
     };
@@ -118,6 +134,7 @@ void Options::number(std::string name, std::optional<double>& target, std::strin
 void Options::integer(std::string name, int& target, std::string help, Allowed allowed) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "INTEGER";
+    entry.allowed = "a whole number, " + allowed.words;
     entry.set = [&entry, &target, allowed](const std::string& text) {
         target = parse_integer(entry.name, text, allowed);
     };
@@ -127,6 +144,7 @@ void Options::integer(std::string name, int& target, std::string help, Allowed a
 void Options::text(std::string name, std::string& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "TEXT";
+    entry.allowed = "a text in quotes";
     entry.is_text = true;
     entry.set = [&entry, &target](const std::string& text) {
         if (text.empty()) throw InputError(fmt::format("{}: must not be empty", entry.name));
@@ -138,6 +156,7 @@ void Options::text(std::string name, std::string& target, std::string help) {
 void Options::flag(std::string name, bool& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.is_flag = true;
+    entry.allowed = "true or false";
     entry.set = [&entry, &target](const std::string& text) {
         if (text != "true" && text != "false")
             throw InputError(fmt::format("{}: '{}' must be true or false", entry.name, text));
@@ -150,6 +169,7 @@ void Options::choice(std::string name, std::vector<std::string> names, std::stri
                      std::function<void(std::size_t)> set, std::function<std::size_t()> get) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = fmt::format("{}", fmt::join(names, "|"));
+    entry.allowed = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
     entry.is_text = true;
     entry.set = [&entry, names, set = std::move(set)](const std::string& text) {
         const auto it = std::find(names.begin(), names.end(), text);
@@ -193,11 +213,12 @@ bool Options::parse(int argc, const char* const* argv) {
         }
         registered.push_back(option->group(entry.group));
     }
-    app.add_option("--config", config_, "read options from a TOML file")->type_name("FILE");
+    const auto* config =
+        app.add_option("--config", config_, "read options from a TOML file")->type_name("FILE");
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", app.help());
+        std::fputs(app.help().c_str(), stdout);
         return false;
     } catch (const CLI::ParseError& error) {
         std::string message = error.what();
@@ -212,10 +233,19 @@ bool Options::parse(int argc, const char* const* argv) {
         throw InputError(fmt::format("unknown option '{}'; did you mean --{}? See --help", word,
                                      nearest(bare.substr(0, bare.find('=')), known)));
     }
-    if (!config_.empty()) read_config(config_);
+    const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
+        if (value.starts_with("--"))
+            throw InputError(
+                fmt::format("{}: '{}' is an option, not a value; the value of --{} is "
+                            "missing",
+                            name, value, name));
+    };
+    refuse_option_as_value("config", config_);
+    if (config->count() > 0) read_config(config_);
     for (std::size_t k = 0; k < entries_.size(); ++k) {
         if (registered[k]->count() == 0) continue;
-        entries_[k]->set(entries_[k]->is_flag ? "true" : raw[k]);
+        refuse_option_as_value(entries_[k]->name, raw[k]);
+        entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
         entries_[k]->given = true;
     }
     return true;
@@ -224,7 +254,7 @@ bool Options::parse(int argc, const char* const* argv) {
 void Options::read_config(const std::string& path) {
     toml::table table;
     try {
-        table = toml::parse_file(path);
+        table = toml::parse(text_of(path), path);
     } catch (const toml::parse_error& error) {
         const auto& where = error.source().begin;
         throw InputError(fmt::format("config: {} line {}: {}", path, where.line,
@@ -254,9 +284,13 @@ void Options::read_config(const std::string& path) {
             text = b->get() ? "true" : "false";
             fits = entry.is_flag;
         }
-        if (!fits)
-            throw InputError(fmt::format("config: {} line {}: {} must be {}", path, line, name,
-                                         entry.is_flag ? "true or false" : entry.type));
+        if (!fits) {
+            std::ostringstream value;  // as TOML writes it
+            node.visit([&](const auto& v) { value << v; });
+            if (node.is_string()) value.str(toml_string(text));
+            throw InputError(fmt::format("config: {} line {}: {}: {} must be {}", path, line, name,
+                                         value.str(), entry.allowed));
+        }
         try {
             entry.set(text);
         } catch (const InputError& error) {

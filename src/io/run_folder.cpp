@@ -33,6 +33,15 @@ RunFolder::RunFolder(const fs::path& path, bool force) : path_(path) {
     const auto status = fs::status(path_, error);
     if (fs::exists(status)) {
         const bool usable = fs::is_directory(status) && fs::is_empty(path_, error) && !error;
+        if (!fs::is_directory(status))
+            throw InputError(
+                fmt::format("out: '{}' is not a folder; choose another --out", path_.string()));
+        // --force is for results of earlier runs, not for a home or a thesis named by mistake.
+        if (!usable && !fs::exists(path_ / "run.log", error))
+            throw InputError(
+                fmt::format("out: '{}' is not empty and holds no results of a run (no run.log), so "
+                            "that even --force leaves it alone; choose another --out",
+                            path_.string()));
         if (!usable && !force)
             throw InputError(fmt::format(
                 "out: '{}' exists; add --force to move it aside, or choose another --out",
@@ -68,8 +77,10 @@ void RunFolder::write(std::string_view name, std::string_view contents) const {
     out.close();
     std::error_code error;
     if (out) fs::rename(temporary, target, error);
-    if (!out || error)
+    if (!out || error) {
+        fs::remove(temporary, error);
         throw OutputError(fmt::format("cannot write '{}' (disk full?)", target.string()));
+    }
 }
 
 }  // namespace spam

@@ -13,6 +13,12 @@ namespace spam {
 
 namespace {
 
+/// Prints and forgets: a reader that has left or a full disk behind it must not end a run.
+void print(std::FILE* stream, std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stream);
+    std::fflush(stream);
+}
+
 /// Where lines after the first begin: under the second column of "key      text", else at 4.
 std::size_t hanging_indent(std::string_view text) {
     const std::size_t gap = text.find("  ");
@@ -20,10 +26,17 @@ std::size_t hanging_indent(std::string_view text) {
     return gap != std::string_view::npos && word != std::string_view::npos && word <= 16 ? word : 4;
 }
 
+/// As many of the fields of `text`, separated by two spaces, as fit into `width` columns.
+std::string_view whole_fields(std::string_view text, std::size_t width) {
+    if (text.size() <= width) return text;
+    const std::size_t gap = text.rfind("  ", width);
+    return text.substr(0, gap == std::string_view::npos || gap == 0 ? width : gap);
+}
+
 }  // namespace
 
 std::string wrap(std::string_view text, std::size_t width) {
-    const std::size_t indent = hanging_indent(text);
+    const std::size_t indent = std::min(hanging_indent(text), width / 4);
     std::string out;
     std::size_t column = 0;
     std::size_t pos = 0;
@@ -34,6 +47,14 @@ std::string wrap(std::string_view text, std::size_t width) {
         if (column > indent && column + piece.size() > width) {
             piece = text.substr(word, end - word);
             out += '\n' + std::string(indent, ' ');
+            column = indent;
+        }
+        while (column + piece.size() > width) {  // a word longer than a line
+            std::size_t room = width > column ? width - column : 0;
+            while (room > 0 && (static_cast<unsigned char>(piece[room]) & 0xc0) == 0x80) --room;
+            out += piece.substr(0, room);
+            out += '\n' + std::string(indent, ' ');
+            piece.remove_prefix(room);
             column = indent;
         }
         out += piece;
@@ -72,15 +93,15 @@ void Terminal::say(std::string_view text) {
     std::size_t pos = 0;
     while (pos <= text.size()) {
         const std::size_t end = std::min(text.find('\n', pos), text.size());
-        fmt::print("{}\n", wrap(text.substr(pos, end - pos), width()));
+        print(stdout, wrap(text.substr(pos, end - pos), width()) + '\n');
         pos = end + 1;
     }
-    std::fflush(stdout);
 }
 
 void Terminal::warn(std::string_view text) {
     end_progress();
-    fmt::print(stderr, "{}\n", text);
+    const bool on_terminal = is_terminal_ && isatty(STDERR_FILENO) == 1;
+    print(stderr, (on_terminal ? wrap(text, width()) : std::string(text)) + '\n');
     log(text);
 }
 
@@ -94,14 +115,12 @@ void Terminal::progress(double fraction, std::string_view text) {
         while (fraction >= 0.1 * next_tenth_) ++next_tenth_;
         log(text);
         if (!is_terminal_ && !quiet_) {
-            fmt::print("{}\n", text);
-            std::fflush(stdout);
+            print(stdout, std::string(text) + '\n');
         }
     }
     if (!is_terminal_ || quiet_) return;
     drawn_ = std::chrono::steady_clock::now();
-    fmt::print("\r\x1b[K{}", text.substr(0, std::min(text.size(), width() - 1)));
-    std::fflush(stdout);
+    print(stdout, fmt::format("\r\x1b[K{}", whole_fields(text, width() - 1)));
     line_open_ = true;
 }
 
@@ -109,8 +128,7 @@ void Terminal::begin_progress() { next_tenth_ = 1; }
 
 void Terminal::end_progress() {
     if (!line_open_) return;
-    fmt::print("\r\x1b[K");
-    std::fflush(stdout);
+    print(stdout, "\r\x1b[K");
     line_open_ = false;
 }
 

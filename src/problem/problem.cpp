@@ -2,12 +2,26 @@
 #include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/text.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 namespace spam {
+namespace {
+
+/// Started with a closed standard descriptor, the next file opened would take its number and
+/// receive what is printed.
+void keep_standard_descriptors() {
+    for (int fd = 0; fd <= 2; ++fd)
+        if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDWR) < 0) std::abort();
+}
+
+}  // namespace
 
 Problem::Problem(std::string name, std::string summary, double default_dt)
     : name_(std::move(name)),
@@ -100,9 +114,11 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     std::string command = name_;
     for (int k = 1; k < argc; ++k) command += fmt::format(" {}", argv[k]);
     const auto complain = [&](const std::exception& error, int status) {
-        fmt::print(stderr, "{}: {}\n", name_, error.what());
+        // fputs, not fmt::print: nothing to throw when standard error is closed.
+        std::fputs(fmt::format("{}: {}\n", name_, one_line(error.what())).c_str(), stderr);
         return status;
     };
+    keep_standard_descriptors();
     const InterruptWatch watch;
     try {
         if (!options_.parse(argc, argv)) return 0;
@@ -123,6 +139,8 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         return complain(error, 4);
     } catch (const std::bad_alloc&) {
         return complain(InputError("not enough memory for this many particles"), 2);
+    } catch (const std::exception& error) {
+        return complain(error, 4);
     }
 }
 

@@ -58,7 +58,9 @@ void Session::check_promises(const RunRecord& record, const std::string& prefix)
 }
 
 double Session::promise_limit() const {
-    return integrator_.adaptive() ? std::max(1e-12, 1e3 * integrator_.rtol) : 1e-6;
+    return integrator_.adaptive()
+               ? std::max(1e-12, 1e3 * std::max(integrator_.rtol, integrator_.atol))
+               : 1e-6;
 }
 
 void Session::note_drawn(bool drawn) {
@@ -70,7 +72,7 @@ void Session::note_drawn(bool drawn) {
 }
 
 void Session::report(const RunRecord& record) {
-    terminal_.say(fmt::format("{:<18}{:<21}{:<11}", "invariant", "promise", "change"));
+    terminal_.say(fmt::format("{:<18}{:<21}{}", "invariant", "promise", "change"));
     for (const Drift& drift : record.drifts)
         terminal_.say(fmt::format("{:<18}{:<21}{:<11.1e}{}", drift.name, to_string(drift.promise),
                                   drift.change,
@@ -86,7 +88,7 @@ void Session::report(const RunRecord& record) {
 int Session::finish() {
     if (!folder_) return 0;
     write_results(*folder_, checks_);
-    if (statistics_.size() > 1) {
+    if (statistics_.size() > 1 || !std::filesystem::exists(*folder_ / "statistics.json")) {
         RunStatistics total = statistics_.front();
         for (std::size_t k = 1; k < statistics_.size(); ++k) {
             total.steps += statistics_[k].steps;

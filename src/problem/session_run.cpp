@@ -17,6 +17,20 @@
 namespace spam {
 namespace {
 
+/// "_x", "_xy": which component of a field, nothing for scalars.
+template <int Dim>
+std::string component_name(Field field, std::size_t component) {
+    const std::size_t components = FieldLayout<Dim>::components(field);
+    if (components == 1 && Dim > 1) return {};
+    const std::string axes = "xyz";
+    if (field != Field::stress) return {'_', axes[component]};
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b)
+            if (static_cast<std::size_t>(symmetric_index(Dim, a, b)) == component)
+                return {'_', axes[static_cast<std::size_t>(a)], axes[static_cast<std::size_t>(b)]};
+    return {};
+}
+
 template <int Dim>
 Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
     Ode ode;
@@ -27,7 +41,8 @@ Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
     ode.failure = [&model] { return model.failure(); };
     ode.entry_name = [&model](std::size_t k) {
         const auto entry = model.layout().entry(k);
-        return fmt::format("{}[{}] of particle {}", field_name(entry.field), entry.component,
+        return fmt::format("{}{} of particle {}", field_name(entry.field),
+                           component_name<Dim>(entry.field, entry.component),
                            model.particles().id[entry.particle]);
     };
     ode.absolute_tolerance.resize(model.layout().size());
@@ -82,6 +97,16 @@ void Session::settle_plan(Plan<Dim>& plan) {
         if (!given) given = interval > 0.0 ? interval : plan.t_end / parts;
         interval = *given;
     };
+    // Times closer than this would not be told apart, or never be reached.
+    const auto limit = [&](const char* name, double interval, const char* what) {
+        if (!(plan.t_end / interval <= 1e9))
+            throw InputError(
+                fmt::format("{}: {} would take {:.0e} {} to t = {:g}; choose a larger one", name,
+                            interval, plan.t_end / interval, what, plan.t_end));
+    };
+    if (integrator_.dt) limit("dt", *integrator_.dt, "steps");
+    if (common.output_every) limit("output-every", *common.output_every, "rows");
+    if (common.snapshot_every) limit("snapshot-every", *common.snapshot_every, "files");
     settle(common.output_every, plan.output_every, 240.0);
     settle(common.snapshot_every, plan.snapshot_every, 12.0);
 }
@@ -189,6 +214,14 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
                                   100.0 * fraction, t, duration(seconds() * (1.0 / fraction - 1.0)),
                                   drifts, s.last_step, s.rejected_steps));
     };
+    const auto complete_statistics = [&] {
+        const auto& s = integrator->statistics();
+        record.statistics.t_end = integrator->t();
+        record.statistics.steps = s.steps;
+        record.statistics.rejected_steps = s.rejected_steps;
+        record.statistics.rhs_evaluations = s.rhs_evaluations;
+        record.statistics.wall_seconds = seconds();
+    };
     terminal_.begin_progress();
     try {
         const int signal =
@@ -198,16 +231,18 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     } catch (const GuardStop& stop) {
         record.statistics.stopped = stop.what();
         if (guard_reason_.empty()) guard_reason_ = stop.what();
+    } catch (const OutputError& error) {
+        record.statistics.stopped = error.what();
+        complete_statistics();
+        try {  // there may be room for this much
+            write_statistics(folder, record.statistics);
+        } catch (const OutputError&) {
+        }
+        throw;
     }
+    complete_statistics();
     terminal_.end_progress();
     if (!record.complete) terminal_.say(fmt::format("stopped     {}", record.statistics.stopped));
-
-    const auto& s = integrator->statistics();
-    record.statistics.t_end = integrator->t();
-    record.statistics.steps = s.steps;
-    record.statistics.rejected_steps = s.rejected_steps;
-    record.statistics.rhs_evaluations = s.rhs_evaluations;
-    record.statistics.wall_seconds = seconds();
     write_statistics(folder, record.statistics);
     statistics_.push_back(record.statistics);
     record.history = recorder.history();

@@ -20,6 +20,7 @@ class CsvWriter {
     void flush();
     std::filesystem::path path_;
     std::ofstream out_;
+    std::streamoff whole_ = 0;  ///< bytes of whole rows on disk
 };
 
 }  // namespace spam

@@ -20,6 +20,9 @@ std::string wrap(std::string_view text, std::size_t width);
 class Terminal {
   public:
     explicit Terminal(bool quiet);
+    ~Terminal() { end_progress(); }
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
 
     /// Starts a log file; throws OutputError when it cannot be written.
     void log_to(const std::filesystem::path& path);

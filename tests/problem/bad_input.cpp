@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whatever is wrong with the input ends before anything is computed: exit status 2, one line on
+// standard error that names what, where, the allowed values and the fix; nothing else happens.
+#include "support/process.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+struct Bad {
+    Words arguments;
+    Words says;          ///< what the line must contain
+    std::string toml{};  ///< written to case.toml and given with --config, if not empty
+};
+
+Bad file(std::string toml, Words says) { return {{}, std::move(says), std::move(toml)}; }
+
+/// A folder with things that must survive.
+void furnish(const Scratch& folder, const Bad& bad) {
+    folder.write("file", "mine");
+    folder.write("full/keep", "mine");
+    folder.write("binary", std::string("\x7f\x45\x4c\x46\x00\xff\xfe\n\x01", 9));
+    if (!bad.toml.empty()) folder.write("case.toml", bad.toml);
+}
+
+void check_refused(const Bad& bad) {
+    const Scratch folder;
+    furnish(folder, bad);
+    const auto before = folder.listing();
+    // --smoke: should the case be accepted, at least it ends soon.
+    Words arguments{"--smoke", "--no-plots"};
+    if (!bad.toml.empty()) arguments.insert(arguments.end(), {"--config", "case.toml"});
+    arguments.insert(arguments.end(), bad.arguments.begin(), bad.arguments.end());
+    const Outcome outcome =
+        Child(problem("rotating_hexagon", arguments), {folder.path()}).finish(Child::Seconds(20));
+
+    std::string shown = bad.toml;
+    for (const auto& word : bad.arguments) shown.append(" [").append(word, 0, 80).append("]");
+    BOOST_TEST_CONTEXT(shown << "\n" << outcome.err) {
+        BOOST_TEST(outcome.status == 2);
+        if (outcome.status != 2) return;  // the rest would only repeat it
+        BOOST_TEST(outcome.out == "");
+        BOOST_TEST(outcome.err.starts_with("rotating_hexagon: "));
+        BOOST_TEST(outcome.err.ends_with("\n"));
+        BOOST_TEST(std::count_if(outcome.err.begin(), outcome.err.end(), [](unsigned char c) {
+                       return c < 0x20;
+                   }) == 1);  // the end of the one line
+        for (const auto& word : bad.says)
+            BOOST_TEST(outcome.err.find(word) != std::string::npos, "no '" << word << "'");
+        BOOST_TEST((folder.listing() == before));
+    }
+}
+
+void check_all(const std::vector<Bad>& table) {
+    for (const Bad& bad : table) check_refused(bad);
+}
+
+const std::string dormand = "arkode:DORMAND_PRINCE_7_4_5";
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
+    check_all({
+        {{"--sped", "1"}, {"--sped", "--speed"}},
+        {{"--turn=2"}, {"--turn", "--turns"}},
+        {{"--Size", "4"}, {"--Size", "--size"}},
+        {{"-q"}, {"-q"}},
+        {{"stray"}, {"stray"}},
+        {{"--quiet", "3"}, {"3"}},
+        {{"--si\nze"}, {"--size"}},
+        {{"--transport", "monagan"}, {"transport", "monagan", "monaghan", "plain"}},
+        {{"--model", "MD"}, {"model", "MD", "md"}},
+        {{"--integrator", "RK4"}, {"integrator", "RK4", "rk4", "arkode:"}},
+        {{"--integrator", "arkode:DORMAND_PRINCE"}, {"DORMAND_PRINCE", "DORMAND_PRINCE_7_4_5"}},
+        {{"--integrator", "arkode:ARKODE_ERK_NONE"}, {"integrator", "ARKODE_ERK_NONE"}},
+        {{"--integrator", "arkode:"}, {"integrator", "DORMAND_PRINCE_7_4_5"}},
+        {{"--integrator", "a\nb"}, {"integrator"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
+    check_all({
+        {{"--restart", "checkpoint_0001.h5"}, {"--restart"}},
+        {{"--viscosity", "0.1"}, {"--viscosity"}},
+        {{"--closest-approach", "0.5"}, {"--closest-approach"}},
+        {{"--kernel", "monaghan"}, {"kernel", "monaghan", "lucy"}},
+        {{"--kernel", "w4"}, {"kernel", "w4", "lucy"}},
+        {{"--angular-momentum", "gauss"}, {"angular-momentum", "gauss", "torque_pair"}},
+        {{"--angular-momentum", "torque_particle"}, {"torque_particle", "torque_pair"}},
+        {{"--integrator", "gsl:rk8pd"}, {"integrator", "gsl:rk8pd", "rk4"}},
+        {{"--integrator", "cvode:adams"}, {"integrator", "cvode:adams", "rk4"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(values_out_of_range) {
+    check_all({
+        {{"--range", "-1"}, {"range", "-1", "above 0"}},
+        {{"--range", "0"}, {"range", "0", "above 0"}},
+        {{"--range", "nan"}, {"range", "nan", "above 0"}},
+        {{"--range", "inf"}, {"range", "inf", "above 0"}},
+        {{"--range", "1e400"}, {"range", "1e400"}},
+        {{"--range", ""}, {"range", "above 0"}},
+        {{"--range", "three"}, {"range", "three"}},
+        {{"--range", "3,5"}, {"range", "3,5"}},
+        {{"--range", "3x"}, {"range", "3x"}},
+        {{"--dt", "0"}, {"dt", "0", "above 0"}},
+        {{"--dt=-0.1"}, {"dt", "-0.1", "above 0"}},
+        {{"--dt", "1e-300"}, {"dt", "1e-300", "steps"}},  // t + dt == t: it would never end
+        {{"--turns", "1e300"}, {"dt", "steps"}},
+        {{"--output-every", "1e-300", "--integrator", dormand}, {"output-every", "1e-300"}},
+        {{"--speed", "0"}, {"speed", "0", "above 0"}},
+        {{"--turns", "-1"}, {"turns", "-1"}},
+        {{"--t-end", "0"}, {"t-end", "0"}},
+        {{"--output-every", "0"}, {"output-every", "0"}},
+        {{"--snapshot-every", "-2"}, {"snapshot-every", "-2"}},
+        {{"--size", "-1"}, {"size", "-1", "between 1 and 2000"}},
+        {{"--size", "0"}, {"size", "0", "between 1 and 2000"}},
+        {{"--size", "2.5"}, {"size", "2.5", "whole number"}},
+        {{"--size", "2001"}, {"size", "2001", "between 1 and 2000"}},
+        {{"--size", "99999999999999999999"}, {"size", "between 1 and 2000"}},
+        {{"--size", "4\n5"}, {"size", "whole number"}},
+        {{"--threads", "0"}, {"threads", "0", "between 1 and"}},
+        {{"--rtol", "1", "--integrator", dormand}, {"rtol", "1", "below 1"}},
+        {{"--quiet=maybe"}, {"quiet", "maybe", "true or false"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(options_without_or_with_too_many_values) {
+    check_all({
+        {{"--size", "3", "--size", "4"}, {"--size"}},
+        {{"--dt", "--transport"}, {"dt"}},
+        {{"--out"}, {"--out"}},
+        {{"--out", "--force"}, {"out", "--force"}},
+        {{"--out", ""}, {"out", "empty"}},
+        {{"--out="}, {"--out"}},
+        {{"--config", ""}, {"config", "empty"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
+    check_all({
+        {{"--rtol", "1e-6"}, {"rtol", "rk4", "--dt"}},
+        {{"--atol", "1e-6", "--integrator", "rk4"}, {"atol", "rk4"}},
+        {{"--dt", "0.1", "--rtol", "1e-6", "--integrator", dormand}, {"rtol", "--dt", "leave"}},
+        {{"--integrator", "arkode:KNOTH_WOLKE_3_3"}, {"integrator", "KNOTH_WOLKE", "--dt"}},
+        {{"--density", "chain_rule"}, {"chain_rule", "--transport"}},
+        {{"--density", "chain_rule", "--transport", "plain"}, {"chain_rule", "--transport"}},
+        {{"--turns", "1", "--t-end", "5"}, {"turns", "t-end", "leave"}},
+        {{"--model", "md", "--density", "summed"}, {"density", "--model md"}},
+        {{"--model", "md", "--transport", "plain"}, {"transport", "--model md"}},
+        {{"--model", "md", "--angular-momentum", "torque_pair"},
+         {"angular-momentum", "--model md"}},
+        {{"--model", "md", "--range", "3"}, {"range", "--model md"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(result_folders_that_cannot_be) {
+    const std::string long_name(300, 'x');
+    check_all({
+        {{"--out", "file"}, {"out", "file"}},
+        {{"--out", "file", "--force"}, {"out", "file", "not a folder"}},
+        {{"--out", "file/below"}, {"out", "file/below", "Not a directory"}},
+        {{"--out", "full"}, {"out", "full", "--force"}},
+        {{"--out", "full/"}, {"out", "full", "--force"}},
+        {{"--out", "."}, {"out", "--force"}},
+        {{"--out", ".", "--force"}, {"out"}},
+        {{"--out", "full/..", "--force"}, {"out"}},
+        {{"--out", "/proc/spam"}, {"out", "/proc/spam"}},
+        {{"--out", long_name}, {"out", "File name too long"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(files_of_options) {
+    check_all({
+        {{"--config", "nosuch.toml"}, {"config", "nosuch.toml"}},
+        {{"--config", "full"}, {"config", "full"}},
+        {{"--config", "binary"}, {"config", "binary"}},
+        {{"--config"}, {"config"}},
+        file("rnge = 3\n", {"case.toml line 1", "rnge", "'range'"}),
+        file("size = 3\n\ntransprot = \"plain\"\n", {"line 3", "transprot", "'transport'"}),
+        file("\"a\\nb\" = 1\n", {"line 1", "unknown key"}),
+        file("range = nan\n", {"line 1", "range", "nan", "above 0"}),
+        file("range = -inf\n", {"line 1", "range", "-inf", "above 0"}),
+        file("range = \"3\"\n", {"line 1", "range", "\"3\"", "above 0"}),
+        file("size = 2.5\n", {"line 1", "size", "2.5", "between 1 and 2000"}),
+        file("size = true\n", {"line 1", "size", "true", "between 1 and 2000"}),
+        file("size = [3, 4]\n", {"line 1", "size", "between 1 and 2000"}),
+        file("size = {a = 1}\n", {"line 1", "size", "between 1 and 2000"}),
+        file("dt = 1979-05-27\n", {"line 1", "dt", "above 0"}),
+        file("transport = 3\n", {"line 1", "transport", "3", "plain"}),
+        file("transport = \"avarage\"\n", {"line 1", "transport", "avarage", "average"}),
+        file("integrator = \"\"\n", {"line 1", "integrator", "empty"}),
+        file("force = 1\n", {"line 1", "force", "1", "true or false"}),
+        file("quiet = \"true\"\n", {"line 1", "quiet", "true or false"}),
+        file("[scheme]\ndensity = \"summed\"\n", {"line 1", "scheme"}),
+        file("size = 3\nsize = 4\n", {"line 2", "size"}),
+        file("size = 3\nrange 4\n", {"line 2", "="}),
+        file("size = 3\r\nrange = -4\r\n", {"line 2", "range", "-4"}),
+        file("\xef\xbb\xbfrange = -4\n", {"line 1", "range", "-4"}),
+        file("range = 3 # \xff\n", {"line 1", "utf-8"}),
+        file("config = \"other.toml\"\n", {"line 1", "config"}),
+    });
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_file_has_no_lines) {
+    const Scratch folder;
+    const auto outcome =
+        run(problem("rotating_hexagon", {"--config", "nosuch.toml"}), {folder.path()});
+    BOOST_TEST(outcome.err.find("line 0") == std::string::npos, outcome.err);
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The files of a run: all there, right, and enough to run the same case again, bit for bit.
+#include "problem/result_files.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <numbers>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+/// Runs in a folder of its own and must succeed; the results are in out/.
+struct Run {
+    Scratch folder;
+    explicit Run(Words arguments) { again("out", std::move(arguments)); }
+    void again(const std::string& out, Words arguments) {
+        arguments.insert(arguments.end(), {"--out", out, "--no-plots"});
+        const Outcome outcome = run(problem("rotating_hexagon", arguments), {folder.path()});
+        BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.out << outcome.err);
+        BOOST_TEST(outcome.err == "");
+    }
+    std::filesystem::path operator/(const std::string& name) const { return folder / "out" / name; }
+};
+
+std::string header(const Csv& csv) {
+    std::string line;
+    for (const auto& name : csv.names) line.append(line.empty() ? "" : ",").append(name);
+    return line;
+}
+
+/// What holds for every invariants.csv; returns the last time.
+double check_invariants(const std::filesystem::path& file) {
+    const Csv csv(file);
+    BOOST_TEST(header(csv).starts_with(
+        "t,dt,mass,momentum_x,momentum_y,angular_momentum,kinetic,internal,energy,"));
+    const auto t = csv.column("t"), kinetic = csv.column("kinetic"),
+               internal = csv.column("internal"), energy = csv.column("energy");
+    BOOST_TEST(t.front() == 0.0);
+    for (std::size_t k = 1; k < t.size(); ++k) BOOST_TEST(t[k] > t[k - 1]);
+    for (std::size_t k = 0; k < t.size(); ++k)
+        BOOST_TEST(energy[k] == kinetic[k] + internal[k], boost::test_tools::tolerance(1e-15));
+    for (const auto& row : csv.cells)
+        for (const auto& cell : row) {
+            char exact[40];
+            std::snprintf(exact, sizeof exact, "%.17g", Csv::number(cell));
+            BOOST_TEST(cell == exact);
+        }
+    return t.back();
+}
+
+void check_statistics(const nlohmann::json& statistics) {
+    Words keys;
+    for (const auto& item : statistics.items()) keys.push_back(item.key());
+    const Words expected{"pair_interactions", "particles", "problem", "rejected_steps",
+                         "rhs_evaluations",   "steps",     "t_end",   "version",
+                         "wall_seconds"};  // and no "stopped"
+    BOOST_TEST(keys == expected, boost::test_tools::per_element());
+    BOOST_TEST(statistics["problem"] == "rotating_hexagon");
+    BOOST_TEST(statistics["wall_seconds"].get<double>() > 0.0);
+    BOOST_TEST(statistics["version"].get<std::string>() != "");
+}
+
+void check_results(const nlohmann::json& results) {
+    BOOST_TEST(results.size() > 0u);
+    for (const auto& item : results) {
+        BOOST_TEST(item.size() == 6u);
+        BOOST_TEST(item.at("name").get<std::string>() != "");
+        BOOST_TEST(item.at("source").get<std::string>() != "");
+        BOOST_TEST(item.at("value").is_number());
+        BOOST_TEST(item.at("holds").get<bool>());
+        if (item.at("expected").is_null()) continue;
+        BOOST_TEST(std::abs(item["value"].get<double>() - item["expected"].get<double>()) <=
+                   item.at("tolerance").get<double>());
+    }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_single_run) {
+    const Run run({"--smoke", "--transport", "monaghan"});
+    const double t_end =
+        0.1 * 2.0 * std::numbers::pi * 3 / 0.1;  // smoke: size 3, a tenth of a turn
+    BOOST_TEST(check_invariants(run / "invariants.csv") == t_end,
+               boost::test_tools::tolerance(1e-15));
+    const auto statistics = json_of(run / "statistics.json");
+    check_statistics(statistics);
+    BOOST_TEST(statistics["particles"] == 37);
+    BOOST_TEST(statistics["steps"] == 189);
+    BOOST_TEST(statistics["rhs_evaluations"] == 4 * 189);
+    BOOST_TEST(statistics["rejected_steps"] == 0);
+    BOOST_TEST(statistics["t_end"].get<double>() == t_end, boost::test_tools::tolerance(1e-15));
+    check_results(json_of(run / "result.json"));
+    const std::string log = contents_of(run / "run.log");
+    for (const char* words : {"--smoke --transport monaghan", "SUNDIALS", "machine", "100 %"})
+        BOOST_TEST(log.find(words) != std::string::npos, "run.log has no '" << words << "'");
+    BOOST_TEST(log.find('\x1b') == std::string::npos);
+    for (const auto& [name, text] : run.folder.listing())
+        BOOST_TEST(!name.ends_with(".tmp"), name << " is left over");
+}
+
+BOOST_AUTO_TEST_CASE(the_comparison) {
+    const Run run({"--smoke"});
+    const Words labels{"md", "plain", "monaghan", "monaghan_torque_pair"};
+    std::size_t steps = 0;
+    std::string columns = "t";
+    for (const auto& label : labels) {
+        const auto file = [&](const char* name) { return run / (label + "/" + name); };
+        BOOST_TEST(check_invariants(file("invariants.csv")) > 18.0);
+        const auto statistics = json_of(file("statistics.json"));
+        check_statistics(statistics);
+        steps += statistics["steps"].get<std::size_t>();
+        BOOST_TEST(collection(file("snapshots.pvd")).size() >= 2u);
+        for (const char* what : {"_angular_momentum_ratio", "_energy_drift", "_shape_error"})
+            columns.append(",").append(label).append(what);
+    }
+    const auto total = json_of(run / "statistics.json");
+    check_statistics(total);
+    BOOST_TEST(total["steps"] == steps);
+    check_results(json_of(run / "result.json"));
+    const Csv comparison(run / "comparison.csv");
+    BOOST_TEST(header(comparison) == columns);
+    for (const auto& label : labels)
+        BOOST_TEST(comparison.column(label + "_angular_momentum_ratio").front() == 1.0);
+}
+
+/// At this speed the kinetic energy is no number, whatever else is fine: nothing can be claimed.
+BOOST_AUTO_TEST_CASE(an_energy_that_is_nan_does_not_pass) {
+    const Scratch folder;
+    const Outcome outcome = run(problem("rotating_hexagon", {"--smoke", "--transport", "plain",
+                                                             "--speed", "1e300", "--no-plots"}),
+                                {folder.path()});
+    BOOST_TEST(outcome.status >= 1);
+    BOOST_TEST(outcome.status <= 3);
+    BOOST_TEST(outcome.out.find("ok    energy") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(one_row_for_every_output_time) {
+    struct Expected {
+        Words arguments;
+        std::vector<double> t;
+    };
+    const std::string adaptive = "arkode:DORMAND_PRINCE_7_4_5";
+    const std::vector<Expected> table{
+        {{"--t-end", "1", "--output-every", "0.25"}, {0, 0.3, 0.5, 0.8, 1}},  // on the grid of dt
+        {{"--t-end", "1", "--output-every", "0.1"}, {0, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1}},
+        {{"--t-end", "1", "--output-every", "0.4"}, {0, 0.4, 0.8, 1}},  // and one for the end
+        {{"--t-end", "0.25", "--output-every", "100"}, {0, 0.25}},
+        {{"--t-end", "0.05", "--output-every", "1e-9"}, {0, 0.05}},  // never twice the same state
+        {{"--t-end", "1", "--output-every", "0.4", "--integrator", adaptive}, {0, 0.4, 0.8, 1}},
+        {{"--t-end", "0.3", "--output-every", "0.1", "--integrator", adaptive}, {0, .1, .2, .3}},
+    };
+    for (const auto& expected : table) {
+        Words arguments = expected.arguments;
+        arguments.insert(arguments.end(), {"--smoke", "--transport", "plain"});
+        const Run run(arguments);
+        check_invariants(run / "invariants.csv");
+        const auto t = Csv(run / "invariants.csv").column("t");
+        BOOST_TEST(t == expected.t, boost::test_tools::tolerance(1e-14)
+                                        << boost::test_tools::per_element());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(case_toml_runs_the_same_case_again) {
+    const std::vector<Words> cases{
+        {"--smoke", "--transport", "monaghan", "--angular-momentum", "torque_pair"},
+        {"--size", "2", "--t-end", "3", "--density", "summed", "--range", "2.7", "--speed", "0.03"},
+        {"--smoke", "--model", "md", "--dt", "0.07"},
+        {"--smoke", "--transport", "average", "--integrator", "arkode:DORMAND_PRINCE_7_4_5"},
+        {"--smoke", "--transport", "plain", "--integrator", "arkode:ZONNEVELD_5_3_4", "--dt",
+         "0.3"},
+        {"--smoke", "--threads", "2", "--mean-density", "geometric", "--density", "chain_rule",
+         "--transport", "average", "--output-every", "0.7", "--snapshot-every", "3"},
+        {"--smoke", "--range", "2.9"},  // the comparison
+    };
+    for (const auto& arguments : cases) {
+        Run run(arguments);
+        std::filesystem::copy(run / "case.toml", run.folder / "case.toml");
+        run.again("again", {"--config", "case.toml"});
+        for (const char* name : {"invariants.csv", "md/invariants.csv", "plain/invariants.csv",
+                                 "case.toml", "snapshots.pvd"}) {
+            const auto first = run / name, second = run.folder / "again" / name;
+            BOOST_TEST(std::filesystem::exists(first) == std::filesystem::exists(second));
+            if (std::filesystem::exists(first))
+                BOOST_TEST((contents_of(first) == contents_of(second)),
+                           arguments[0] << " " << arguments[1] << ": another " << name);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A stranger's project: the README's example, word for word, against the installed library.
+#   BUILD: build tree to install from; SOURCE: the project; WORK: a folder of its own; FLAGS: for C++
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+function(extract language file)
+  file(READ ${SOURCE}/README.md readme)
+  string(FIND "${readme}" "```${language}\n" start)
+  if(start EQUAL -1)
+    message(FATAL_ERROR "README.md has no ${language} block")
+  endif()
+  string(SUBSTRING "${readme}" ${start} -1 rest)
+  string(FIND "${rest}" "\n" first_line)
+  math(EXPR first_line "${first_line} + 1")
+  string(SUBSTRING "${rest}" ${first_line} -1 rest)
+  string(FIND "${rest}" "```" end)
+  string(SUBSTRING "${rest}" 0 ${end} text)
+  file(WRITE ${WORK}/${file} "${text}")
+  string(REGEX MATCHALL "\n" lines "${text}")
+  list(LENGTH lines count)
+  if(count GREATER_EQUAL 60)
+    message(FATAL_ERROR "the ${language} example has ${count} lines; the README promises fewer than 60")
+  endif()
+endfunction()
+
+function(run)
+  execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result
+                  OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "'${ARGV}' failed (${result}):\n${output}")
+  endif()
+endfunction()
+
+extract(cpp my_plate.cpp)
+extract(cmake CMakeLists.txt)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+run(${CMAKE_COMMAND} -S . -B build -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(${CMAKE_COMMAND} --build build)
+run(build/my_plate --speed 0.02 --smoke)
+foreach(file case.toml run.log invariants.csv statistics.json result.json snapshots.pvd)
+  if(NOT EXISTS ${WORK}/my_plate-out/${file})
+    message(FATAL_ERROR "the example left no ${file}")
+  endif()
+endforeach()
+file(REMOVE_RECURSE ${WORK})
