@@ -201,12 +201,15 @@ void check_standard(Session& session, const RunRecord& run, const Model<2>& mode
 }
 
 /// What is worth knowing and not claimed.
-void report_measured(Session& session, const RunRecord& run, const std::string& prefix) {
+void report_measured(Session& session, const RunRecord& run, bool ratio_claimed,
+                     const std::string& prefix) {
     const History& h = run.history;
     const auto measured = [&](const char* name, double value) {
         session.check({prefix + name, value, {}, 0.0, "measured"});
     };
-    measured("angular_momentum_final", h.last("angular_momentum"));
+    if (!ratio_claimed)
+        measured("angular_momentum_ratio",
+                 h.last("angular_momentum") / h.first("angular_momentum"));
     measured("shape_error_final", h.last("shape_error"));
     measured("closest_pair", h.smallest("closest_pair"));
 }
@@ -340,11 +343,13 @@ int main(int argc, char** argv) {
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const std::string prefix = single ? "" : runs[k].label + "_";
             const Model<2>& model = *hexagons[k].model;
-            if (runs[k].complete && is_standard(session, p, model))
+            const bool standard = runs[k].complete && is_standard(session, p, model);
+            const bool L_kept = model.promises().angular_momentum != Promise::not_kept;
+            if (standard)
                 check_standard(session, runs[k], model, prefix);
             else
                 session.check_promises(runs[k], prefix);
-            report_measured(session, runs[k], prefix);
+            report_measured(session, runs[k], standard && !L_kept, prefix);
         }
         if (!single) write_comparison(session.folder(), runs);
         if (session.plots()) draw(session, p, hexagons, runs);
