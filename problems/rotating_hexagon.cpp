@@ -20,7 +20,7 @@
 // Without scheme options: MD, plain SPAM, <v>_Monaghan, and that with balanced pair torques,
 // compared.
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/problem/sight.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -46,41 +46,6 @@ struct Parameters {
     double omega() const { return speed / size; }
     double turn() const { return 2.0 * pi / omega(); }  // nominal: the hexagon's own turn is slower
 };
-
-/// A configuration worth drawing: the snapshot nearest to a wanted time.
-struct Sight {
-    double wanted;
-    double t = -1.0;
-    Points<2> position{};
-    std::vector<double> speed{};
-
-    void look(double now, const ConstState<2>& state) {
-        if (t >= 0.0 && std::abs(now - wanted) > std::abs(t - wanted)) return;
-        t = now;
-        position = state.position();
-        speed.clear();
-        for (Eigen::Index i = 0; i < position.cols(); ++i)
-            speed.push_back(state.velocity().col(i).norm());
-    }
-};
-
-/// The particles of the outermost ring, in order around it.
-std::vector<Eigen::Index> rim(const Points<2>& x, int size) {
-    std::vector<Eigen::Index> ring;
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        double height =
-            0.0;  // distance from the centre to the hexagon's edge through this particle
-        for (int side = 0; side < 6; ++side) {
-            const double angle = pi / 6.0 + side * pi / 3.0;
-            height = std::max(height, x(0, i) * std::cos(angle) + x(1, i) * std::sin(angle));
-        }
-        if (height > (size - 0.5) * std::sqrt(0.75)) ring.push_back(i);
-    }
-    std::sort(ring.begin(), ring.end(), [&](Eigen::Index a, Eigen::Index b) {
-        return std::atan2(x(1, a), x(0, a)) < std::atan2(x(1, b), x(0, b));
-    });
-    return ring;
-}
 
 struct Hexagon {
     std::string label;
@@ -223,20 +188,11 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
     for (std::size_t s = 0; s < hexagons.front().sights.size(); ++s)
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const Sight& sight = hexagons[k].sights[s];
-            ConfigurationPanel panel{
-                fmt::format("{}, {}", hexagons[k].title,
-                            sight.wanted == p.turn() / 3.0
-                                ? std::string("2π/3")
-                                : fmt::format("{:.3g} turn", sight.t / p.turn())),
-                sight.position,
-                sight.speed,
-                {}};
-            const auto ring = rim(hexagons[k].model->particles().reference_position, p.size);
-            Points<2> outline(2, static_cast<Eigen::Index>(ring.size()));
-            for (std::size_t i = 0; i < ring.size(); ++i)
-                outline.col(static_cast<Eigen::Index>(i)) = sight.position.col(ring[i]);
-            panel.outlines.push_back(std::move(outline));
-            panels.push_back(std::move(panel));
+            const std::string angle = sight.wanted == p.turn() / 3.0
+                                          ? std::string("2π/3")
+                                          : fmt::format("{:.3g} turn", sight.t / p.turn());
+            panels.push_back(sight.panel(fmt::format("{}, {}", hexagons[k].title, angle),
+                                         hexagons[k].model->particles()));
         }
     session.note_drawn(draw_configurations(
         folder, "configurations",
@@ -333,7 +289,7 @@ int main(int argc, char** argv) {
             hexagon.sights.push_back({plan.t_end});
             plan.on_snapshot = [&hexagon](double t, const Model<2>& model,
                                           std::span<const double> y) {
-                for (Sight& sight : hexagon.sights) sight.look(t, {model.layout(), y});
+                for (Sight& sight : hexagon.sights) sight.look(t, model, y);
             };
             cases.push_back({*hexagon.model, std::move(y0), std::move(plan), hexagon.label});
         }

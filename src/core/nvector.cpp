@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "nvector_operations.hpp"
 #include <spam/core/nvector.hpp>
 
 #include <nvector/nvector_serial.h>
@@ -24,6 +25,7 @@ SundialsContext::~SundialsContext() { SUNContext_Free(&context_); }
 Vector::Vector(std::size_t size, const SundialsContext& context)
     : v_(N_VNew_Serial(static_cast<sunindextype>(size), context.get())) {
     if (v_ == nullptr) throw std::bad_alloc();
+    use_own_operations(v_);
 }
 
 Vector::~Vector() {

@@ -3,6 +3,7 @@
 #include <spam/diagnostics/drift.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/invariants.hpp>
+#include <spam/diagnostics/outline.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/rhs/bonded_model.hpp>
 #include <spam/setup/initial_state.hpp>
@@ -73,6 +74,16 @@ BOOST_AUTO_TEST_CASE(closest_pairs) {
     edge << 0.1, 5.0, 9.95;
     BOOST_TEST(closest_pair<1>(edge, 1.0, Box<1>({10.0})) == 0.15,
                boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(the_outline_of_a_hexagon_is_its_outermost_ring) {
+    Points<2> shape = triangular_hexagon(5);
+    shape.colwise() += Eigen::Vector2d(30.0, -7.0);  // about its own centre
+    const auto ring = outline(shape, 1.0);
+    BOOST_TEST(ring.size() == 30U);
+    for (std::size_t k = 0; k < ring.size(); ++k)  // neighbours along the rim follow each other
+        BOOST_TEST((shape.col(ring[k]) - shape.col(ring[(k + 1) % ring.size()])).norm() == 1.0,
+                   boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(history_answers_by_name) {

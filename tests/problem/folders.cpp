@@ -39,7 +39,7 @@ bool gnuplot_is_there() { return run({"sh", "-c", "command -v gnuplot"}).status 
 
 BOOST_AUTO_TEST_CASE(pictures_with_their_scripts_and_data) {
     const Scratch folder;
-    const Outcome outcome = hexagon(folder, {"--smoke"});
+    const Outcome outcome = hexagon(folder, {"--smoke", "--t-end", "2"});
     BOOST_TEST(outcome.status == 0);
     Words pictures{"plots/configurations", "plots/curves"};
     for (const char* label : {"md", "plain", "monaghan", "monaghan_torque_pair"})
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(without_gnuplot_it_says_so_once) {
     std::filesystem::create_symlink("/bin/sh", programs / "sh");
     Launch launch{folder.path()};
     launch.before_exec = [&] { setenv("PATH", programs.path().c_str(), 1); };
-    const Outcome outcome = run(problem("rotating_hexagon", {"--smoke"}), launch);
+    const Outcome outcome = run(problem("rotating_hexagon", {"--smoke", "--t-end", "1"}), launch);
     BOOST_TEST(outcome.status == 0);
     BOOST_TEST(lines(outcome.err) == 1u);
     BOOST_TEST(outcome.err.find("gnuplot") != std::string::npos);
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(without_gnuplot_it_says_so_once) {
 
 BOOST_AUTO_TEST_CASE(no_plots_leaves_none) {
     const Scratch folder;
-    BOOST_TEST(hexagon(folder, {"--smoke", "--no-plots"}).status == 0);
+    BOOST_TEST(hexagon(folder, {"--smoke", "--t-end", "1", "--no-plots"}).status == 0);
     for (const auto& [name, text] : folder.listing())
         BOOST_TEST(name.find("plots") == std::string::npos, name);
 }
@@ -110,8 +110,7 @@ BOOST_AUTO_TEST_CASE(folders_of_any_name) {
     for (const std::string name :
          {"with space", "größe/λ", "a/b/c/d", "-dash", "quote'\"$(x)`", "50%"}) {
         const Scratch folder;
-        const Outcome outcome =
-            hexagon(folder, {"--smoke", "--transport", "plain", "--out=" + name});
+        const Outcome outcome = short_run(folder, {"--out=" + name});
         BOOST_TEST_CONTEXT(name << outcome.err) {
             BOOST_TEST(outcome.status == 0);
             BOOST_TEST(outcome.err == "");

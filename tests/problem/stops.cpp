@@ -11,7 +11,9 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-const Words long_run{"--transport", "monaghan", "--turns", "50", "--out", "out", "--no-plots"};
+/// Minutes long, with rows and configurations from the first second on.
+const Words long_run{"--transport",      "monaghan", "--turns", "50",  "--output-every", "0.2",
+                     "--snapshot-every", "5",        "--out",   "out", "--no-plots"};
 
 std::size_t lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -116,7 +118,9 @@ BOOST_AUTO_TEST_CASE(a_second_interrupt_may_end_it_at_once) {
 
 BOOST_AUTO_TEST_CASE(the_comparison_interrupted) {
     const Scratch folder;
-    Child child(problem("rotating_hexagon", {"--turns", "50", "--out", "out"}), {folder.path()});
+    Child child(
+        problem("rotating_hexagon", {"--turns", "50", "--output-every", "0.2", "--out", "out"}),
+        {folder.path()});
     BOOST_REQUIRE(wait_for_rows(child, folder / "out/md/invariants.csv", 3));
     child.send(SIGINT);
     const Outcome outcome = child.finish();
@@ -179,7 +183,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk) {
 BOOST_AUTO_TEST_CASE(results_taken_away_during_the_run) {
     const Scratch folder;
     Words arguments = long_run;
-    arguments.insert(arguments.end(), {"--size", "3", "--snapshot-every", "1"});
+    arguments.insert(arguments.end(), {"--size", "3"});
     Child child(problem("rotating_hexagon", arguments), {folder.path()});
     BOOST_REQUIRE(wait_for_rows(child, folder / "out/invariants.csv", 1));
     std::filesystem::rename(folder / "out", folder / "elsewhere");

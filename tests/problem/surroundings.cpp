@@ -11,7 +11,8 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-const Words short_run{"--smoke", "--transport", "plain", "--no-plots", "--out", "out"};
+const Words short_run{"--size", "2",          "--t-end", "4",  "--transport",
+                      "plain",  "--no-plots", "--out",   "out"};
 
 Outcome run_with_closed(const Scratch& folder, const Words& arguments,
                         const std::vector<int>& descriptors) {
@@ -60,9 +61,7 @@ BOOST_AUTO_TEST_CASE(the_status_tells_it_where_no_line_can) {
 
 BOOST_AUTO_TEST_CASE(a_reader_that_leaves_does_not_end_the_run) {
     const Scratch folder;
-    Words arguments = short_run;
-    arguments.insert(arguments.end(), {"--turns", "1"});
-    const Outcome outcome = run_in_shell(folder, arguments, "| head -n 1");
+    const Outcome outcome = run_in_shell(folder, short_run, "| head -n 1");
     BOOST_TEST(lines(outcome.out) == 1u);
     BOOST_TEST(outcome.err == "0\n");
     BOOST_TEST(json_of(folder / "out/result.json").is_array());

@@ -38,9 +38,10 @@ BOOST_AUTO_TEST_CASE(the_screen_of_this_test_shows_what_a_terminal_would) {
 BOOST_AUTO_TEST_CASE(no_line_is_wider_than_the_terminal) {
     for (const unsigned short columns : std::vector<unsigned short>{20, 40, 60, 79, 80, 200}) {
         for (const Words& arguments :
-             {Words{"--smoke", "--no-plots"}, Words{"--dry-run"},
-              Words{"--smoke", "--no-plots", "--transport", "average", "--integrator",
-                    "arkode:DORMAND_PRINCE_7_4_5", "--out", "a_rather_long_name_of_a_folder"}}) {
+             {Words{"--smoke", "--no-plots", "--t-end", "1"}, Words{"--dry-run"},
+              Words{"--smoke", "--no-plots", "--t-end", "1", "--transport", "average",
+                    "--integrator", "arkode:DORMAND_PRINCE_7_4_5", "--out",
+                    "a_rather_long_name_of_a_folder"}}) {
             const Scratch folder;
             const Outcome outcome = shown(folder, columns, arguments);
             BOOST_TEST_CONTEXT(columns << " columns, " << arguments[0] << "\n" << outcome.out) {
@@ -99,7 +100,8 @@ BOOST_AUTO_TEST_CASE(through_a_pipe_there_are_plain_lines) {
 BOOST_AUTO_TEST_CASE(quiet_is_quiet_on_a_terminal_too) {
     for (const unsigned short columns : std::vector<unsigned short>{0, 60}) {
         const Scratch folder;
-        const Outcome outcome = shown(folder, columns, {"--smoke", "--no-plots", "--quiet"});
+        const Outcome outcome =
+            shown(folder, columns, {"--smoke", "--no-plots", "--t-end", "1", "--quiet"});
         BOOST_TEST(outcome.status == 0);
         BOOST_TEST(outcome.out == "");
         BOOST_TEST(outcome.err == "");

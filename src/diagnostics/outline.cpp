@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/diagnostics/outline.hpp>
+#include <spam/neighbors/pair_list.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spam {
+
+std::vector<Eigen::Index> outline(const Points<2>& reference, double spacing) {
+    PairList<2> list(1.2 * spacing, 0.0, {});
+    list.build(reference);
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) most = std::max(most, list.neighbours(i).size());
+    std::vector<Eigen::Index> ring;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list.neighbours(i).size() < most) ring.push_back(static_cast<Eigen::Index>(i));
+    const Point<2> centre = reference.rowwise().mean();
+    const auto angle = [&](Eigen::Index i) {
+        const Point<2> r = reference.col(i) - centre;
+        return std::atan2(r.y(), r.x());
+    };
+    std::sort(ring.begin(), ring.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return angle(a) < angle(b); });
+    return ring;
+}
+
+}  // namespace spam
