@@ -13,12 +13,11 @@
 //     x_dot     = u                        transport velocity: v, <v> or <v>_Monaghan
 //     rho_dot   = sum m v_ij . grad w_ij   (or summed, or the chain rule with u)
 //     v_dot     = sum m (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad w_ij     torques scaled or not
-//     sigma_dot = lambda (div v) I + eta (grad v + grad v^t) + rotation,    lambda = eta =
-//     sqrt(3/16) e_dot     = -1/2 sum m f_ij . v_ij
+//     sigma_dot = lambda (div v) I + eta (grad v + grad v^t) + rotation
+//     e_dot     = -1/2 sum m f_ij . v_ij           lambda = eta = sqrt(3/16)
 //
 // The reference is molecular dynamics of the same particles joined by harmonic springs.
-// Without scheme options: MD, plain SPAM, <v>_Monaghan, and that with balanced pair torques,
-// compared.
+// Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
 #include <spam/io/csv.hpp>
 #include <spam/problem/sight.hpp>
 #include <spam/spam.hpp>
@@ -119,8 +118,8 @@ bool is_standard(const Session& session, const Parameters& p, const Model<2>& mo
 }
 
 double momentum_per_particle(const RunRecord& run) {
-    return std::max(run.history.largest_change("momentum_x"),
-                    run.history.largest_change("momentum_y")) /
+    return std::hypot(run.history.largest_change("momentum_x"),
+                      run.history.largest_change("momentum_y")) /
            static_cast<double>(run.statistics.particles);
 }
 
@@ -253,6 +252,8 @@ int main(int argc, char** argv) {
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {
+        options.command_line_wins({"t-end"}, {"turns"});
+        options.command_line_wins({"turns"}, {"t-end"});
         refuse_contradictions(options, p);
         if (session.common().smoke) {
             if (!session.given("size")) p.size = 3;

@@ -31,15 +31,26 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
+    // A candidate that contains the word is what was meant, however much longer it is.
+    for (const auto& candidate : candidates)
+        if (word.size() >= 3 && candidate.find(word) != std::string::npos) return candidate;
     const auto it = std::min_element(
         candidates.begin(), candidates.end(),
         [word](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
-    return it == candidates.end() ? std::string{} : *it;
+    const std::size_t too_far = std::max<std::size_t>(3, word.size() / 2);
+    return it == candidates.end() || distance(word, *it) > too_far ? std::string{} : *it;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string> candidates,
+                       std::string_view prefix) {
+    const std::string found = nearest(word, candidates);
+    return found.empty() ? std::string(".") : fmt::format("; did you mean {}{}?", prefix, found);
 }
 
 std::string one_line(std::string_view text) {
     std::string line;
     for (const char c : text) {
+        if (line.size() > 600) return line + " ...";
         const auto code = static_cast<unsigned char>(c);
         if (c == '\n')
             line += "\\n";

@@ -9,10 +9,13 @@ namespace {
 
 /// Largest change of a quantity stored as `name` or as `name`_x, _y, _z.
 double largest_vector_change(const History& history, const std::string& name) {
-    double change = history.has(name) ? history.largest_change(name) : 0.0;
-    for (const char* axis : {"_x", "_y", "_z"})
-        if (history.has(name + axis))
-            change = std::max(change, history.largest_change(name + axis));
+    double change = 0.0;
+    for (const char* axis : {"", "_x", "_y", "_z"}) {
+        if (!history.has(name + axis)) continue;
+        const double here = history.largest_change(name + axis);
+        if (!(here <= change)) change = here;  // NaN stays: std::max would drop it
+        if (std::isnan(change)) break;
+    }
     return change;
 }
 

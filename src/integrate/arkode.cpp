@@ -27,11 +27,15 @@ Table load_table(const std::string& method) {
     std::string name = method.substr(std::string("arkode:").size());
     if (!name.starts_with("ARKODE_")) name.insert(0, "ARKODE_");
     const auto& known = arkode_tables();
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+        const std::size_t prefix = std::string("ARKODE_").size();
+        std::vector<std::string> words;
+        for (const auto& table : known) words.push_back(table.substr(prefix));
         throw InputError(
-            fmt::format("integrator: SUNDIALS has no explicit table '{}'; did you mean arkode:{}? "
-                        "The tables: {}",
-                        name, nearest(name, known), fmt::join(known, ", ")));
+            fmt::format("integrator: SUNDIALS has no explicit table '{}'{} The tables: {}",
+                        method.substr(method.find(':') + 1),
+                        suggestion(name.substr(prefix), words, "arkode:"), fmt::join(words, ", ")));
+    }
     Table table(ARKodeButcherTable_LoadERKByName(name.c_str()));
     if (!table) throw InputError(fmt::format("integrator: SUNDIALS cannot load {}", name));
     return table;

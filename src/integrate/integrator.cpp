@@ -29,6 +29,9 @@ void IntegratorOptions::validate() const {
     if (dt) require_positive("dt", *dt, "give a positive time step");
     require_positive("rtol", rtol, "try --rtol 1e-8");
     require_positive("atol", atol, "try --atol 1e-10");
+    if (rtol < 1e-15)
+        throw InputError(fmt::format(
+            "rtol: {} is finer than double precision; the least is 1e-15, try 1e-10", rtol));
     if (rtol >= 1.0)
         throw InputError(fmt::format("rtol: {} must be below 1; try --rtol 1e-8", rtol));
 }

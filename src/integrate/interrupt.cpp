@@ -6,6 +6,8 @@
 namespace spam {
 namespace {
 
+constexpr int watched[] = {SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t received_signal = 0;
 
 extern "C" void remember_signal(int signal) {
@@ -16,14 +18,14 @@ extern "C" void remember_signal(int signal) {
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
-    std::signal(SIGINT, remember_signal);
-    std::signal(SIGTERM, remember_signal);
-    std::signal(SIGPIPE, SIG_IGN);  // whoever reads the output may leave; the run goes on
+    for (const int signal : watched)
+        if (std::signal(signal, remember_signal) == SIG_IGN)
+            std::signal(signal, SIG_IGN);  // nohup and background jobs mean it
+    std::signal(SIGPIPE, SIG_IGN);         // whoever reads the output may leave; the run goes on
 }
 
 InterruptWatch::~InterruptWatch() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    for (const int signal : watched) std::signal(signal, SIG_DFL);
 }
 
 int InterruptWatch::received() { return received_signal; }

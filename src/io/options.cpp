@@ -43,7 +43,9 @@ struct Options::Entry {
     bool is_flag = false;
     bool is_text = false;  ///< TOML must give a string
     bool in_case = true;
-    bool given = false;
+    bool in_file = false;         ///< set by the file of --config
+    bool on_command = false;      ///< set on the command line
+    std::function<void()> unset;  ///< back to unset, where that exists
 };
 
 namespace {
@@ -128,6 +130,7 @@ void Options::number(std::string name, std::optional<double>& target, std::strin
     entry.set = [&entry, &target, allowed](const std::string& text) {
         target = parse_number(entry.name, text, allowed);
     };
+    entry.unset = [&target] { target.reset(); };
     entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
 }
 
@@ -174,9 +177,8 @@ void Options::choice(std::string name, std::vector<std::string> names, std::stri
     entry.set = [&entry, names, set = std::move(set)](const std::string& text) {
         const auto it = std::find(names.begin(), names.end(), text);
         if (it == names.end())
-            throw InputError(fmt::format("{}: '{}' is unknown; did you mean {}? Allowed: {}",
-                                         entry.name, text, nearest(text, names),
-                                         fmt::join(names, ", ")));
+            throw InputError(fmt::format("{}: '{}' is unknown{} Allowed: {}", entry.name, text,
+                                         suggestion(text, names), fmt::join(names, ", ")));
         set(static_cast<std::size_t>(it - names.begin()));
     };
     entry.get = [names, get = std::move(get)] { return toml_string(names[get()]); };
@@ -230,8 +232,8 @@ bool Options::parse(int argc, const char* const* argv) {
         const std::string bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
         auto known = names();
         known.emplace_back("config");
-        throw InputError(fmt::format("unknown option '{}'; did you mean --{}? See --help", word,
-                                     nearest(bare.substr(0, bare.find('=')), known)));
+        throw InputError(fmt::format("unknown option '{}'{} See --help", word,
+                                     suggestion(bare.substr(0, bare.find('=')), known, "--")));
     }
     const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
         if (value.starts_with("--"))
@@ -246,7 +248,7 @@ bool Options::parse(int argc, const char* const* argv) {
         if (registered[k]->count() == 0) continue;
         refuse_option_as_value(entries_[k]->name, raw[k]);
         entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
-        entries_[k]->given = true;
+        entries_[k]->on_command = true;
     }
     return true;
 }
@@ -266,8 +268,8 @@ void Options::read_config(const std::string& path) {
         const auto it = std::find_if(entries_.begin(), entries_.end(),
                                      [&](const auto& entry) { return entry->name == name; });
         if (it == entries_.end())
-            throw InputError(fmt::format("config: {} line {}: unknown key '{}'; did you mean '{}'?",
-                                         path, line, name, nearest(name, names())));
+            throw InputError(fmt::format("config: {} line {}: unknown key '{}'{} See --help", path,
+                                         line, name, suggestion(name, names())));
         Entry& entry = **it;
         std::string text;
         bool fits = false;
@@ -296,13 +298,29 @@ void Options::read_config(const std::string& path) {
         } catch (const InputError& error) {
             throw InputError(fmt::format("config: {} line {}: {}", path, line, error.what()));
         }
-        entry.given = true;
+        entry.in_file = true;
     }
 }
 
 bool Options::given(std::string_view name) const {
-    return std::any_of(entries_.begin(), entries_.end(),
-                       [name](const auto& e) { return e->name == name && e->given; });
+    return std::any_of(entries_.begin(), entries_.end(), [name](const auto& e) {
+        return e->name == name && (e->in_file || e->on_command);
+    });
+}
+
+void Options::command_line_wins(const std::vector<std::string>& names,
+                                const std::vector<std::string>& over) {
+    const auto among = [](const auto& entry, const auto& list) {
+        return std::find(list.begin(), list.end(), entry->name) != list.end();
+    };
+    if (std::none_of(entries_.begin(), entries_.end(),
+                     [&](const auto& e) { return among(e, names) && e->on_command; }))
+        return;
+    for (auto& entry : entries_) {
+        if (!among(entry, over) || entry->on_command) continue;
+        entry->in_file = false;
+        if (entry->unset) entry->unset();
+    }
 }
 
 std::string Options::first_given(const std::vector<std::string>& names) const {

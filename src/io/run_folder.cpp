@@ -11,6 +11,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
+bool holds_current_folder(const fs::path& path) {
+    std::error_code error;
+    for (fs::path here = fs::current_path(error); !error; here = here.parent_path()) {
+        if (fs::equivalent(here, path, error)) return true;
+        if (here == here.root_path()) break;
+    }
+    return false;
+}
+
 void move_aside(const fs::path& path) {
     std::error_code error;
     for (int k = 1;; ++k) {
@@ -36,6 +45,11 @@ RunFolder::RunFolder(const fs::path& path, bool force) : path_(path) {
         if (!fs::is_directory(status))
             throw InputError(
                 fmt::format("out: '{}' is not a folder; choose another --out", path_.string()));
+        if (!usable && force && holds_current_folder(path_))
+            throw InputError(fmt::format(
+                "out: '{}' is or contains the current folder and cannot be moved aside; choose "
+                "another --out",
+                path_.string()));
         // --force is for results of earlier runs, not for a home or a thesis named by mistake.
         if (!usable && !fs::exists(path_ / "run.log", error))
             throw InputError(

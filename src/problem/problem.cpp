@@ -85,6 +85,9 @@ void Problem::use_scheme(const Scheme& standard) {
 
 /// The integrator that the options mean; an option without effect is refused.
 IntegratorOptions Problem::resolve_integrator() {
+    options_.command_line_wins({"integrator"}, {"dt", "rtol", "atol"});
+    options_.command_line_wins({"dt"}, {"rtol", "atol"});
+    options_.command_line_wins({"rtol", "atol"}, {"dt"});
     IntegratorOptions integrator;
     integrator.method = method_;
     const bool rk4 = method_ == "rk4";

@@ -95,6 +95,13 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       material_(material),
       scheme_(scheme),
       list_(scheme.range, list_skin(scheme.range, box), box) {
+    const double spacing = this->particles().spacing;
+    if (!(scheme.range > spacing) || !(scheme.range < 1e6 * spacing))
+        throw InputError(
+            fmt::format("range: {} must lie above the particle spacing {} (else no particle has a "
+                        "neighbour) and "
+                        "below 1e6 spacings; 2 to 4 spacings are usual",
+                        scheme.range, spacing));
     first_sweep_ = Choices::first_of(scheme_);
     second_sweep_ = Choices::second_of(scheme_);
     const std::size_t n = this->particles().size();

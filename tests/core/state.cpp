@@ -97,5 +97,9 @@ BOOST_AUTO_TEST_CASE(nearest_words) {
     const std::vector<std::string> words{"range", "rtol", "transport"};
     BOOST_TEST(nearest("rnage", words) == "range");
     BOOST_TEST(nearest("Transprt", words) == "transport");
+    BOOST_TEST(nearest("port", words) == "transport");
+    BOOST_TEST(nearest("restart", words).empty());
     BOOST_TEST(nearest("x", {}).empty());
+    BOOST_TEST(suggestion("rnage", words, "--") == "; did you mean --range?");
+    BOOST_TEST(suggestion("nothing like it", words) == ".");
 }

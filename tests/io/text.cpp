@@ -13,10 +13,12 @@ using namespace spam;
 
 BOOST_AUTO_TEST_CASE(lines_wrap_under_their_text) {
     BOOST_TEST(wrap("short", 20) == "short");
-    BOOST_TEST(wrap("key     one two three", 17) == "key     one two\n        three");
-    BOOST_TEST(wrap("one two three", 7) == "one two\n    three");
-    BOOST_TEST(wrap("a_word_that_is_longer_than_the_line b", 10) ==
-               "a_word_that_is_longer_than_the_line\n    b");
+    BOOST_TEST(wrap("key     one two three four", 22) == "key     one two three\n     four");
+    BOOST_TEST(wrap("key     one two three four five six", 32) ==
+               "key     one two three four five\n        six");
+    BOOST_TEST(wrap("one two three", 8) == "one two\n  three");
+    BOOST_TEST(wrap("a_word_longer_than_the_line b", 10) ==
+               "a_word_lon\n  ger_than\n  _the_lin\n  e b");
     BOOST_TEST(wrap("", 10).empty());
     const std::string text =
         "promise     mass exact, momentum exact, angular momentum to integrator error";

@@ -173,3 +173,22 @@ BOOST_AUTO_TEST_CASE(quiet_prints_nothing) {
     BOOST_TEST(contents_of(folder / "rotating_hexagon-out/run.log").find("steps") !=
                std::string::npos);
 }
+
+BOOST_AUTO_TEST_CASE(the_command_line_wins_over_a_case_read_back) {
+    const Scratch folder;
+    folder.write("case.toml",
+                 "turns = 2.0\nsize = 2\nintegrator = \"arkode:DORMAND_PRINCE_7_4_5\"\n"
+                 "rtol = 1e-6\natol = 1e-8\n");
+    const auto run = [&](Words words) {
+        words.insert(words.begin(), {"--config", "case.toml", "--no-plots", "--force"});
+        return Child(problem("rotating_hexagon", words), {folder.path()})
+            .finish(Child::Seconds(60));
+    };
+    const auto shorter = run({"--t-end", "3", "--model", "md"});
+    BOOST_TEST(shorter.status == 0, shorter.err);
+    const auto log = contents_of(folder / "rotating_hexagon-out/run.log");  // not wrapped
+    BOOST_TEST((log.find("to t = 3\n") != std::string::npos), log);
+    const auto fixed = run({"--integrator", "rk4", "--turns", "0.01"});
+    BOOST_TEST(fixed.status == 0, fixed.err);
+    BOOST_TEST((fixed.out.find("rk4, fixed step dt = 0.1") != std::string::npos), fixed.out);
+}

@@ -7,8 +7,12 @@
 
 namespace spam {
 
-/// The candidate nearest to `word` by edit distance, for 'did you mean'; empty without candidates.
+/// The candidate that contains `word`, or is nearest to it by edit distance; empty when none is near.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
+
+/// How a sentence about an unknown word ends: "; did you mean <prefix><nearest>?", or ".".
+std::string suggestion(std::string_view word, std::span<const std::string> candidates,
+                       std::string_view prefix = "");
 
 /// `text` as one line: control characters as \n, \t, \x1b, so that a message stays a message.
 std::string one_line(std::string_view text);

@@ -3,7 +3,7 @@
 
 namespace spam {
 
-/// While alive, SIGINT and SIGTERM are remembered instead of ending the process, so that a run can
+/// While alive, SIGINT, SIGTERM and SIGHUP are remembered instead of ending the process, so that a run can
 /// complete its results; a second signal ends it at once.
 class InterruptWatch {
   public:

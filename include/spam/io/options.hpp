@@ -65,6 +65,11 @@ class Options {
     /// asked for (and printed).
     bool parse(int argc, const char* const* argv);
 
+    /// Where one of `names` was given on the command line, `over` from the file no longer count: a
+    /// case read back can be changed without editing it.
+    void command_line_wins(const std::vector<std::string>& names,
+                           const std::vector<std::string>& over);
+
     /// Whether the user set the option (command line or file).
     bool given(std::string_view name) const;
     /// The first of `names` that the user set; empty if none.

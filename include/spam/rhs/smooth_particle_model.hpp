@@ -15,7 +15,8 @@ template <int Dim>
 class SmoothParticleModel final : public Model<Dim> {
   public:
     /// `material`: any stress law (stress_law.hpp). Throws InputError when the scheme makes no
-    /// sense here (Scheme::validate) or a periodic box is not wider than twice the range.
+    /// sense here (Scheme::validate) the range does not reach a neighbour,
+    /// or a periodic box is not wider than twice the range.
     SmoothParticleModel(Particles<Dim> particles, const Material<Dim>& material,
                         const Scheme& scheme, const Box<Dim>& box = {});
 
