@@ -35,7 +35,7 @@ endfunction()
 extract(cpp my_plate.cpp)
 extract(cmake CMakeLists.txt)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
-run(${CMAKE_COMMAND} -S . -B build -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_BUILD_TYPE=Release
+run(${CMAKE_COMMAND} -S . -B build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build build)
 run(build/my_plate --speed 0.02 --smoke)
