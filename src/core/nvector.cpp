@@ -26,6 +26,7 @@ Vector::Vector(std::size_t size, const SundialsContext& context)
     : v_(N_VNew_Serial(static_cast<sunindextype>(size), context.get())) {
     if (v_ == nullptr) throw std::bad_alloc();
     use_own_operations(v_);
+    N_VConst(0.0, v_);
 }
 
 Vector::~Vector() {

@@ -29,7 +29,7 @@ class SundialsContext {
 /// Throws std::bad_alloc when memory runs out.
 class Vector {
   public:
-    Vector(std::size_t size, const SundialsContext& context);
+    Vector(std::size_t size, const SundialsContext& context);  ///< all zero
     ~Vector();
     Vector(Vector&& other) noexcept;
     Vector& operator=(Vector&& other) noexcept;
