@@ -8,8 +8,7 @@
 namespace spam {
 
 std::vector<Eigen::Index> outline(const Points<2>& reference, double spacing) {
-    PairList<2> list(1.2 * spacing, 0.0, {});
-    list.build(reference);
+    const PairList<2> list(reference, 1.2 * spacing, {});
     std::size_t most = 0;
     for (std::size_t i = 0; i < list.size(); ++i) most = std::max(most, list.neighbours(i).size());
     std::vector<Eigen::Index> ring;

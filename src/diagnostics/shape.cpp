@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/neighbors/pair_list.hpp>
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <cmath>
 #include <limits>
@@ -12,16 +10,11 @@ namespace spam {
 
 template <int Dim>
 double shape_error(const Points<Dim>& reference, const Points<Dim>& position, double spacing) {
-    const Points<Dim> from = reference.colwise() - reference.rowwise().mean().eval();
-    const Points<Dim> to = position.colwise() - position.rowwise().mean().eval();
-    using Matrix = Eigen::Matrix<double, Dim, Dim>;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(to * from.transpose()),
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Matrix u = svd.matrixU(), v = svd.matrixV();
-    Matrix flip = Matrix::Identity();
-    if ((u * v.transpose()).determinant() < 0.0) flip(Dim - 1, Dim - 1) = -1.0;
-    const Matrix rotation = u * flip * v.transpose();
-    return std::sqrt((to - rotation * from).colwise().squaredNorm().mean()) / spacing;
+    const RigidMotion<Dim> motion = best_rigid_motion<Dim>(reference, position);
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < reference.cols(); ++i)
+        sum += (position.col(i) - motion(reference.col(i))).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(reference.cols())) / spacing;
 }
 
 template <int Dim>
@@ -35,8 +28,7 @@ double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& b
     for (int a = 0; a < Dim; ++a)
         if (box.periodic(a)) extent = std::min(extent, 0.499 * box.length(a));
     for (double look = std::min(reach, extent); n > 1; look = std::min(2.0 * look, extent)) {
-        PairList<Dim> list(look, 0.0, box);
-        list.build(position);
+        const PairList<Dim> list(position, look, box);
         for (std::size_t i = 0; i < n; ++i)
             for (const std::uint32_t j : list.neighbours(i)) {
                 if (j <= i) continue;

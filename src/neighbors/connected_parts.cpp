@@ -8,8 +8,7 @@ template <int Dim>
 std::vector<std::int32_t> connected_parts(const Points<Dim>& position, double reach,
                                           const Box<Dim>& box) {
     const auto n = static_cast<std::size_t>(position.cols());
-    PairList<Dim> list(reach, 0.0, box);
-    list.build(position);
+    const PairList<Dim> list(position, reach, box);
     std::vector<std::int32_t> body(n, -1);
     std::vector<std::uint32_t> frontier;
     std::int32_t bodies = 0;

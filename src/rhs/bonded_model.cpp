@@ -14,8 +14,7 @@ BondedModel<Dim>::BondedModel(Particles<Dim> particles, const HarmonicSpring& sp
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       spring_(spring),
       bond_reach_(1.2 * this->particles().spacing) {
-    PairList<Dim> list(bond_reach_, 0.0, box);
-    list.build(this->particles().reference_position);
+    const PairList<Dim> list(this->particles().reference_position, bond_reach_, box);
     start_.push_back(0);
     for (std::size_t i = 0; i < list.size(); ++i) {
         for (const std::uint32_t j : list.neighbours(i))

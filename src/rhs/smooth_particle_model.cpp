@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../core/levels.hpp"
+#include "sweeps.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
-#include <spam/kernel/lucy.hpp>
-#include <spam/neighbors/sweep.hpp>
-#include <spam/physics/continuity.hpp>
-#include <spam/physics/density_sum.hpp>
-#include <spam/physics/mean_density.hpp>
+#include <spam/physics/record.hpp>
 #include <spam/physics/torque_balance.hpp>
-#include <spam/physics/transport.hpp>
-#include <spam/physics/velocity_gradient.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace spam {
 namespace {
@@ -41,51 +38,14 @@ std::vector<Field> fields_of(const Scheme& scheme) {
 }
 
 template <int Dim>
-void store(Eigen::Map<Points<Dim>> field, std::size_t i, const Vec<Dim>& value) {
-    for (int a = 0; a < Dim; ++a) field(a, static_cast<Eigen::Index>(i)) = value[a];
+Sweeps<Dim> best_sweeps(const Scheme& scheme) {
+    return at_level(instruction_set(), [&](auto level) { return sweeps_of<Dim, level>(scheme); });
 }
 
 }  // namespace
 
-/// Runtime choices of the scheme turned into the sweeps compiled for them: once per model.
 template <int Dim>
-struct SmoothParticleModel<Dim>::Choices {
-    using M = SmoothParticleModel;
-    using Weight = Lucy<Dim>;
-
-    template <class Mean, class Transport>
-    static Sweep first(const Scheme& scheme) {
-        if constexpr (Dim == 2)
-            if (scheme.angular_momentum == AngularMomentum::torque_pair)
-                return &M::template first_sweep<Weight, Mean, Transport, TorqueSums>;
-        return &M::template first_sweep<Weight, Mean, Transport, StressForce<Dim>>;
-    }
-    template <class Mean>
-    static Sweep first(const Scheme& scheme) {
-        switch (scheme.transport) {
-            case Transport::plain:
-                return first<Mean, PlainTransport<Dim>>(scheme);
-            case Transport::average:
-                return first<Mean, AverageTransport<Dim>>(scheme);
-            case Transport::monaghan:
-                break;
-        }
-        return first<Mean, MonaghanTransport<Dim, Mean>>(scheme);
-    }
-    static Sweep first_of(const Scheme& scheme) {
-        return scheme.mean_density == MeanDensityKind::arithmetic ? first<ArithmeticMean>(scheme)
-                                                                  : first<GeometricMean>(scheme);
-    }
-    static Sweep second_of(const Scheme& scheme) {
-        const bool chain_rule = scheme.density == Density::chain_rule;
-        if constexpr (Dim == 2)
-            if (scheme.angular_momentum == AngularMomentum::torque_pair)
-                return chain_rule ? &M::template second_sweep<Weight, ChainRuleContinuity,
-                                                              BalancedStressForce>
-                                  : &M::template second_sweep<Weight, BalancedStressForce>;
-        return chain_rule ? &M::template second_sweep<Weight, ChainRuleContinuity> : nullptr;
-    }
-};
+SmoothParticleModel<Dim>::~SmoothParticleModel() = default;
 
 template <int Dim>
 SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
@@ -94,7 +54,10 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
     : Model<Dim>(std::move(particles), box, fields_of(validated(scheme, Dim))),
       material_(material),
       scheme_(scheme),
-      list_(scheme.range, list_skin(scheme.range, box), box) {
+      sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
+      list_(scheme.range, list_skin(scheme.range, box), box, sweeps_->width),
+      stride_(static_cast<std::size_t>(sweeps_->second != nullptr ? TransportRecord<Dim>::numbers
+                                                                  : Record<Dim>::numbers)) {
     const double spacing = this->particles().spacing;
     if (!(scheme.range > spacing) || !(scheme.range < 1e6 * spacing))
         throw InputError(
@@ -102,18 +65,14 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
                         "neighbour) and "
                         "below 1e6 spacings; 2 to 4 spacings are usual",
                         scheme.range, spacing));
-    first_sweep_ = Choices::first_of(scheme_);
-    second_sweep_ = Choices::second_of(scheme_);
     const std::size_t n = this->particles().size();
-    records_.resize(n);
-    transport_velocity_.resize(n);
     grad_v_.resize(n);
-    position_.resize(Dim, static_cast<Eigen::Index>(n));
+    if (sweeps_->density != nullptr) summed_density_.resize(n);
     torque_factor_.assign(static_cast<std::size_t>(this->particles().bodies()), 1.0);
-    if (second_sweep_ != nullptr) transport_records_.resize(n);
     if (scheme_.angular_momentum == AngularMomentum::torque_pair) {
         positive_torque_.resize(n);
         negative_torque_.resize(n);
+        body_sums_.resize(torque_factor_.size());
     }
 }
 
@@ -123,143 +82,134 @@ template <int Dim>
 void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     if (!load(y, y_dot)) return;
-    if (scheme_.density == Density::summed) sum_density();
-    if (!density_is_physical(y_dot)) return;
-    form_A(y);
-    (this->*first_sweep_)(y_dot);
-    material_.stress_rates(grad_v_, {this->layout(), y}, {this->layout(), y_dot});
-    if (second_sweep_ == nullptr) return;
-    if (scheme_.angular_momentum == AngularMomentum::torque_pair) balance_torques();
-    load_transport();
-    (this->*second_sweep_)(y_dot);
+    if (sweeps_->density != nullptr && !sum_density(y, y_dot)) return;
+
+    const State<Dim> rate(this->layout(), y_dot);
+    const SweepInput<Dim> in{list_.view(), {records_.data(), stride_}, scheme_.range, &this->box()};
+    SweepOutput out;
+    out.x_dot = rate.position().data();
+    out.v_dot = rate.velocity().data();
+    out.e_dot = rate.energy().data();
+    out.grad_v = grad_v_.data()->c.data();
+    out.positive_torque = positive_torque_.data();
+    out.negative_torque = negative_torque_.data();
+    if (rate.has(Field::density)) out.rho_dot = rate.density().data();
+    sweeps_->first(in, out);
+    material_.stress_rates(grad_v_, {this->layout(), y}, rate);
+    if (sweeps_->second == nullptr) return;
+
+    const std::span<const double> u(out.x_dot, this->particles().size() * Dim);
+    if (scheme_.angular_momentum == AngularMomentum::torque_pair) balance_torques(y, u);
+    load_transport(u);
+    sweeps_->second(in, out);
 }
 
-/// Records of all particles and the pair list for their positions.
+/// The list for these positions, and the records in its order.
 template <int Dim>
 bool SmoothParticleModel<Dim>::load(std::span<const double> y, std::span<double> y_dot) {
     const ConstState<Dim> state(this->layout(), y);
-    const auto& particles = this->particles();
     const auto x = state.position();
-    const auto v = state.velocity();
-    position_ = x;
-    if (!position_.allFinite()) {
+    if (!x.allFinite()) {
         this->fail(y_dot, "a position is not finite");
         return false;
     }
-    list_.update(position_);
-    const bool integrated = state.has(Field::density);
-    parallel_for(particles.size(), [&](std::size_t i) {
-        const auto c = static_cast<Eigen::Index>(i);
-        Record<Dim>& record = records_[i];
-        for (int a = 0; a < Dim; ++a) {
-            record.x[a] = this->box().periodic(a) ? this->box().wrap(a, x(a, c)) : x(a, c);
-            record.v[a] = v(a, c);
-        }
-        record.m = particles.mass[i];
-        if (integrated) record.rho = state.density()(0, c);
-    });
-    return true;
-}
-
-template <int Dim>
-void SmoothParticleModel<Dim>::sum_density() {
-    const std::span<const Record<Dim>> records(records_);
-    sweep<Dim, DensitySum>(list_, Lucy<Dim>(scheme_.range), records,
-                           [&](std::size_t i, const auto& sums) { records_[i].rho = sums.rho; });
-}
-
-template <int Dim>
-bool SmoothParticleModel<Dim>::density_is_physical(std::span<double> y_dot) {
-    for (std::size_t i = 0; i < records_.size(); ++i) {
-        if (records_[i].rho > 0.0) continue;
-        this->fail(y_dot, fmt::format("density {} of particle {} is not positive", records_[i].rho,
-                                      this->particles().id[i]));
-        return false;
+    list_.update(x);
+    records_.resize(list_.order().size() * stride_);
+    if (!state.has(Field::density)) {
+        pack(y, {}, list_.order(), records_);
+        return true;
     }
+    const auto rho = state.density();
+    const std::span<const double> density(rho.data(), this->particles().size());
+    if (!density_is_physical(density, y_dot)) return false;
+    pack(y, density, list_.order(), records_);
     return true;
 }
 
+/// Without density (not summed yet) what depends on it stays zero.
 template <int Dim>
-void SmoothParticleModel<Dim>::form_A(std::span<const double> y) {
-    const auto stress = ConstState<Dim>(this->layout(), y).stress();
-    parallel_for(records_.size(), [&](std::size_t i) {
-        const double scale = 1.0 / (records_[i].rho * records_[i].rho);
-        for (std::size_t k = 0; k < records_[i].A.c.size(); ++k)
-            records_[i].A.c[k] =
-                scale * stress(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i));
+void SmoothParticleModel<Dim>::pack(std::span<const double> y, std::span<const double> rho,
+                                    std::span<const std::uint32_t> order,
+                                    std::span<double> records) const {
+    constexpr auto d = static_cast<std::size_t>(Dim),
+                   s = static_cast<std::size_t>(symmetric_size(Dim));
+    const ConstState<Dim> state(this->layout(), y);
+    const double* const x = state.position().data();
+    const double* const v = state.velocity().data();
+    const double* const sigma = state.stress().data();
+    const double* const m = this->particles().mass.data();
+    const Box<Dim>& box = this->box();
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t i = order[slot];
+        double* number = &records[slot * stride_];
+        for (std::size_t a = 0; a < d; ++a) {
+            const int axis = static_cast<int>(a);
+            *number++ = box.periodic(axis) ? box.wrap(axis, x[i * d + a]) : x[i * d + a];
+        }
+        for (std::size_t a = 0; a < d; ++a) *number++ = v[i * d + a];
+        *number++ = m[i];
+        const double density = rho.empty() ? 0.0 : rho[i];
+        *number++ = density;
+        const double scale = rho.empty() ? 0.0 : 1.0 / (density * density);
+        for (std::size_t k = 0; k < s; ++k) *number++ = scale * sigma[i * s + k];
     });
 }
 
 template <int Dim>
-template <class Weight, class Mean, class Transport, class Force>
-void SmoothParticleModel<Dim>::first_sweep(std::span<double> y_dot) {
-    const State<Dim> rate(this->layout(), y_dot);
-    const std::span<const Record<Dim>> records(records_);
-    sweep<Dim, VelocityGradient<Dim, Mean>, Continuity, Transport, Force>(
-        list_, Weight(scheme_.range), records,
-        [&](std::size_t i, const auto& gradient, const auto& continuity, const auto& transport,
-            const auto& force) {
-            const auto c = static_cast<Eigen::Index>(i);
-            transport_velocity_[i] = Transport::velocity(records_[i], transport);
-            store<Dim>(rate.position(), i, transport_velocity_[i]);
-            if (scheme_.density == Density::continuity) rate.density()(0, c) = continuity.rho_dot;
-            grad_v_[i] = gradient.grad_v;
-            if constexpr (std::is_same_v<Force, TorqueSums>) {
-                positive_torque_[i] = force.positive;
-                negative_torque_[i] = force.negative;
-            } else {
-                store<Dim>(rate.velocity(), i, force.v_dot);
-                rate.energy()(0, c) = force.e_dot;
-            }
-        });
+bool SmoothParticleModel<Dim>::sum_density(std::span<const double> y, std::span<double> y_dot) {
+    SweepOutput out;
+    out.rho = summed_density_.data();
+    sweeps_->density({list_.view(), {records_.data(), stride_}, scheme_.range, &this->box()}, out);
+    if (!density_is_physical(summed_density_, y_dot)) return false;
+    pack(y, summed_density_, list_.order(), records_);
+    return true;
+}
+
+template <int Dim>
+bool SmoothParticleModel<Dim>::density_is_physical(std::span<const double> rho,
+                                                   std::span<double> y_dot) {
+    const std::size_t wrong = parallel_count(
+        rho.size(), [&](std::size_t i) { return static_cast<std::size_t>(!(rho[i] > 0.0)); });
+    if (wrong == 0) return true;
+    const auto first = std::find_if(rho.begin(), rho.end(), [](double r) { return !(r > 0.0); });
+    this->fail(y_dot,
+               fmt::format("density {} of particle {} is not positive", *first,
+                           this->particles().id[static_cast<std::size_t>(first - rho.begin())]));
+    return false;
 }
 
 /// R of every body from its own sums, taken in the order of the particles.
 template <int Dim>
-void SmoothParticleModel<Dim>::balance_torques() {
+void SmoothParticleModel<Dim>::balance_torques(std::span<const double> y,
+                                               std::span<const double> u) {
     if constexpr (Dim == 2) {
-        for (std::size_t body = 0; body < torque_factor_.size(); ++body) {
-            CompensatedSum P, M, X;
-            for (std::size_t i = 0; i < records_.size(); ++i) {
-                if (static_cast<std::size_t>(this->particles().body[i]) != body) continue;
-                P += 0.5 * positive_torque_[i];
-                M += 0.5 * negative_torque_[i];
-                X += records_[i].m * cross(transport_velocity_[i], records_[i].v);
-            }
-            torque_factor_[body] = torque_balance(P, M, X);
+        const auto& particles = this->particles();
+        const double* const v = ConstState<Dim>(this->layout(), y).velocity().data();
+        std::fill(body_sums_.begin(), body_sums_.end(), BodySums{});
+        for (std::size_t i = 0; i < particles.size(); ++i) {
+            BodySums& body = body_sums_[static_cast<std::size_t>(particles.body[i])];
+            body.P += 0.5 * positive_torque_[i];
+            body.M += 0.5 * negative_torque_[i];
+            body.X += particles.mass[i] * (u[2 * i] * v[2 * i + 1] - u[2 * i + 1] * v[2 * i]);
         }
+        for (std::size_t b = 0; b < body_sums_.size(); ++b)
+            torque_factor_[b] = torque_balance(body_sums_[b].P, body_sums_[b].M, body_sums_[b].X);
     }
 }
 
+/// What the second sweep reads beyond the first.
 template <int Dim>
-void SmoothParticleModel<Dim>::load_transport() {
-    parallel_for(records_.size(), [&](std::size_t i) {
+void SmoothParticleModel<Dim>::load_transport(std::span<const double> u) {
+    constexpr auto d = static_cast<std::size_t>(Dim);
+    const auto order = list_.order();
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t i = order[slot];
+        double* number = &records_[slot * stride_ + TransportRecord<Dim>::first];
+        for (std::size_t a = 0; a < d; ++a) *number++ = u[i * d + a];
         const double R = torque_factor_[static_cast<std::size_t>(this->particles().body[i])];
-        static_cast<Record<Dim>&>(transport_records_[i]) = records_[i];
-        transport_records_[i].u = transport_velocity_[i];
-        transport_records_[i].negative_factor = R;
-        transport_records_[i].positive_factor = 1.0 / R;
+        *number++ = R;
+        *number++ = 1.0 / R;
     });
-}
-
-template <int Dim>
-template <class Weight, class... Passes>
-void SmoothParticleModel<Dim>::second_sweep(std::span<double> y_dot) {
-    const State<Dim> rate(this->layout(), y_dot);
-    const std::span<const TransportRecord<Dim>> records(transport_records_);
-    sweep<Dim, Passes...>(list_, Weight(scheme_.range), records,
-                          [&](std::size_t i, const auto&... sums) {
-                              const auto c = static_cast<Eigen::Index>(i);
-                              const auto store_one = [&](const auto& s) {
-                                  if constexpr (requires { s.rho_dot; }) {
-                                      rate.density()(0, c) = s.rho_dot;
-                                  } else {
-                                      store<Dim>(rate.velocity(), i, s.v_dot);
-                                      rate.energy()(0, c) = s.e_dot;
-                                  }
-                              };
-                              (store_one(sums), ...);
-                          });
 }
 
 template <int Dim>
@@ -274,19 +224,14 @@ double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) cons
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
 std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
-    if (scheme_.density != Density::summed) return Model<Dim>::density(y);
-    const Points<Dim> x = ConstState<Dim>(this->layout(), y).position();
-    PairList<Dim> list(scheme_.range, 0.0, this->box());
-    list.build(x);
-    std::vector<Record<Dim>> records(this->particles().size());
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        for (int a = 0; a < Dim; ++a)
-            records[i].x[a] = this->box().wrap(a, x(a, static_cast<Eigen::Index>(i)));
-        records[i].m = this->particles().mass[i];
-    }
-    std::vector<double> rho(records.size());
-    sweep<Dim, DensitySum>(list, Lucy<Dim>(scheme_.range), std::span<const Record<Dim>>(records),
-                           [&](std::size_t i, const auto& sums) { rho[i] = sums.rho; });
+    if (sweeps_->density == nullptr) return Model<Dim>::density(y);
+    ClusterList<Dim> list(scheme_.range, 0.0, this->box(), sweeps_->width);
+    list.build(ConstState<Dim>(this->layout(), y).position());
+    std::vector<double> records(list.order().size() * stride_), rho(list.size());
+    pack(y, {}, list.order(), records);
+    SweepOutput out;
+    out.rho = rho.data();
+    sweeps_->density({list.view(), {records.data(), stride_}, scheme_.range, &this->box()}, out);
     return rho;
 }
 

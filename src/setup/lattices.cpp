@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/neighbors/connected_parts.hpp>
-#include <spam/neighbors/strip_order.hpp>
+#include <spam/neighbors/strip_sort.hpp>
 #include <spam/setup/lattices.hpp>
 
 #include <cmath>
@@ -52,9 +52,9 @@ template <int Dim>
 Particles<Dim> make_particles(const Points<Dim>& position, double mass, double spacing,
                               const Box<Dim>& box, double reach) {
     const auto n = static_cast<std::size_t>(position.cols());
-    // Strips as wide as eight particles' share of space: about one vector of lanes across.
-    const double width = spacing * std::pow(8.0, 1.0 / Dim);
-    const auto order = strip_order<Dim>(position, width);
+    StripSort<Dim> strips;
+    strips.build(box.wrapped(position), box);
+    const auto order = strips.order();
     Particles<Dim> particles;
     particles.spacing = spacing;
     particles.mass.assign(n, mass);

@@ -9,10 +9,11 @@
 //   dormand_prince_step/N    a step of the adaptive default
 // Counters: ns_per_particle (per right-hand side; per build; per step), ns_per_pair and
 // pairs_per_second (undirected pairs within the list), share_outside_rhs for the steps.
+#include <spam/core/instruction_set.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/integrate/integrator.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/neighbors/pair_list.hpp>
+#include <spam/neighbors/cluster_list.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -89,7 +90,7 @@ void elastic_rhs_torque(benchmark::State& state) {
 void list_build(benchmark::State& state) {
     System system(static_cast<int>(state.range(0)), monaghan);
     const Points<2> x = State<2>(system.model.layout(), system.y).position();
-    PairList<2> list(3.0, 0.3, {});
+    ClusterList<2> list(3.0, 0.3, {}, native_lanes(instruction_set()));
     list.build(x);
     const Stopwatch watch;
     for ([[maybe_unused]] auto _ : state) list.build(x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/neighbors/connected_parts.hpp>
-#include <spam/neighbors/strip_order.hpp>
+#include <spam/neighbors/strip_sort.hpp>
 #include <spam/setup/lattices.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -10,18 +10,44 @@
 
 using namespace spam;
 
-BOOST_AUTO_TEST_CASE(strip_order_is_a_permutation_in_strips) {
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> u(-5.0, 5.0);
-    Points<2> x(2, 500);
-    for (auto& c : x.reshaped()) c = u(random);
-    auto order = strip_order<2>(x, 1.5);
+namespace {
+
+/// Mean distance between particles whose slots follow each other, and the largest one.
+template <int Dim>
+std::array<double, 2> steps(const Points<Dim>& x, std::span<const std::uint32_t> order) {
+    double sum = 0.0, largest = 0.0;
     for (std::size_t k = 1; k < order.size(); ++k) {
-        const double a = std::floor(x(0, order[k - 1]) / 1.5), b = std::floor(x(0, order[k]) / 1.5);
-        BOOST_TEST((a < b || (a == b && x(1, order[k - 1]) <= x(1, order[k]))));
+        const double step = (x.col(order[k]) - x.col(order[k - 1])).norm();
+        sum += step;
+        largest = std::max(largest, step);
     }
+    return {sum / static_cast<double>(order.size() - 1), largest};
+}
+
+template <int Dim>
+void neighbours_in_memory(Eigen::Index n, double size) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> u(-0.5 * size, 0.5 * size);
+    Points<Dim> x(Dim, n);
+    for (auto& c : x.reshaped()) c = u(random);
+    StripSort<Dim> strips;
+    strips.build(x, {});
+    std::vector<std::uint32_t> order(strips.order().begin(), strips.order().end());
+    const auto [mean, largest] = steps(x, order);
+    const double spacing = size / std::pow(static_cast<double>(n), 1.0 / Dim);
+    BOOST_TEST(mean < 1.5 * spacing);
+    BOOST_TEST(largest < 8.0 * spacing);  // strips join at their ends: no step across the body
     std::sort(order.begin(), order.end());
     for (std::size_t k = 0; k < order.size(); ++k) BOOST_TEST(order[k] == k);
+    BOOST_TEST(steps(x, order)[0] > 5.0 * mean);  // the numbers as drawn
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(slots_that_follow_each_other_are_neighbours) {
+    neighbours_in_memory<1>(500, 500.0);
+    neighbours_in_memory<2>(2000, 40.0);
+    neighbours_in_memory<3>(8000, 20.0);
 }
 
 BOOST_AUTO_TEST_CASE(bodies_are_connected_parts) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // F_ij = -F_ji bit for bit, and the balance of pair torques.
 #include <spam/kernel/lucy.hpp>
+#include <spam/neighbors/box.hpp>
+#include <spam/physics/record.hpp>
 #include <spam/physics/torque_balance.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -19,7 +21,7 @@ TransportRecord<Dim> random_record(std::mt19937_64& random) {
         r.x[a] = u(random);
         r.v[a] = u(random);
     }
-    r.m = 1.0 + 0.3 * u(random);
+    r.m = 1.3;  // one mass: m_j f_ij must mirror m_i f_ji
     r.rho = 1.0 + 0.3 * u(random);
     for (double& s : r.A.c) s = u(random);
     r.negative_factor = 1.0 + 0.3 * u(random);
@@ -53,7 +55,7 @@ const auto balanced = [](const auto& pair, const auto& i, const auto& j) {
 };
 // sigma/rho^2 of one particle only: momentum would drift.
 const auto one_sided = [](const auto& pair, const auto& i, const auto&) {
-    return i.A * pair.grad_w_ij;
+    return i.A * pair.m_grad_w;
 };
 }  // namespace
 

@@ -8,12 +8,36 @@ namespace spam {
 /// Fewer particles than this are faster on one thread than the fork and join cost.
 inline constexpr std::size_t parallel_threshold = 1000;
 
-/// body(i) for i in [0, n). Each i must write only what belongs to i: then the result has the same
-/// bits with any number of threads.
+/// body(i) for i in [0, n), each worth `weight` particles of work. Each i must write only what
+/// belongs to i: then the result has the same bits with any number of threads.
 template <class Body>
-void parallel_for(std::size_t n, const Body& body) {
-#pragma omp parallel for schedule(static) if (n >= parallel_threshold)
+void parallel_for(std::size_t n, const Body& body, std::size_t weight = 1) {
+#pragma omp parallel for schedule(static) if (n * weight >= parallel_threshold)
     for (std::size_t i = 0; i < n; ++i) body(i);
+}
+
+/// Sum of count(i), a whole number.
+template <class Count>
+std::size_t parallel_count(std::size_t n, const Count& count, std::size_t weight = 1) {
+    std::size_t sum = 0;
+#pragma omp parallel for schedule(static) reduction(+ : sum) if (n * weight >= parallel_threshold)
+    for (std::size_t i = 0; i < n; ++i) sum += count(i);
+    return sum;
+}
+
+/// Largest value(i), at least 0; not a number if one of them is not.
+template <class Value>
+double parallel_max(std::size_t n, const Value& value) {
+    double largest = 0.0;
+    int invalid = 0;
+#pragma omp parallel for schedule(static) reduction(max : largest) reduction(+ : invalid) \
+    if (n >= parallel_threshold)
+    for (std::size_t i = 0; i < n; ++i) {
+        const double x = value(i);
+        largest = x > largest ? x : largest;
+        invalid += x != x;
+    }
+    return invalid > 0 ? __builtin_nan("") : largest;
 }
 
 /// Number of threads later sweeps use; 0 keeps the runtime's default. Returns the number in force.

@@ -42,6 +42,12 @@ constexpr T dot(const Vec<Dim, T>& a, const Vec<Dim, T>& b) {
     return s;
 }
 
+/// sum += a . b, term by term: one fused operation each where the processor has it.
+template <int Dim, class T>
+constexpr void add_dot(T& sum, const Vec<Dim, T>& a, const Vec<Dim, T>& b) {
+    for (int k = 0; k < Dim; ++k) sum += a[k] * b[k];
+}
+
 /// z component of a x b: the plane's only rotation axis.
 template <class T>
 constexpr T cross(const Vec<2, T>& a, const Vec<2, T>& b) {
@@ -52,7 +58,7 @@ constexpr T cross(const Vec<2, T>& a, const Vec<2, T>& b) {
 /// range of a weight function it would be mispredicted again and again.
 inline double positive_part(double x) { return 0.5 * (x + std::abs(x)); }
 
-/// `mask ? a : b`; a lane type brings its own overload, found by argument-dependent lookup.
-inline double select(bool mask, double a, double b) { return mask ? a : b; }
+/// x to the nearest whole number, halves to even.
+inline double nearest_integer(double x) { return std::nearbyint(x); }
 
 }  // namespace spam

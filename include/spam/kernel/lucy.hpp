@@ -25,9 +25,8 @@ class Lucy {
 
     template <class T>
     T value(const T& r) const {
-        const T u = r * inverse_h_;
-        const T q = positive_part(T(1.0) - u);
-        return c_ * (T(1.0) + T(3.0) * u) * (q * q * q);
+        const T q = positive_part(T(1.0) - r * inverse_h_);
+        return (T(4.0 * c_) - T(3.0 * c_) * q) * q * (q * q);  // 1 + 3u = 4 - 3q
     }
 
     template <class T>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <spam/core/state.hpp>
+#include <spam/core/vec.hpp>
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace spam {
 
@@ -15,19 +15,23 @@ template <int Dim>
 class Box {
   public:
     /// Free space in every direction.
-    Box() { half_.fill(std::numeric_limits<double>::infinity()); }
+    Box() = default;
 
     /// Periodic in each direction whose length is finite and positive; a length 0 leaves it free.
-    explicit Box(const std::array<double, Dim>& lengths) : Box() {
+    explicit Box(const std::array<double, Dim>& lengths) {
         for (std::size_t a = 0; a < Dim; ++a) {
             if (lengths[a] <= 0.0) continue;
             length_[a] = lengths[a];
             inverse_[a] = 1.0 / lengths[a];
-            half_[a] = 0.5 * lengths[a];
         }
     }
 
     bool periodic(int a) const { return length_[at(a)] > 0.0; }
+    bool periodic() const {
+        for (int a = 0; a < Dim; ++a)
+            if (periodic(a)) return true;
+        return false;
+    }
     double length(int a) const { return length_[at(a)]; }
 
     /// The image of x inside [0, L) (a free coordinate is returned as it is).
@@ -36,20 +40,26 @@ class Box {
         return periodic(a) && w >= length_[at(a)] ? 0.0 : w;
     }
 
+    /// All positions (Dim x N) wrapped.
+    Points<Dim> wrapped(Points<Dim> position) const {
+        for (int a = 0; a < Dim; ++a)
+            if (periodic(a))
+                for (Eigen::Index i = 0; i < position.cols(); ++i)
+                    position(a, i) = wrap(a, position(a, i));
+        return position;
+    }
+
     /// Smallest image of a separation of two wrapped coordinates, |s| < L. No branch: in a free
-    /// direction half_ is infinite and zero is subtracted. Exactly antisymmetric.
+    /// direction zero is subtracted. Exactly antisymmetric.
     template <class T>
     T nearest_image(int a, const T& s) const {
-        const T length(length_[at(a)]);
-        return s - select(s > T(half_[at(a)]), length, T(0.0)) +
-               select(s < T(-half_[at(a)]), length, T(0.0));
+        return s - T(length_[at(a)]) * nearest_integer(s * T(inverse_[at(a)]));
     }
 
   private:
     static constexpr std::size_t at(int a) { return static_cast<std::size_t>(a); }
     std::array<double, Dim> length_{};
     std::array<double, Dim> inverse_{};
-    std::array<double, Dim> half_;
 };
 
 }  // namespace spam

@@ -1,62 +1,66 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/lanes.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/vec.hpp>
-#include <spam/kernel/weight_function.hpp>
-#include <spam/neighbors/pair_list.hpp>
+#include <spam/neighbors/cluster_view.hpp>
+#include <spam/neighbors/pair.hpp>
 
-#include <span>
 #include <tuple>
 
 namespace spam {
-
-/// What every pair body sees of a pair: i minus j.
-template <int Dim, class T>
-struct Pair {
-    Vec<Dim, T> r_ij;
-    T r2;
-    T w_ij;
-    Vec<Dim, T> grad_w_ij;  ///< gradient at i: (w'/r) r_ij
-    Vec<Dim, T> v_ij;
-};
-
-/// Everything a pair body may ask of a pair, from two records that hold at least x and v.
-/// Exactly antisymmetric: exchanging i and j flips the sign of r_ij, grad_w_ij, v_ij bit for bit.
-template <int Dim, class T, class Weight, class Record>
-Pair<Dim, T> make_pair(const Weight& weight, const Box<Dim>& box, const Record& i,
-                       const Record& j) {
-    using std::sqrt;
-    Pair<Dim, T> pair;
-    for (int a = 0; a < Dim; ++a) pair.r_ij[a] = box.nearest_image(a, i.x[a] - j.x[a]);
-    pair.r2 = dot(pair.r_ij, pair.r_ij);
-    const T r = sqrt(pair.r2);
-    pair.w_ij = weight.value(r);
-    pair.grad_w_ij = weight.slope_over_r(r) * pair.r_ij;
-    pair.v_ij = i.v - j.v;
-    return pair;
-}
+inline namespace SPAM_LANES {
 
 /// One sweep over all pairs for one or more passes that need nothing from each other, gather form:
-/// for each particle i the sums of every pass over its neighbours (itself included), then
-/// store(i, sums...). A pass is a plain type with
+/// for each cluster of W particles i, in the lanes of T = LanesOf<W>, the sums of every pass over its
+/// neighbours (themselves included), one neighbour j at a time in all lanes; then
+/// store(first slot, i, sums...). Lanes out of range add exact zeros. A pass is a plain type with
 ///     template <class T> struct Sums;
 ///     template <class T, class Record> static void add(pair, i, j, Sums<T>&);
-template <int Dim, class... Passes, class Weight, class Record, class Store>
-void sweep(const PairList<Dim>& list, const Weight& weight, std::span<const Record> records,
-           const Store& store) {
+/// R: the record the passes need (record.hpp). W must be the list's width.
+template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
+void sweep(const ClusterView& list, const Weight& weight, const Space& space,
+           const Records& records, const Store& store) {
+    using T = LanesOf<W>;
+    using Lanes = typename R::template With<T>;
     // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
     parallel_for(
-        list.size(), [&](std::size_t i) __attribute__((flatten)) {
-            std::tuple<typename Passes::template Sums<double>...> sums;
-            for (const std::uint32_t j : list.neighbours(i)) {
-                const auto pair =
-                    make_pair<Dim, double>(weight, list.box(), records[i], records[j]);
-                std::apply([&](auto&... s) { (Passes::add(pair, records[i], records[j], s), ...); },
-                           sums);
+        list.clusters,
+        [&](std::size_t cluster) __attribute__((flatten)) {
+            const double* const own = records.numbers + cluster * W * records.stride;
+            Lanes i, j;
+            i.visit([&](T& number, int k) {
+                for (int l = 0; l < W; ++l)
+                    set_lane(number, l,
+                             own[static_cast<std::size_t>(l) * records.stride +
+                                 static_cast<std::size_t>(k)]);
+            });
+            std::tuple<typename Passes::template Sums<T>...> sums;
+            const ClusterView::Range range = list.range[cluster];
+            const std::uint32_t* entry =
+                list.slices[cluster / ClusterView::slice_size] + range.first;
+            for (const std::uint32_t* const end = entry + range.count; entry != end; ++entry) {
+                const double* const other = records.numbers + *entry * records.stride;
+                j.visit([&](T& number, int k) { number = T(other[k]); });
+                const auto pair = make_pair<Dim, T>(weight, space, i, j);
+                std::apply([&](auto&... s) { (Passes::add(pair, i, j, s), ...); }, sums);
             }
-            std::apply([&](const auto&... s) { store(i, s...); }, sums);
-        });
+            std::apply([&](const auto&... s) { store(cluster * W, i, s...); }, sums);
+        },
+        W);
 }
 
+/// f(lane, particle) for the particles of the cluster that begins at `first_slot`.
+template <int W, class F>
+SPAM_INLINE void for_each_lane(const ClusterView& list, std::size_t first_slot, const F& f) {
+    const std::uint32_t* const particle = list.order + first_slot;
+    if (first_slot + W <= list.particles) {
+        for (int l = 0; l < W; ++l) f(l, std::size_t{particle[l]});
+    } else {
+        for (int l = 0; first_slot + static_cast<std::size_t>(l) < list.particles; ++l)
+            f(l, std::size_t{particle[l]});
+    }
+}
+
+}  // namespace SPAM_LANES
 }  // namespace spam

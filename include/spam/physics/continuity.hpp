@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/sweep.hpp>
+#include <spam/neighbors/pair.hpp>
 
 namespace spam {
 
@@ -13,8 +13,8 @@ struct Continuity {
         T rho_dot{};
     };
     template <int Dim, class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
-        sums.rho_dot += j.m * dot(pair.v_ij, pair.grad_w_ij);
+    static void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) {
+        add_dot(sums.rho_dot, pair.v_ij, pair.m_grad_w);
     }
 };
 
@@ -27,7 +27,7 @@ struct ChainRuleContinuity {
     };
     template <int Dim, class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.rho_dot += j.m * dot(i.u - j.u, pair.grad_w_ij);
+        add_dot(sums.rho_dot, i.u - j.u, pair.m_grad_w);
     }
 };
 

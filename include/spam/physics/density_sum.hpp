@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/sweep.hpp>
+#include <spam/neighbors/pair.hpp>
 
 namespace spam {
 
@@ -12,8 +12,8 @@ struct DensitySum {
         T rho{};
     };
     template <int Dim, class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
-        sums.rho += j.m * pair.w_ij;
+    static void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) {
+        sums.rho += pair.m_w;
     }
 };
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/sweep.hpp>
+#include <spam/core/tensor.hpp>
+#include <spam/neighbors/pair.hpp>
 #include <spam/physics/record.hpp>
 
 namespace spam {
 
-/// Force of j on i for unit masses, f_ij = (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij,
+/// Acceleration of i by j, m_j f_ij = m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij,
 /// [HHM04] II; f_ij = -f_ji bit for bit. In general not along r_ij: hence the angular momentum's
 /// drift.
 template <int Dim, class T, class Record>
-Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, const Record& j) {
-    return (i.A + j.A) * pair.grad_w_ij;
+constexpr Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, const Record& j) {
+    return (i.A + j.A) * pair.m_grad_w;
 }
 
 /// Rates that follow from pair forces, whatever changed them on the way:
@@ -20,12 +21,13 @@ Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, const Record
 template <int Dim, class T>
 struct ForceSums {
     Vec<Dim, T> v_dot;
-    T e_dot{};
+    T power{};  ///< sum_j m_j f_ij . v_ij
 
-    void add(const T& m_j, const Vec<Dim, T>& f_ij, const Vec<Dim, T>& v_ij) {
-        v_dot += m_j * f_ij;
-        e_dot -= T(0.5) * m_j * dot(f_ij, v_ij);
+    constexpr void add(const Vec<Dim, T>& m_f_ij, const Vec<Dim, T>& v_ij) {
+        v_dot += m_f_ij;
+        add_dot(power, m_f_ij, v_ij);
     }
+    constexpr T e_dot() const { return T(-0.5) * power; }
 };
 
 /// The stress force as it is.
@@ -36,7 +38,7 @@ struct StressForce {
 
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(j.m, stress_force(pair, i, j), pair.v_ij);
+        sums.add(stress_force(pair, i, j), pair.v_ij);
     }
 };
 

@@ -25,7 +25,7 @@ struct TorqueSums {
     };
     template <class T, class Record>
     static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T torque = i.m * j.m * cross(pair.r_ij, stress_force(pair, i, j));
+        const T torque = i.m * cross(pair.r_ij, stress_force(pair, i, j));
         sums.positive += positive_part(torque);
         sums.negative += positive_part(-torque);
     }
@@ -64,7 +64,7 @@ struct BalancedStressForce {
 
     template <class T, class Record>
     static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ij);
+        sums.add(scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ij);
     }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/sweep.hpp>
+#include <spam/neighbors/pair.hpp>
 
 /// The velocity u that moves the particles, r_dot = u. It is a field, never an edit of v: stress
 /// and energy go on using v.
@@ -31,9 +31,8 @@ struct AverageTransport {
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
-        const T m_w = j.m * pair.w_ij;
-        sums.momentum += m_w * j.v;
-        sums.weight += m_w;
+        sums.momentum += pair.m_w * j.v;
+        sums.weight += pair.m_w;
     }
     template <class T, class Record>
     static Vec<Dim, T> velocity(const Record&, const Sums<T>& sums) {
@@ -51,8 +50,8 @@ struct MonaghanTransport {
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T rho_ij = MeanDensity::mean(i.rho, j.rho);
-        sums.correction -= (j.m * pair.w_ij / rho_ij) * pair.v_ij;
+        const T volume = T(1.0) / MeanDensity::mean(i.rho, j.rho);
+        sums.correction -= pair.m_w * (volume * pair.v_ij);
     }
     template <class T, class Record>
     static Vec<Dim, T> velocity(const Record& i, const Sums<T>& sums) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/sweep.hpp>
+#include <spam/core/tensor.hpp>
+#include <spam/neighbors/pair.hpp>
 
 namespace spam {
 
@@ -15,10 +16,10 @@ struct VelocityGradient {
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T rho_ij = MeanDensity::mean(i.rho, j.rho);
-        const Vec<Dim, T> g = (j.m / rho_ij) * pair.grad_w_ij;
+        const T volume = T(1.0) / MeanDensity::mean(i.rho, j.rho);
+        const Vec<Dim, T> v = volume * pair.v_ij;
         for (int a = 0; a < Dim; ++a)
-            for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) -= g[a] * pair.v_ij[b];
+            for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) -= pair.m_grad_w[a] * v[b];
     }
 };
 

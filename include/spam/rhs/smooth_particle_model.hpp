@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/sums.hpp>
 #include <spam/material/material.hpp>
-#include <spam/neighbors/pair_list.hpp>
-#include <spam/physics/record.hpp>
+#include <spam/neighbors/cluster_list.hpp>
 #include <spam/rhs/model.hpp>
 
+#include <memory>
+
 namespace spam {
+
+template <int Dim>
+struct Sweeps;
 
 /// A solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
 /// decides whether density is part of y, what velocity moves the particles, and whether pair
@@ -20,12 +25,14 @@ class SmoothParticleModel final : public Model<Dim> {
     SmoothParticleModel(Particles<Dim> particles, const Material<Dim>& material,
                         const Scheme& scheme, const Box<Dim>& box = {});
 
+    ~SmoothParticleModel() override;
+
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
     double internal_energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override { return scheme_.promises(Dim); }
     std::string describe() const override;
-    std::size_t pairs() const override { return (list_.entries() - list_.size()) / 2; }
+    std::size_t pairs() const override { return list_.pairs(); }
     double reach() const override { return scheme_.range; }
 
     const Scheme& scheme() const { return scheme_; }
@@ -34,33 +41,28 @@ class SmoothParticleModel final : public Model<Dim> {
     std::size_t list_builds() const { return list_.builds(); }
 
   private:
-    struct Choices;  // compile-time choices as sweeps, picked once (see the source)
     bool load(std::span<const double> y, std::span<double> y_dot);
-    void sum_density();
-    void form_A(std::span<const double> y);
-    void balance_torques();
-    void load_transport();
-    bool density_is_physical(std::span<double> y_dot);
-
-    template <class Weight, class Mean, class Transport, class Force>
-    void first_sweep(std::span<double> y_dot);
-    template <class Weight, class... Passes>
-    void second_sweep(std::span<double> y_dot);
-
-    using Sweep = void (SmoothParticleModel::*)(std::span<double>);
-    Sweep first_sweep_ = nullptr;
-    Sweep second_sweep_ = nullptr;  ///< nullptr where the first sweep finds everything
+    void pack(std::span<const double> y, std::span<const double> rho,
+              std::span<const std::uint32_t> order, std::span<double> records) const;
+    bool sum_density(std::span<const double> y, std::span<double> y_dot);
+    bool density_is_physical(std::span<const double> rho, std::span<double> y_dot);
+    void balance_torques(std::span<const double> y, std::span<const double> u);
+    void load_transport(std::span<const double> u);
 
     Material<Dim> material_;
     Scheme scheme_;
-    PairList<Dim> list_;
-    std::vector<Record<Dim>> records_;
-    std::vector<TransportRecord<Dim>> transport_records_;
-    std::vector<Vec<Dim>> transport_velocity_;
+    std::unique_ptr<const Sweeps<Dim>> sweeps_;
+    ClusterList<Dim> list_;
+    std::size_t stride_;           ///< of the records
+    std::vector<double> records_;  ///< by slot
     std::vector<Mat<Dim>> grad_v_;
+    std::vector<double> summed_density_;
     std::vector<double> positive_torque_, negative_torque_;  ///< per particle, TorqueSums
-    std::vector<double> torque_factor_;                      ///< per body
-    Points<Dim> position_;
+    struct BodySums {
+        CompensatedSum P, M, X;  ///< torque_balance()
+    };
+    std::vector<BodySums> body_sums_;
+    std::vector<double> torque_factor_;  ///< per body
 };
 
 extern template class SmoothParticleModel<1>;

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/vec.hpp>
+
+#include <cmath>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+// What the compiler may use in this source file becomes part of the type's name: the same source is
+// compiled for several instruction sets, and the linker must never take one's functions for
+// another's.
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+#define SPAM_LANES lanes_avx512
+#elif defined(__AVX2__) && defined(__FMA__)
+#define SPAM_LANES lanes_avx2
+#elif defined(__SSE4_2__)
+#define SPAM_LANES lanes_sse4
+#else
+#define SPAM_LANES lanes_base
+#endif
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // never crosses a call: everything here is inlined
+
+namespace spam {
+inline namespace SPAM_LANES {
+
+#define SPAM_INLINE [[gnu::always_inline]] inline
+
+namespace detail {
+template <int W>
+struct VectorOf;
+// One by one: a vector_size that depends on a template parameter is ignored by GCC.
+#define SPAM_VECTOR(W)                                              \
+    template <>                                                     \
+    struct VectorOf<W> {                                            \
+        typedef double Numbers __attribute__((vector_size(8 * W))); \
+    };
+SPAM_VECTOR(2)
+SPAM_VECTOR(4)
+SPAM_VECTOR(8)
+#undef SPAM_VECTOR
+}  // namespace detail
+
+/// W doubles that are computed with at once: the arithmetic type of pair bodies in the engine. The
+/// compiler's own vectors, so that any W works with any instruction set, most quickly the one that
+/// fills a register (2 for SSE, 4 for AVX2, 8 for AVX-512). One lane is a plain double.
+template <int W>
+struct Lanes {
+    using Vector = typename detail::VectorOf<W>::Numbers;
+
+    Vector v;
+
+    SPAM_INLINE Lanes() : v{} {}
+    SPAM_INLINE Lanes(const Vector& x) : v(x) {}
+    SPAM_INLINE Lanes(double x) : v(x - Vector{}) {}  // x in every lane
+
+    SPAM_INLINE Lanes& operator+=(const Lanes& o) { return v += o.v, *this; }
+    SPAM_INLINE Lanes& operator-=(const Lanes& o) { return v -= o.v, *this; }
+    SPAM_INLINE Lanes& operator*=(const Lanes& o) { return v *= o.v, *this; }
+    SPAM_INLINE friend Lanes operator+(const Lanes& a, const Lanes& b) { return a.v + b.v; }
+    SPAM_INLINE friend Lanes operator-(const Lanes& a, const Lanes& b) { return a.v - b.v; }
+    SPAM_INLINE friend Lanes operator*(const Lanes& a, const Lanes& b) { return a.v * b.v; }
+    SPAM_INLINE friend Lanes operator/(const Lanes& a, const Lanes& b) { return divide(a, b); }
+    SPAM_INLINE friend Lanes operator-(const Lanes& a) { return -a.v; }
+
+    /// Bit l is set where lane l of a is below that of b.
+    SPAM_INLINE friend unsigned lanes_below(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8) return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ);
+#endif
+#if defined(__AVX__)
+        if constexpr (W == 4)
+            return unsigned(
+                _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a.v, (__m256d)b.v, _CMP_LT_OQ)));
+#endif
+#if defined(__SSE2__)
+        if constexpr (W == 2)
+            return unsigned(_mm_movemask_pd(_mm_cmplt_pd((__m128d)a.v, (__m128d)b.v)));
+#endif
+        unsigned bits = 0;
+        for (int l = 0; l < W; ++l) bits |= unsigned(a.v[l] < b.v[l]) << l;
+        return bits;
+    }
+
+    /// A NaN in x stays one.
+    SPAM_INLINE friend Lanes max(const Lanes& x, const Lanes& least) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8)
+            return Vector(_mm512_maskz_max_pd(0xff, (__m512d)least.v, (__m512d)x.v));
+#endif
+#if defined(__AVX__)
+        if constexpr (W == 4) return Vector(_mm256_max_pd((__m256d)least.v, (__m256d)x.v));
+#endif
+#if defined(__SSE2__)
+        if constexpr (W == 2) return Vector(_mm_max_pd((__m128d)least.v, (__m128d)x.v));
+#endif
+        return x.v < least.v ? least.v : x.v;
+    }
+    SPAM_INLINE friend Lanes positive_part(const Lanes& x) { return max(x, Lanes(0.0)); }
+
+    SPAM_INLINE friend Lanes sqrt(const Lanes& x) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8) return Vector(fast_sqrt((__m512d)x.v));
+#endif
+#if defined(__AVX__)
+        if constexpr (W == 4) return Vector(_mm256_sqrt_pd((__m256d)x.v));
+#endif
+#if defined(__SSE2__)
+        if constexpr (W == 2) return Vector(_mm_sqrt_pd((__m128d)x.v));
+#endif
+        Lanes r;
+        for (int l = 0; l < W; ++l) r.v[l] = std::sqrt(x.v[l]);
+        return r;
+    }
+
+    /// Nearest integers, halves to even.
+    SPAM_INLINE friend Lanes nearest_integer(const Lanes& x) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8) return Vector(_mm512_maskz_roundscale_pd(0xff, (__m512d)x.v, 0));
+#endif
+#if defined(__AVX__)
+        if constexpr (W == 4) return Vector(_mm256_round_pd((__m256d)x.v, 0));
+#endif
+#if defined(__SSE4_1__)
+        if constexpr (W == 2) return Vector(_mm_round_pd((__m128d)x.v, 0));
+#endif
+        Lanes r;
+        for (int l = 0; l < W; ++l) r.v[l] = std::nearbyint(x.v[l]);
+        return r;
+    }
+
+  private:
+    SPAM_INLINE static Lanes divide(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8) return Vector(fast_quotient((__m512d)a.v, (__m512d)b.v));
+#endif
+        return a.v / b.v;
+    }
+
+#if defined(__AVX512F__)
+    // (maskz with all lanes: in the plain forms GCC 12 complains of its own undefined operand.)
+    // A full register of square roots or quotients occupies the divider for 16 to 24 cycles, as
+    // long as half of a pair's other work. From the 14-bit estimates Newton's iteration gets there on
+    // the multipliers in a quarter of that; the last step works with the residue, which leaves an
+    // error of one unit in the last place.
+    SPAM_INLINE static __m512d fast_sqrt(__m512d x) {
+        const __m512d half = _mm512_set1_pd(0.5);
+        // sqrt(0) is 0 * a large number, not 0 * infinity
+        __m512d y =
+            _mm512_maskz_rsqrt14_pd(0xff, _mm512_maskz_max_pd(0xff, _mm512_set1_pd(1e-300), x));
+        __m512d s = _mm512_mul_pd(x, y);  // -> sqrt(x)
+        y = _mm512_mul_pd(y, half);       // -> 1/(2 sqrt(x))
+        __m512d e = _mm512_fnmadd_pd(s, y, half);
+        s = _mm512_fmadd_pd(s, e, s);
+        y = _mm512_fmadd_pd(y, e, y);
+        return _mm512_fmadd_pd(_mm512_fnmadd_pd(s, s, x), y, s);
+    }
+    SPAM_INLINE static __m512d fast_quotient(__m512d a, __m512d b) {
+        const __m512d one = _mm512_set1_pd(1.0);
+        __m512d y = _mm512_maskz_rcp14_pd(0xff, b);
+        y = _mm512_fmadd_pd(y, _mm512_fnmadd_pd(b, y, one), y);
+        const __m512d q = _mm512_mul_pd(a, y);
+        return _mm512_fmadd_pd(_mm512_fnmadd_pd(b, q, a), y, q);
+    }
+#endif
+};
+
+namespace detail {
+template <int W>
+struct LaneType {
+    using type = Lanes<W>;
+};
+template <>
+struct LaneType<1> {
+    using type = double;
+};
+}  // namespace detail
+
+/// The arithmetic type of W lanes.
+template <int W>
+using LanesOf = typename detail::LaneType<W>::type;
+
+SPAM_INLINE unsigned lanes_below(double a, double b) { return a < b ? 1U : 0U; }
+SPAM_INLINE double lane(double x, int) { return x; }
+template <int W>
+SPAM_INLINE double lane(const Lanes<W>& x, int l) {
+    return x.v[l];
+}
+SPAM_INLINE void set_lane(double& x, int, double value) { x = value; }
+template <int W>
+SPAM_INLINE void set_lane(Lanes<W>& x, int l, double value) {
+    x.v[l] = value;
+}
+
+}  // namespace SPAM_LANES
+}  // namespace spam
+
+#pragma GCC diagnostic pop

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/rigid_motion.hpp>
+#include <spam/neighbors/cluster_view.hpp>
+#include <spam/neighbors/strip_sort.hpp>
+
+#include <span>
+#include <vector>
+
+namespace spam {
+
+/// Neighbours of clusters: `width` particles at a time, next to each other in space, which a sweep
+/// computes in the lanes of one register (sweep.hpp). A cluster's list holds every slot j with
+/// |r_ij| < range + skin for at least one of its particles i (nearest image), themselves included,
+/// in **ascending number of particle**. Weight functions vanish exactly beyond the range, and adding
+/// an exact zero changes no bit, so a sum over the list depends on the positions alone: neither on
+/// the skin, nor on when the list was built, nor on the number of threads.
+template <int Dim>
+class ClusterList {
+  public:
+    /// `range` > 0, the range of the weight function; `skin` >= 0, how much further the list looks;
+    /// `width` 1, 2, 4 or 8. Throws InputError when a periodic length is not above
+    /// 2 (range + skin).
+    ClusterList(double range, double skin, const Box<Dim>& box, int width);
+
+    /// Builds the list for positions Dim x N (finite, not necessarily wrapped).
+    void build(const Eigen::Ref<const Points<Dim>>& position);
+
+    /// Rebuilds only if, after the best rigid motion is taken off, some particle has moved more than
+    /// half the skin since the last build: a body that only turns and flies keeps its list. Where
+    /// the box is periodic, only a translation is taken off. Returns whether it did. Precondition:
+    /// as for build().
+    bool update(const Eigen::Ref<const Points<Dim>>& position);
+
+    ClusterView view() const;
+    std::size_t size() const { return size_; }
+    std::size_t clusters() const { return range_of_.size(); }
+    int width() const { return width_; }
+    /// Slot -> particle, `width` entries a cluster.
+    std::span<const std::uint32_t> order() const { return order_; }
+    /// Slots of the neighbours of a cluster.
+    std::span<const std::uint32_t> entries(std::size_t cluster) const;
+    /// Pairs (undirected) closer than range + skin when the list was built.
+    std::size_t pairs() const { return pairs_; }
+    std::size_t builds() const { return builds_; }
+    const Box<Dim>& box() const { return box_; }
+
+  private:
+    void sort(const Eigen::Ref<const Points<Dim>>& position);
+    std::size_t search_slice(std::size_t slice);
+    void put_in_order(std::uint32_t* first, std::uint32_t* last) const;
+    double largest_displacement2(const Eigen::Ref<const Points<Dim>>& position) const;
+
+    double range_, skin_;
+    Box<Dim> box_;
+    int width_;
+    std::size_t size_ = 0, pairs_ = 0, builds_ = 0;
+    StripSort<Dim> strips_;
+    bool in_order_ = false;  ///< slots are particle numbers
+    std::vector<std::uint32_t> order_;
+    std::array<std::vector<double>, Dim> x_;  ///< wrapped, by slot
+    Points<Dim> built_at_;
+    RigidMotion<Dim> motion_;  ///< since the last build, roughly
+    std::vector<ClusterView::Range> range_of_;
+    std::vector<std::vector<std::uint32_t>> slices_;
+    std::vector<const std::uint32_t*> slice_of_;
+};
+
+extern template class ClusterList<1>;
+extern template class ClusterList<2>;
+extern template class ClusterList<3>;
+
+}  // namespace spam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace spam {
+
+/// What a sweep reads of a cluster list: plain pointers, because sweeps are compiled for several
+/// instruction sets and must leave no function behind that other code could be linked to.
+struct ClusterView {
+    struct Range {
+        std::uint32_t first, count;
+    };
+    static constexpr std::size_t slice_size = 64;  ///< clusters whose entries lie in one block
+
+    std::size_t particles;
+    std::size_t clusters;
+    const std::uint32_t* order;          ///< slot -> particle; the last one repeated to fill lanes
+    const Range* range;                  ///< by cluster, within its slice
+    const std::uint32_t* const* slices;  ///< slots of neighbours
+};
+
+/// Records of all particles by slot: `stride` numbers each, of which a sweep reads the first.
+struct Records {
+    const double* numbers;
+    std::size_t stride;
+};
+
+/// A run of slots [first, last).
+struct SlotRange {
+    std::uint32_t first, last;
+};
+
+}  // namespace spam

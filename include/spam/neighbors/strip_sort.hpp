@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/box.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace spam {
+
+/// Particles sorted so that neighbours in space are neighbours in memory: strips (columns in three
+/// dimensions) across all directions but the last, sorted by the last coordinate inside a strip,
+/// upwards and downwards in turn, so that the end of one strip is next to the beginning of the
+/// following one. A slot is a place in this order. Any few particles that follow each other then
+/// fill a compact piece of space.
+template <int Dim>
+class StripSort {
+  public:
+    /// Positions Dim x N, finite, wrapped into the box where it is periodic. The strips are as wide
+    /// as the share of space of six particles is on a side: right for clusters of four and of eight.
+    /// Particles flung far apart would need more bins than particles: these grow instead, which
+    /// costs time, never memory.
+    void build(const Points<Dim>& position, const Box<Dim>& box);
+
+    /// order()[slot] is the particle's number. Ties keep the lower number first.
+    std::span<const std::uint32_t> order() const { return order_; }
+
+    /// visit(first, last): ranges of slots, ascending, that together hold every particle between the
+    /// corners `low` and `high` (and some around); in a periodic box also images of particles.
+    template <class Visit>
+    void for_each_range(const Point<Dim>& low, const Point<Dim>& high, const Visit& visit) const {
+        std::array<Intervals, Dim> bins;
+        for (std::size_t a = 0; a < Dim; ++a)
+            bins[a] =
+                intervals(a, low[static_cast<Eigen::Index>(a)], high[static_cast<Eigen::Index>(a)]);
+        visit_axis<0>(bins, 0, visit);
+    }
+
+  private:
+    using Int = std::int32_t;
+    /// Ascending, at most two where an interval wraps around.
+    struct Intervals {
+        int count = 0;
+        std::array<std::array<Int, 2>, 2> of{};
+    };
+
+    Int bin(std::size_t a, double x) const;
+    Intervals intervals(std::size_t a, double low, double high) const;
+    void choose_bins(const Points<Dim>& position, const Box<Dim>& box);
+    double volume_per_particle(const Points<Dim>& position);
+    void divide(std::size_t a, double edge);
+
+    /// `sequence`: number of the strip so far; in odd ones the next direction runs backwards.
+    template <int Axis, class Visit>
+    void visit_axis(const std::array<Intervals, Dim>& bins, Int sequence,
+                    const Visit& visit) const {
+        const Int n = count_[Axis];
+        const bool backwards = sequence % 2 != 0;
+        for (int k = 0; k < bins[Axis].count; ++k) {
+            const auto [first, last] =
+                bins[Axis].of[static_cast<std::size_t>(backwards ? bins[Axis].count - 1 - k : k)];
+            const Int begin = sequence * n + (backwards ? n - 1 - last : first);
+            const Int end = begin + (last - first);
+            if constexpr (Axis + 1 < Dim) {
+                for (Int s = begin; s <= end; ++s) visit_axis<Axis + 1>(bins, s, visit);
+            } else {
+                visit(start_[static_cast<std::size_t>(begin)],
+                      start_[static_cast<std::size_t>(end) + 1]);
+            }
+        }
+    }
+
+    std::array<double, Dim> origin_{}, extent_{}, per_edge_{};
+    std::array<Int, Dim> count_{};
+    std::array<bool, Dim> periodic_{};
+    std::vector<std::uint32_t> order_, start_, bin_of_;
+};
+
+extern template class StripSort<1>;
+extern template class StripSort<2>;
+extern template class StripSort<3>;
+
+}  // namespace spam

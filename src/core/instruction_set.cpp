@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/instruction_set.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace spam {
+namespace {
+
+InstructionSet best_of_processor() {
+#if defined(SPAM_X86_LEVELS)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
+        return InstructionSet::v4;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+        __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2"))
+        return InstructionSet::v3;
+    if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"))
+        return InstructionSet::v2;
+    throw InputError(
+        "this processor has no SSE4.2, which this build needs; build with -DSPAM_LEVELS=generic");
+#else
+    return InstructionSet::generic;
+#endif
+}
+
+InstructionSet chosen() {
+    const InstructionSet best = best_of_processor();
+    const char* const wish = std::getenv("SPAM_ISA");
+    if (wish == nullptr || *wish == '\0') return best;
+    for (const auto set : {InstructionSet::v2, InstructionSet::v3, InstructionSet::v4}) {
+        if (to_string(set) != std::string("x86-64-") + wish) continue;
+        if (set <= best) return set;
+        throw InputError(fmt::format(
+            "SPAM_ISA: {} is more than this processor can do ({}); unset it, or choose less", wish,
+            to_string(best)));
+    }
+    throw InputError(
+        fmt::format("SPAM_ISA: no instruction set '{}'; there are v2, v3 and v4", wish));
+}
+
+}  // namespace
+
+InstructionSet instruction_set() {
+    static const InstructionSet set = chosen();
+    return set;
+}
+
+std::string_view to_string(InstructionSet set) {
+    switch (set) {
+        case InstructionSet::v2:
+            return "x86-64-v2";
+        case InstructionSet::v3:
+            return "x86-64-v3";
+        case InstructionSet::v4:
+            return "x86-64-v4";
+        case InstructionSet::generic:
+            break;
+    }
+    return "generic";
+}
+
+}  // namespace spam

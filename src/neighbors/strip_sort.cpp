@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parallel.hpp>
+#include <spam/neighbors/strip_sort.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spam {
+namespace {
+
+/// More bins than this would cost more than the particles in them.
+double most_bins(std::size_t particles) { return 64.0 + 4.0 * static_cast<double>(particles); }
+
+}  // namespace
+
+template <int Dim>
+typename StripSort<Dim>::Int StripSort<Dim>::bin(std::size_t a, double x) const {
+    return std::clamp(static_cast<Int>((x - origin_[a]) * per_edge_[a]), 0, count_[a] - 1);
+}
+
+/// Cuts direction a into bins of about `edge`.
+template <int Dim>
+void StripSort<Dim>::divide(std::size_t a, double edge) {
+    const double fit = std::clamp(std::floor(extent_[a] / edge), 1.0, 1e9);
+    count_[a] = static_cast<Int>(fit);
+    per_edge_[a] = extent_[a] > 0.0 ? fit / extent_[a] : 0.0;
+}
+
+/// From the number of cells that are not empty, cells of about two particles across: true for a
+/// filled block, a body of any outline, several bodies far apart.
+template <int Dim>
+double StripSort<Dim>::volume_per_particle(const Points<Dim>& position) {
+    const auto n = static_cast<double>(position.cols());
+    double edge = 2.0 * *std::max_element(extent_.begin(), extent_.end()) / std::pow(n, 1.0 / Dim);
+    double volume = 1.0;
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        double total;
+        for (;; edge *= 1.3) {
+            total = 1.0;
+            for (std::size_t a = 0; a < Dim; ++a) divide(a, edge), total *= count_[a];
+            if (total <= most_bins(order_.size())) break;
+        }
+        start_.assign(static_cast<std::size_t>(total), 0);
+        double cell_volume = 1.0, occupied = 0.0;
+        for (std::size_t a = 0; a < Dim; ++a)
+            cell_volume *= per_edge_[a] > 0.0 ? 1.0 / per_edge_[a] : edge;
+        for (Eigen::Index i = 0; i < position.cols(); ++i) {
+            Int cell = 0;
+            for (std::size_t a = 0; a < Dim; ++a)
+                cell = cell * count_[a] + bin(a, position(static_cast<Eigen::Index>(a), i));
+            auto& seen = start_[static_cast<std::size_t>(cell)];
+            occupied += 1.0 - seen;
+            seen = 1;
+        }
+        volume = occupied * cell_volume / n;
+        const double better = 2.0 * std::pow(volume, 1.0 / Dim);
+        const bool good = better > 0.7 * edge;
+        edge = better;
+        if (good) break;
+    }
+    return volume;
+}
+
+template <int Dim>
+void StripSort<Dim>::choose_bins(const Points<Dim>& position, const Box<Dim>& box) {
+    double longest = 0.0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+        const auto row = position.row(static_cast<Eigen::Index>(a));
+        periodic_[a] = box.periodic(static_cast<int>(a));
+        origin_[a] = periodic_[a] || row.size() == 0 ? 0.0 : row.minCoeff();
+        extent_[a] = periodic_[a]     ? box.length(static_cast<int>(a))
+                     : row.size() > 0 ? row.maxCoeff() - origin_[a]
+                                      : 0.0;
+        longest = std::max(longest, extent_[a]);
+    }
+    const double volume = longest > 0.0 ? volume_per_particle(position) : 1.0;
+    double width = std::pow(6.0 * volume, 1.0 / Dim);
+    double height = volume / std::pow(width, Dim - 1);  // about one particle a bin
+    for (;; width *= 1.2, height *= 1.2) {
+        double total = 1.0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            divide(a, a + 1 < Dim ? width : height);
+            total *= count_[a];
+        }
+        if (total <= most_bins(order_.size())) return;
+    }
+}
+
+template <int Dim>
+void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
+    const auto n = static_cast<std::size_t>(position.cols());
+    order_.resize(n);
+    bin_of_.resize(n);
+    choose_bins(position, box);
+    std::size_t bins = 1;
+    for (const Int c : count_) bins *= static_cast<std::size_t>(c);
+
+    parallel_for(n, [&](std::size_t i) {
+        Int sequence = 0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const Int k =
+                bin(a, position(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(i)));
+            sequence = sequence * count_[a] + (sequence % 2 != 0 ? count_[a] - 1 - k : k);
+        }
+        bin_of_[i] = static_cast<std::uint32_t>(sequence);
+    });
+    // A counting sort: start_[b] is where bin b - 1 begins, then, filled, where b begins.
+    start_.assign(bins + 2, 0);
+    for (std::size_t i = 0; i < n; ++i) ++start_[bin_of_[i] + 2];
+    for (std::size_t b = 2; b < bins + 2; ++b) start_[b] += start_[b - 1];
+    for (std::size_t i = 0; i < n; ++i)
+        order_[start_[bin_of_[i] + 1]++] = static_cast<std::uint32_t>(i);
+
+    const auto last = position.row(Dim - 1);
+    const auto rows = static_cast<std::size_t>(count_[Dim - 1]);
+    parallel_for(n > 0 ? bins : 0, [&](std::size_t b) {
+        const double sign = (b / rows) % 2 != 0 ? -1.0 : 1.0;
+        if (start_[b + 1] - start_[b] > 64) {  // flung far apart
+            std::sort(order_.begin() + start_[b], order_.begin() + start_[b + 1],
+                      [&](std::uint32_t i, std::uint32_t j) {
+                          return sign * last[i] < sign * last[j] || (last[i] == last[j] && i < j);
+                      });
+            return;
+        }
+        // Few particles share a bin: insertion.
+        for (std::uint32_t k = start_[b] + 1; k < start_[b + 1]; ++k) {
+            const std::uint32_t moving = order_[k];
+            std::uint32_t to = k;
+            for (; to > start_[b] && sign * last[order_[to - 1]] > sign * last[moving]; --to)
+                order_[to] = order_[to - 1];
+            order_[to] = moving;
+        }
+    });
+}
+
+template <int Dim>
+typename StripSort<Dim>::Intervals StripSort<Dim>::intervals(std::size_t a, double low,
+                                                             double high) const {
+    const Int n = count_[a];
+    if (!periodic_[a]) {
+        // In doubles first: a corner may lie far outside what an integer holds.
+        const auto clamped = [&](double x) {
+            return static_cast<Int>(std::clamp((x - origin_[a]) * per_edge_[a], 0.0, n - 1.0));
+        };
+        return {1, {{{clamped(low), clamped(high)}, {}}}};
+    }
+    const double first = std::floor(low * per_edge_[a]), last = std::floor(high * per_edge_[a]);
+    if (!(last - first + 1.0 < n)) return {1, {{{0, n - 1}, {}}}};
+    const auto wrapped = [&](double k) { return static_cast<Int>(k - n * std::floor(k / n)); };
+    const Int from = wrapped(first), to = wrapped(last);
+    if (from <= to) return {1, {{{from, to}, {}}}};
+    return {2, {{{0, to}, {from, n - 1}}}};
+}
+
+template class StripSort<1>;
+template class StripSort<2>;
+template class StripSort<3>;
+
+}  // namespace spam

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/instruction_set.hpp>
+#include <spam/neighbors/box.hpp>
+#include <spam/neighbors/cluster_view.hpp>
+#include <spam/physics/scheme.hpp>
+
+namespace spam {
+
+/// What the sweeps of a right-hand side read ...
+template <int Dim>
+struct SweepInput {
+    ClusterView list;
+    Records records;  ///< TransportRecord where there is a second sweep, else Record
+    double range;     ///< of the weight function
+    const Box<Dim>* box;
+};
+
+/// ... and write, by number of particle. What is null is not wanted.
+struct SweepOutput {
+    double* x_dot = nullptr;            ///< Dim x N, the transport velocity
+    double* v_dot = nullptr;            ///< Dim x N
+    double* rho_dot = nullptr;          ///< N
+    double* e_dot = nullptr;            ///< N
+    double* grad_v = nullptr;           ///< N x Dim x Dim
+    double* rho = nullptr;              ///< N, the summed density
+    double* positive_torque = nullptr;  ///< N, TorqueSums
+    double* negative_torque = nullptr;  ///< N
+};
+
+template <int Dim>
+using Sweep = void (*)(const SweepInput<Dim>&, const SweepOutput&);
+
+/// The sweeps of a scheme, compiled for an instruction set: run-time choices become functions once
+/// per model.
+template <int Dim>
+struct Sweeps {
+    int width;                     ///< of the clusters they need
+    Sweep<Dim> density = nullptr;  ///< null where density is part of y
+    Sweep<Dim> first = nullptr;
+    Sweep<Dim> second = nullptr;  ///< null where the first finds everything
+};
+
+/// Defined in sweeps.lanes.cpp for every level.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> sweeps_of(const Scheme& scheme);
+
+}  // namespace spam

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sweeps.hpp"
+
+#include <spam/kernel/lucy.hpp>
+#include <spam/neighbors/sweep.hpp>
+#include <spam/physics/continuity.hpp>
+#include <spam/physics/density_sum.hpp>
+#include <spam/physics/mean_density.hpp>
+#include <spam/physics/record.hpp>
+#include <spam/physics/torque_balance.hpp>
+#include <spam/physics/transport.hpp>
+#include <spam/physics/velocity_gradient.hpp>
+
+namespace spam {
+namespace {
+
+constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
+using T = LanesOf<W>;
+
+template <int Dim>
+void store(double* field, std::size_t i, int l, const Vec<Dim, T>& value) {
+    for (int a = 0; a < Dim; ++a) field[i * Dim + static_cast<std::size_t>(a)] = lane(value[a], l);
+}
+
+/// One sweep, in open space or in a box.
+template <int Dim, class R, class... Passes, class Store>
+void sweep_in(const SweepInput<Dim>& in, const Store& store_sums) {
+    const Lucy<Dim> weight(in.range);
+    if (in.box->periodic())
+        sweep<W, Dim, R, Passes...>(in.list, weight, *in.box, in.records, store_sums);
+    else
+        sweep<W, Dim, R, Passes...>(in.list, weight, OpenSpace(), in.records, store_sums);
+}
+
+template <int Dim>
+void density(const SweepInput<Dim>& in, const SweepOutput& out) {
+    sweep_in<Dim, Record<Dim>, DensitySum>(
+        in, [&](std::size_t slot, const auto&, const auto& sums) {
+            for_each_lane<W>(in.list, slot,
+                             [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
+        });
+}
+
+template <int Dim, class Mean, class Transport, class Force>
+void first(const SweepInput<Dim>& in, const SweepOutput& out) {
+    sweep_in<Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity, Transport, Force>(
+        in, [&](std::size_t slot, const auto& particles, const auto& gradient,
+                const auto& continuity, const auto& transport, const auto& force) {
+            const Vec<Dim, T> u = Transport::velocity(particles, transport);
+            for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
+                store<Dim>(out.x_dot, i, l, u);
+                for (std::size_t k = 0; k < Dim * Dim; ++k)
+                    out.grad_v[i * Dim * Dim + k] = lane(gradient.grad_v.c[k], l);
+                if (out.rho_dot != nullptr) out.rho_dot[i] = lane(continuity.rho_dot, l);
+                if constexpr (std::is_same_v<Force, TorqueSums>) {
+                    out.positive_torque[i] = lane(force.positive, l);
+                    out.negative_torque[i] = lane(force.negative, l);
+                } else {
+                    store<Dim>(out.v_dot, i, l, force.v_dot);
+                    out.e_dot[i] = lane(force.e_dot(), l);
+                }
+            });
+        });
+}
+
+template <int Dim, class... Passes>
+void second(const SweepInput<Dim>& in, const SweepOutput& out) {
+    sweep_in<Dim, TransportRecord<Dim>, Passes...>(
+        in, [&](std::size_t slot, const auto&, const auto&... sums) {
+            for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
+                const auto store_one = [&](const auto& s) {
+                    if constexpr (requires { s.rho_dot; }) {
+                        out.rho_dot[i] = lane(s.rho_dot, l);
+                    } else {
+                        store<Dim>(out.v_dot, i, l, s.v_dot);
+                        out.e_dot[i] = lane(s.e_dot(), l);
+                    }
+                };
+                (store_one(sums), ...);
+            });
+        });
+}
+
+/// Run-time choices of the scheme turned into the sweeps compiled for them.
+template <int Dim>
+struct Choices {
+    template <class Mean, class Transport>
+    static Sweep<Dim> first_of(const Scheme& scheme) {
+        if constexpr (Dim == 2)
+            if (scheme.angular_momentum == AngularMomentum::torque_pair)
+                return first<Dim, Mean, Transport, TorqueSums>;
+        return first<Dim, Mean, Transport, StressForce<Dim>>;
+    }
+    template <class Mean>
+    static Sweep<Dim> first_of(const Scheme& scheme) {
+        switch (scheme.transport) {
+            case Transport::plain:
+                return first_of<Mean, PlainTransport<Dim>>(scheme);
+            case Transport::average:
+                return first_of<Mean, AverageTransport<Dim>>(scheme);
+            case Transport::monaghan:
+                break;
+        }
+        return first_of<Mean, MonaghanTransport<Dim, Mean>>(scheme);
+    }
+    static Sweep<Dim> second_of(const Scheme& scheme) {
+        const bool chain_rule = scheme.density == Density::chain_rule;
+        if constexpr (Dim == 2)
+            if (scheme.angular_momentum == AngularMomentum::torque_pair)
+                return chain_rule ? second<Dim, ChainRuleContinuity, BalancedStressForce>
+                                  : second<Dim, BalancedStressForce>;
+        return chain_rule ? second<Dim, ChainRuleContinuity> : nullptr;
+    }
+};
+
+}  // namespace
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> sweeps_of(const Scheme& scheme) {
+    Sweeps<Dim> sweeps{W};
+    using C = Choices<Dim>;
+    sweeps.first = scheme.mean_density == MeanDensityKind::arithmetic
+                       ? C::template first_of<ArithmeticMean>(scheme)
+                       : C::template first_of<GeometricMean>(scheme);
+    sweeps.second = C::second_of(scheme);
+    if (scheme.density == Density::summed) sweeps.density = density<Dim>;
+    return sweeps;
+}
+
+template Sweeps<1> sweeps_of<1, InstructionSet::SPAM_LEVEL>(const Scheme&);
+template Sweeps<2> sweeps_of<2, InstructionSet::SPAM_LEVEL>(const Scheme&);
+template Sweeps<3> sweeps_of<3, InstructionSet::SPAM_LEVEL>(const Scheme&);
+
+}  // namespace spam

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cluster lists and pair lists against a look at every pair; and that the comparison notices a list
+// that is wrong.
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/neighbors/brute_force.hpp>
+#include <spam/neighbors/cluster_list.hpp>
+#include <spam/neighbors/pair_list.hpp>
+
+#include <Eigen/Geometry>
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+#include <set>
+
+using namespace spam;
+
+namespace {
+
+template <int Dim>
+Points<Dim> random_points(Eigen::Index n, double size, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> u(0.0, size);
+    Points<Dim> points(Dim, n);
+    for (auto& x : points.reshaped()) x = u(random);
+    return points;
+}
+
+/// Clusters whose entries are not, in ascending number, all neighbours of their particles, or all
+/// clusters if the slots are no permutation.
+template <int Dim>
+std::size_t wrong_clusters(const ClusterList<Dim>& list, const Points<Dim>& x, double cutoff,
+                           const Box<Dim>& box) {
+    const auto expected = brute_force_neighbours<Dim>(x, cutoff, box);
+    const auto order = list.order();
+    const auto width = static_cast<std::size_t>(list.width());
+    const std::set<std::uint32_t> particles(order.begin(), order.end());
+    std::size_t wrong = 0;
+    for (std::size_t c = 0; c < list.clusters(); ++c) {
+        std::set<std::uint32_t> neighbours;
+        for (std::size_t l = 0; l < width; ++l)
+            for (const auto j : expected[order[c * width + l]]) neighbours.insert(j);
+        std::vector<std::uint32_t> found;
+        for (const auto slot : list.entries(c)) found.push_back(order[slot]);
+        wrong += found == std::vector(neighbours.begin(), neighbours.end()) ? 0 : 1;
+    }
+    const bool permutation = particles.size() == list.size() && list.size() == expected.size();
+    return permutation ? wrong : list.clusters() + 1;
+}
+
+template <int Dim>
+void check(const Box<Dim>& box, double size, double range, double skin) {
+    for (const int width : {1, 2, 4, 8})
+        for (unsigned seed = 1; seed <= 5; ++seed) {
+            Points<Dim> x = random_points<Dim>(297 + seed, size, seed);
+            if (seed == 4) x.array() -= 3.7 * size;  // never wrapped inside y
+            ClusterList<Dim> list(range, skin, box, width);
+            list.build(x);
+            BOOST_TEST(wrong_clusters(list, x, range + skin, box) == 0U);
+            std::size_t pairs = 0;
+            const PairList<Dim> by_number(x, range + skin, box);
+            const auto expected = brute_force_neighbours<Dim>(x, range + skin, box);
+            for (std::size_t i = 0; i < expected.size(); ++i) {
+                const auto found = by_number.neighbours(i);
+                BOOST_TEST((std::vector(found.begin(), found.end()) == expected[i]));
+                pairs += expected[i].size() - 1;
+            }
+            BOOST_TEST(2 * list.pairs() == pairs);
+        }
+}
+
+Points<2> turned(const Points<2>& x, double angle, const Point<2>& shift) {
+    return (Eigen::Rotation2Dd(angle).toRotationMatrix() * x).colwise() + shift;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(free_space) {
+    check<1>({}, 60.0, 1.0, 0.1);
+    check<2>({}, 12.0, 1.0, 0.1);
+    check<3>({}, 6.0, 1.0, 0.0);
+    check<2>({}, 1.0, 3.0, 0.3);  // everyone sees everyone
+    check<2>({}, 1e6, 1.0, 0.1);  // far more bins than particles would be needed
+}
+
+BOOST_AUTO_TEST_CASE(periodic_space) {
+    check<1>(Box<1>({60.0}), 60.0, 1.0, 0.1);
+    check<2>(Box<2>({12.0, 12.0}), 12.0, 1.0, 0.1);
+    check<2>(Box<2>({12.0, 12.0}), 12.0, 5.5, 0.4);  // barely above twice the range
+    check<2>(Box<2>({12.0, 0.0}), 12.0, 1.0, 0.1);   // a strip
+    check<3>(Box<3>({6.0, 6.0, 6.0}), 6.0, 1.0, 0.1);
+    check<3>(Box<3>({6.0, 0.0, 6.0}), 6.0, 2.5, 0.2);
+}
+
+BOOST_AUTO_TEST_CASE(odd_sets_of_particles) {
+    for (const int width : {1, 2, 4, 8}) {
+        for (const Eigen::Index n : {0, 1, 2, 9}) {
+            ClusterList<2> list(1.0, 0.1, {}, width);
+            list.build(random_points<2>(n, 2.0, 1));
+            BOOST_TEST(list.size() == static_cast<std::size_t>(n));
+            BOOST_TEST(wrong_clusters(list, random_points<2>(n, 2.0, 1), 1.1, {}) == 0U);
+        }
+        Points<2> same = Points<2>::Constant(2, 20, 3.0);  // all in one place
+        ClusterList<2> list(1.0, 0.1, {}, width);
+        list.build(same);
+        BOOST_TEST(wrong_clusters(list, same, 1.1, {}) == 0U);
+        Points<2> line = random_points<2>(100, 30.0, 2);
+        line.row(0).setZero();
+        list.build(line);
+        BOOST_TEST(wrong_clusters(list, line, 1.1, {}) == 0U);
+        Points<2> flung = random_points<2>(200, 10.0, 3);
+        flung.col(7) << 1e9, -1e12;
+        list.build(flung);
+        BOOST_TEST(wrong_clusters(list, flung, 1.1, {}) == 0U);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(the_comparison_notices_a_short_list) {
+    const auto x = random_points<2>(300, 12.0, 1);
+    ClusterList<2> list(0.98, 0.0, {}, 4);
+    list.build(x);
+    BOOST_TEST(wrong_clusters(list, x, 1.0, {}) > 10U);
+    ClusterList<2> unwrapped(1.0, 0.0, {}, 4);  // forgets the images
+    unwrapped.build(x);
+    BOOST_TEST(wrong_clusters(unwrapped, x, 1.0, Box<2>({12.0, 12.0})) > 10U);
+}
+
+BOOST_AUTO_TEST_CASE(threads_build_the_same_list) {
+    const auto x = random_points<2>(5000, 70.0, 6);
+    std::vector<std::uint32_t> entries[2];
+    for (const int threads : {1, 2}) {
+        set_threads(threads);
+        ClusterList<2> list(3.0, 0.3, {}, 8);
+        list.build(x);
+        for (std::size_t c = 0; c < list.clusters(); ++c)
+            for (const auto slot : list.entries(c)) entries[threads - 1].push_back(slot);
+    }
+    set_threads(1);
+    BOOST_TEST((entries[0] == entries[1]));
+}
+
+BOOST_AUTO_TEST_CASE(a_box_not_wider_than_twice_the_range_is_refused) {
+    BOOST_CHECK_THROW(ClusterList<2>(3.0, 0.0, Box<2>({6.0, 20.0}), 8), InputError);
+    BOOST_CHECK_NO_THROW(ClusterList<2>(3.0, 0.0, Box<2>({6.01, 20.0}), 8));
+}
+
+BOOST_AUTO_TEST_CASE(rebuilt_when_someone_moved_half_the_skin) {
+    Points<2> x = random_points<2>(100, 8.0, 3);
+    ClusterList<2> list(1.0, 0.2, {}, 4);
+    BOOST_TEST(list.update(x));
+    x(0, 17) += 0.09;
+    BOOST_TEST(!list.update(x));
+    x(0, 17) += 0.02;
+    BOOST_TEST(list.update(x));
+    BOOST_TEST(wrong_clusters(list, x, 1.2, {}) == 0U);
+    BOOST_TEST(list.builds() == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(rigid_motion_needs_no_new_list) {
+    const Points<2> x = random_points<2>(200, 10.0, 7);
+    ClusterList<2> free({1.0, 0.1, {}, 4}), periodic(1.0, 0.1, Box<2>({10.0, 10.0}), 4);
+    free.build(x);
+    periodic.build(x);
+    for (int step = 1; step <= 100; ++step) {
+        const Point<2> shift(0.31 * step, -0.2 * step);
+        BOOST_TEST(!free.update(turned(x, 0.1 * step, shift)));
+        BOOST_TEST(!periodic.update(turned(x, 0.0, shift)));
+    }
+    // Turning is no symmetry of a periodic box, and stretching none of anything.
+    BOOST_TEST(periodic.update(turned(x, 0.1, {0.0, 0.0})));
+    Points<2> stretched = turned(x, 1.0, {3.0, 4.0});
+    stretched.row(0) *= 1.03;
+    BOOST_TEST(free.update(stretched));
+    BOOST_TEST(wrong_clusters(free, stretched, 1.1, {}) == 0U);
+
+    const Points<3> y = random_points<3>(200, 5.0, 8);
+    ClusterList<3> solid(1.0, 0.1, {}, 8);
+    solid.build(y);
+    const Eigen::AngleAxisd turn(2.0, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
+    BOOST_TEST(!solid.update((turn.toRotationMatrix() * y).array().matrix()));
+    BOOST_TEST(solid.update(Points<3>(-y)));  // a mirror image is not reached by turning
+}
+
+BOOST_AUTO_TEST_CASE(no_pair_within_range_is_missed_between_builds) {
+    std::mt19937_64 random(4);
+    std::normal_distribution<double> g(0.0, 0.01);
+    Points<2> x = random_points<2>(300, 12.0, 5);
+    ClusterList<2> list(1.0, 0.2, {}, 4);
+    for (int step = 0; step < 100; ++step) {
+        for (auto& c : x.reshaped()) c += g(random);
+        x = turned(x, 0.05, {0.1, 0.0});
+        list.update(x);
+        const auto expected = brute_force_neighbours<2>(x, 1.0, {});
+        for (std::size_t slot = 0; slot < list.size(); ++slot) {
+            std::vector<std::uint32_t> found;
+            for (const auto j : list.entries(slot / 4)) found.push_back(list.order()[j]);
+            const auto& near = expected[list.order()[slot]];
+            BOOST_TEST(std::includes(found.begin(), found.end(), near.begin(), near.end()));
+        }
+    }
+    BOOST_TEST(list.builds() > 1U);
+    BOOST_TEST(list.builds() < 100U);
+}
