@@ -154,28 +154,34 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     ++builds_;
 }
 
+/// No displacement from the build, moved along with motion_, beyond half the skin.
 template <int Dim>
-double ClusterList<Dim>::largest_displacement2(
-    const Eigen::Ref<const Points<Dim>>& position) const {
-    return parallel_max(size_, [&](std::size_t i) {
-        const auto c = static_cast<Eigen::Index>(i);
-        return (position.col(c) - motion_(built_at_.col(c))).squaredNorm();
-    });
+bool ClusterList<Dim>::near_build(const Eigen::Ref<const Points<Dim>>& position) const {
+    const double limit = 0.25 * skin_ * skin_;
+    const auto rotation = motion_.rotation;
+    const Point<Dim> shift = motion_.to - rotation * motion_.from;
+    const double *const then = built_at_.data(), *const now = position.data();
+    return parallel_count(size_, [&](std::size_t i) {
+               double d2 = 0.0;
+               for (int a = 0; a < Dim; ++a) {
+                   double d = now[Dim * i + static_cast<std::size_t>(a)] - shift[a];
+                   for (int b = 0; b < Dim; ++b)
+                       d -= rotation(a, b) * then[Dim * i + static_cast<std::size_t>(b)];
+                   d2 += d * d;
+               }
+               return static_cast<std::size_t>(!(d2 <= limit));
+           }) == 0;
 }
 
 template <int Dim>
-bool ClusterList<Dim>::update(const Eigen::Ref<const Points<Dim>>& position) {
-    if (builds_ > 0 && size_ == static_cast<std::size_t>(position.cols())) {
-        // Any rigid motion will do for the criterion: a better one is looked for when the last one
-        // is used up.
-        const double limit = 0.25 * skin_ * skin_;
-        if (largest_displacement2(position) <= limit) return false;
-        motion_ = box_.periodic() ? best_translation<Dim>(built_at_, position)
-                                  : best_rigid_motion<Dim>(built_at_, position);
-        if (largest_displacement2(position) <= limit) return false;
-    }
-    build(position);
-    return true;
+bool ClusterList<Dim>::serves(const Eigen::Ref<const Points<Dim>>& position) {
+    if (builds_ == 0 || size_ != static_cast<std::size_t>(position.cols())) return false;
+    // Any rigid motion will do for the criterion: a better one is looked for when the last one is
+    // used up.
+    if (near_build(position)) return true;
+    motion_ = box_.periodic() ? best_translation<Dim>(built_at_, position)
+                              : best_rigid_motion<Dim>(built_at_, position);
+    return near_build(position);
 }
 
 template class ClusterList<1>;

@@ -47,10 +47,11 @@ void first(const SweepInput<Dim>& in, const SweepOutput& out) {
         in, [&](std::size_t slot, const auto& particles, const auto& gradient,
                 const auto& continuity, const auto& transport, const auto& force) {
             const Vec<Dim, T> u = Transport::velocity(particles, transport);
+            const Mat<Dim, T> grad_v = gradient.value();
             for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
                 store<Dim>(out.x_dot, i, l, u);
                 for (std::size_t k = 0; k < Dim * Dim; ++k)
-                    out.grad_v[i * Dim * Dim + k] = lane(gradient.grad_v.c[k], l);
+                    out.grad_v[i * Dim * Dim + k] = lane(grad_v.c[k], l);
                 if (out.rho_dot != nullptr) out.rho_dot[i] = lane(continuity.rho_dot, l);
                 if constexpr (std::is_same_v<Force, TorqueSums>) {
                     out.positive_torque[i] = lane(force.positive, l);

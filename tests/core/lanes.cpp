@@ -52,8 +52,7 @@ void check() {
     BOOST_TEST((worst_difference<W>(quotient, quotient, 1e-100, 1e100)) <= unit);
 
     using std::sqrt, std::max;
-    const T zero(0.0), nan(std::numeric_limits<double>::quiet_NaN());
-    BOOST_TEST(lane(sqrt(zero), W - 1) == 0.0);
+    const T nan(std::numeric_limits<double>::quiet_NaN());
     BOOST_TEST(lane(T(0.0) / T(3.0), 0) == 0.0);
     BOOST_TEST(lane(positive_part(T(-2.0)), 0) == 0.0);
     BOOST_TEST(lane(positive_part(T(2.0)), W - 1) == 2.0);

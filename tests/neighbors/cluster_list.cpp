@@ -144,16 +144,22 @@ BOOST_AUTO_TEST_CASE(a_box_not_wider_than_twice_the_range_is_refused) {
     BOOST_CHECK_NO_THROW(ClusterList<2>(3.0, 0.0, Box<2>({6.01, 20.0}), 8));
 }
 
-BOOST_AUTO_TEST_CASE(rebuilt_when_someone_moved_half_the_skin) {
+BOOST_AUTO_TEST_CASE(serves_until_someone_moved_half_the_skin) {
     Points<2> x = random_points<2>(100, 8.0, 3);
     ClusterList<2> list(1.0, 0.2, {}, 4);
-    BOOST_TEST(list.update(x));
+    BOOST_TEST(!list.serves(x));
+    list.build(x);
     x(0, 17) += 0.09;
-    BOOST_TEST(!list.update(x));
+    BOOST_TEST(list.serves(x));
     x(0, 17) += 0.02;
-    BOOST_TEST(list.update(x));
+    BOOST_TEST(!list.serves(x));
+    list.build(x);
     BOOST_TEST(wrong_clusters(list, x, 1.2, {}) == 0U);
     BOOST_TEST(list.builds() == 2U);
+    x(1, 3) = std::numeric_limits<double>::quiet_NaN();
+    BOOST_TEST(!list.serves(x));
+    x(1, 3) = std::numeric_limits<double>::infinity();
+    BOOST_TEST(!list.serves(x));
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motion_needs_no_new_list) {
@@ -163,22 +169,23 @@ BOOST_AUTO_TEST_CASE(rigid_motion_needs_no_new_list) {
     periodic.build(x);
     for (int step = 1; step <= 100; ++step) {
         const Point<2> shift(0.31 * step, -0.2 * step);
-        BOOST_TEST(!free.update(turned(x, 0.1 * step, shift)));
-        BOOST_TEST(!periodic.update(turned(x, 0.0, shift)));
+        BOOST_TEST(free.serves(turned(x, 0.1 * step, shift)));
+        BOOST_TEST(periodic.serves(turned(x, 0.0, shift)));
     }
     // Turning is no symmetry of a periodic box, and stretching none of anything.
-    BOOST_TEST(periodic.update(turned(x, 0.1, {0.0, 0.0})));
+    BOOST_TEST(!periodic.serves(turned(x, 0.1, {0.0, 0.0})));
     Points<2> stretched = turned(x, 1.0, {3.0, 4.0});
     stretched.row(0) *= 1.03;
-    BOOST_TEST(free.update(stretched));
+    BOOST_TEST(!free.serves(stretched));
+    free.build(stretched);
     BOOST_TEST(wrong_clusters(free, stretched, 1.1, {}) == 0U);
 
     const Points<3> y = random_points<3>(200, 5.0, 8);
     ClusterList<3> solid(1.0, 0.1, {}, 8);
     solid.build(y);
     const Eigen::AngleAxisd turn(2.0, Eigen::Vector3d(1.0, 2.0, -0.5).normalized());
-    BOOST_TEST(!solid.update((turn.toRotationMatrix() * y).array().matrix()));
-    BOOST_TEST(solid.update(Points<3>(-y)));  // a mirror image is not reached by turning
+    BOOST_TEST(solid.serves((turn.toRotationMatrix() * y).array().matrix()));
+    BOOST_TEST(!solid.serves(Points<3>(-y)));  // a mirror image is not reached by turning
 }
 
 BOOST_AUTO_TEST_CASE(no_pair_within_range_is_missed_between_builds) {
@@ -189,7 +196,7 @@ BOOST_AUTO_TEST_CASE(no_pair_within_range_is_missed_between_builds) {
     for (int step = 0; step < 100; ++step) {
         for (auto& c : x.reshaped()) c += g(random);
         x = turned(x, 0.05, {0.1, 0.0});
-        list.update(x);
+        if (!list.serves(x)) list.build(x);
         const auto expected = brute_force_neighbours<2>(x, 1.0, {});
         for (std::size_t slot = 0; slot < list.size(); ++slot) {
             std::vector<std::uint32_t> found;

@@ -39,7 +39,7 @@ struct Step {
         return inside / (inside + T(1e-300));
     }
     template <class T>
-    T slope_over_r(const T&) const {
+    T minus_slope_over_r(const T&) const {
         return T(0.0);
     }
 };
@@ -51,8 +51,8 @@ struct Coordination {
     };
     template <int Dim, class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) {
-        sums.neighbours += pair.m_w;
-        sums.distance2 += pair.m_w * pair.r2;
+        sums.neighbours += pair.w;
+        sums.distance2 += pair.w * pair.r2;
     }
 };
 

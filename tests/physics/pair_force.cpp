@@ -21,7 +21,7 @@ TransportRecord<Dim> random_record(std::mt19937_64& random) {
         r.x[a] = u(random);
         r.v[a] = u(random);
     }
-    r.m = 1.3;  // one mass: m_j f_ij must mirror m_i f_ji
+    r.m = 1.0 + 0.3 * u(random);
     r.rho = 1.0 + 0.3 * u(random);
     for (double& s : r.A.c) s = u(random);
     r.negative_factor = 1.0 + 0.3 * u(random);
@@ -55,7 +55,7 @@ const auto balanced = [](const auto& pair, const auto& i, const auto& j) {
 };
 // sigma/rho^2 of one particle only: momentum would drift.
 const auto one_sided = [](const auto& pair, const auto& i, const auto&) {
-    return i.A * pair.m_grad_w;
+    return i.A * pair.grad_w;
 };
 }  // namespace
 
@@ -83,10 +83,10 @@ BOOST_AUTO_TEST_CASE(scaling_multiplies_the_torque_and_leaves_the_radial_force) 
         j.positive_factor = i.positive_factor;
         const auto pair = make_pair<2, double>(Lucy<2>(3.0), Box<2>(), i, j);
         const auto before = stress_force(pair, i, j), after = scale_torque(pair, i, j, before);
-        const double torque = cross(pair.r_ij, before);
+        const double torque = cross(before, pair.r_ji);
         const double s = torque < 0.0 ? i.negative_factor : i.positive_factor;
-        BOOST_TEST(std::abs(cross(pair.r_ij, after) - s * torque) < 1e-14);
-        BOOST_TEST(std::abs(dot(pair.r_ij, after) - dot(pair.r_ij, before)) < 1e-14);
+        BOOST_TEST(std::abs(cross(after, pair.r_ji) - s * torque) < 1e-14);
+        BOOST_TEST(std::abs(dot(pair.r_ji, after) - dot(pair.r_ji, before)) < 1e-14);
     }
 }
 

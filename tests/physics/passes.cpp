@@ -152,8 +152,8 @@ struct WithoutMass {
     };
     template <int Dim, class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
-        sums.rho += pair.m_w;
-        if constexpr (!std::is_same_v<T, double>) sums.rho += T(0.01) * j.m * pair.m_w;
+        sums.rho += j.m * pair.w;
+        if constexpr (!std::is_same_v<T, double>) sums.rho += T(0.01) * pair.w;
     }
 };
 

@@ -64,6 +64,7 @@ struct Lanes {
     SPAM_INLINE friend Lanes operator+(const Lanes& a, const Lanes& b) { return a.v + b.v; }
     SPAM_INLINE friend Lanes operator-(const Lanes& a, const Lanes& b) { return a.v - b.v; }
     SPAM_INLINE friend Lanes operator*(const Lanes& a, const Lanes& b) { return a.v * b.v; }
+    /// To a unit in the last place; b finite and not zero.
     SPAM_INLINE friend Lanes operator/(const Lanes& a, const Lanes& b) { return divide(a, b); }
     SPAM_INLINE friend Lanes operator-(const Lanes& a) { return -a.v; }
 
@@ -104,7 +105,7 @@ struct Lanes {
 
     SPAM_INLINE friend Lanes sqrt(const Lanes& x) {
 #if defined(__AVX512F__)
-        if constexpr (W == 8) return Vector(fast_sqrt((__m512d)x.v));
+        if constexpr (W == 8) return Vector(_mm512_maskz_sqrt_pd(0xff, (__m512d)x.v));
 #endif
 #if defined(__AVX__)
         if constexpr (W == 4) return Vector(_mm256_sqrt_pd((__m256d)x.v));
@@ -142,29 +143,16 @@ struct Lanes {
     }
 
 #if defined(__AVX512F__)
+    // The divider needs as long for a full register of quotients as the multipliers for half of a
+    // pair's other work, and has the square root to do as well: the quotients are left to the
+    // multipliers. From an estimate of 14 bits, with residue e, three terms of the series.
     // (maskz with all lanes: in the plain forms GCC 12 complains of its own undefined operand.)
-    // A full register of square roots or quotients occupies the divider for 16 to 24 cycles, as
-    // long as half of a pair's other work. From the 14-bit estimates Newton's iteration gets there on
-    // the multipliers in a quarter of that; the last step works with the residue, which leaves an
-    // error of one unit in the last place.
-    SPAM_INLINE static __m512d fast_sqrt(__m512d x) {
-        const __m512d half = _mm512_set1_pd(0.5);
-        // sqrt(0) is 0 * a large number, not 0 * infinity
-        __m512d y =
-            _mm512_maskz_rsqrt14_pd(0xff, _mm512_maskz_max_pd(0xff, _mm512_set1_pd(1e-300), x));
-        __m512d s = _mm512_mul_pd(x, y);  // -> sqrt(x)
-        y = _mm512_mul_pd(y, half);       // -> 1/(2 sqrt(x))
-        __m512d e = _mm512_fnmadd_pd(s, y, half);
-        s = _mm512_fmadd_pd(s, e, s);
-        y = _mm512_fmadd_pd(y, e, y);
-        return _mm512_fmadd_pd(_mm512_fnmadd_pd(s, s, x), y, s);
-    }
     SPAM_INLINE static __m512d fast_quotient(__m512d a, __m512d b) {
-        const __m512d one = _mm512_set1_pd(1.0);
-        __m512d y = _mm512_maskz_rcp14_pd(0xff, b);
-        y = _mm512_fmadd_pd(y, _mm512_fnmadd_pd(b, y, one), y);
-        const __m512d q = _mm512_mul_pd(a, y);
-        return _mm512_fmadd_pd(_mm512_fnmadd_pd(b, q, a), y, q);
+        const __m512d y = _mm512_maskz_rcp14_pd(0xff, b);
+        const __m512d q = _mm512_mul_pd(a, y);  // a/b = q/(1 - e)
+        const __m512d e = _mm512_fnmadd_pd(b, y, _mm512_set1_pd(1.0));
+        const __m512d c = _mm512_fmadd_pd(e, e, e);
+        return _mm512_fmadd_pd(q, _mm512_fmadd_pd(c, e, e), q);
     }
 #endif
 };

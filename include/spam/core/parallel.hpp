@@ -12,7 +12,11 @@ inline constexpr std::size_t parallel_threshold = 1000;
 /// belongs to i: then the result has the same bits with any number of threads.
 template <class Body>
 void parallel_for(std::size_t n, const Body& body, std::size_t weight = 1) {
-#pragma omp parallel for schedule(static) if (n * weight >= parallel_threshold)
+    if (n * weight < parallel_threshold) {  // not an if clause: that still sets up a team
+        for (std::size_t i = 0; i < n; ++i) body(i);
+        return;
+    }
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
@@ -20,24 +24,13 @@ void parallel_for(std::size_t n, const Body& body, std::size_t weight = 1) {
 template <class Count>
 std::size_t parallel_count(std::size_t n, const Count& count, std::size_t weight = 1) {
     std::size_t sum = 0;
-#pragma omp parallel for schedule(static) reduction(+ : sum) if (n * weight >= parallel_threshold)
+    if (n * weight < parallel_threshold) {
+        for (std::size_t i = 0; i < n; ++i) sum += count(i);
+        return sum;
+    }
+#pragma omp parallel for schedule(static) reduction(+ : sum)
     for (std::size_t i = 0; i < n; ++i) sum += count(i);
     return sum;
-}
-
-/// Largest value(i), at least 0; not a number if one of them is not.
-template <class Value>
-double parallel_max(std::size_t n, const Value& value) {
-    double largest = 0.0;
-    int invalid = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest) reduction(+ : invalid) \
-    if (n >= parallel_threshold)
-    for (std::size_t i = 0; i < n; ++i) {
-        const double x = value(i);
-        largest = x > largest ? x : largest;
-        invalid += x != x;
-    }
-    return invalid > 0 ? __builtin_nan("") : largest;
 }
 
 /// Number of threads later sweeps use; 0 keeps the runtime's default. Returns the number in force.

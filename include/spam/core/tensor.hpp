@@ -14,6 +14,10 @@ struct Mat {
     constexpr const T& operator()(int a, int b) const {
         return c[static_cast<std::size_t>(a * Dim + b)];
     }
+    friend constexpr Mat operator*(const T& s, Mat a) {
+        for (auto& x : a.c) x *= s;
+        return a;
+    }
     constexpr T trace() const {
         T s = (*this)(0, 0);
         for (int a = 1; a < Dim; ++a) s += (*this)(a, a);

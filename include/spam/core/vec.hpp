@@ -42,12 +42,6 @@ constexpr T dot(const Vec<Dim, T>& a, const Vec<Dim, T>& b) {
     return s;
 }
 
-/// sum += a . b, term by term: one fused operation each where the processor has it.
-template <int Dim, class T>
-constexpr void add_dot(T& sum, const Vec<Dim, T>& a, const Vec<Dim, T>& b) {
-    for (int k = 0; k < Dim; ++k) sum += a[k] * b[k];
-}
-
 /// z component of a x b: the plane's only rotation axis.
 template <class T>
 constexpr T cross(const Vec<2, T>& a, const Vec<2, T>& b) {

@@ -19,7 +19,7 @@ class Lucy {
         : h_(h),
           inverse_h_(1.0 / h),
           c_(normalisation(h)),
-          slope_(-12.0 * c_ / (h * h)) {}
+          slope_(12.0 * c_ / (h * h)) {}
 
     double range() const { return h_; }
 
@@ -30,7 +30,7 @@ class Lucy {
     }
 
     template <class T>
-    T slope_over_r(const T& r) const {
+    T minus_slope_over_r(const T& r) const {
         const T q = positive_part(T(1.0) - r * inverse_h_);
         return slope_ * (q * q);
     }

@@ -34,16 +34,24 @@ struct ElasticSolid {
                                   const SymTensor<Dim, T>& stress) const {
         const T dilation = lambda * grad_v.trace();
         SymTensor<Dim, T> rate;
-        for (int a = 0; a < Dim; ++a) {
-            for (int b = a; b < Dim; ++b) {
-                T r = eta * (grad_v(a, b) + grad_v(b, a));
-                if (a == b) r += dilation;
-                for (int c = 0; c < Dim; ++c)  // W_ac sigma_cb - sigma_ac W_cb
-                    r += 0.5 * ((grad_v(c, a) - grad_v(a, c)) * stress(c, b) -
-                                stress(a, c) * (grad_v(b, c) - grad_v(c, b)));
-                rate(a, b) = r;
+        for (int a = 0; a < Dim; ++a) rate(a, a) = dilation + 2.0 * eta * grad_v(a, a);
+#pragma GCC unroll 3
+        for (int a = 0; a < Dim; ++a)
+#pragma GCC unroll 3
+            for (int b = a + 1; b < Dim; ++b) {
+                rate(a, b) += eta * (grad_v(a, b) + grad_v(b, a));
+                // W sigma - sigma W, from W_ab = -W_ba: each touches row and column a and b.
+                const T W = 0.5 * (grad_v(b, a) - grad_v(a, b));
+                rate(a, a) += 2.0 * W * stress(a, b);
+                rate(b, b) -= 2.0 * W * stress(a, b);
+                rate(a, b) += W * (stress(b, b) - stress(a, a));
+#pragma GCC unroll 3
+                for (int c = 0; c < Dim; ++c) {
+                    if (c == a || c == b) continue;
+                    rate(a, c) += W * stress(b, c);
+                    rate(b, c) -= W * stress(a, c);
+                }
             }
-        }
         return rate;
     }
 };

@@ -40,15 +40,19 @@ class Material {
 
         void run(std::span<const Mat<Dim>> grad_v, const ConstState<Dim>& state,
                  const State<Dim>& rate) const override {
-            const double* from = state.stress().data();
-            double* to = rate.stress().data();
-            parallel_for(grad_v.size(), [&](std::size_t i) {
-                constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
-                SymTensor<Dim> sigma;
-                for (std::size_t k = 0; k < n; ++k) sigma.c[k] = from[n * i + k];
-                const SymTensor<Dim> sigma_dot = law.stress_rate(grad_v[i], sigma);
-                for (std::size_t k = 0; k < n; ++k) to[n * i + k] = sigma_dot.c[k];
-            });
+            const double* const from = state.stress().data();
+            double* const to = rate.stress().data();
+            const Law own = law;  // a copy that the stores below cannot be suspected to change
+            // flatten: a law is a small function, a call would cost as much as it does
+            parallel_for(
+                grad_v.size(), [&](std::size_t i) __attribute__((flatten)) {
+                    constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
+                    const Mat<Dim> gradient = grad_v[i];
+                    SymTensor<Dim> sigma;
+                    for (std::size_t k = 0; k < n; ++k) sigma.c[k] = from[n * i + k];
+                    const SymTensor<Dim> sigma_dot = own.stress_rate(gradient, sigma);
+                    for (std::size_t k = 0; k < n; ++k) to[n * i + k] = sigma_dot.c[k];
+                });
         }
         std::string describe() const override { return law.describe(); }
         Law law;

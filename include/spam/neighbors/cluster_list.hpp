@@ -27,11 +27,11 @@ class ClusterList {
     /// Builds the list for positions Dim x N (finite, not necessarily wrapped).
     void build(const Eigen::Ref<const Points<Dim>>& position);
 
-    /// Rebuilds only if, after the best rigid motion is taken off, some particle has moved more than
-    /// half the skin since the last build: a body that only turns and flies keeps its list. Where
-    /// the box is periodic, only a translation is taken off. Returns whether it did. Precondition:
-    /// as for build().
-    bool update(const Eigen::Ref<const Points<Dim>>& position);
+    /// Whether the list still serves these positions: no particle has moved more than half the skin
+    /// since the last build after the best rigid motion is taken off, so that a body that only turns
+    /// and flies keeps its list. Where the box is periodic, only a translation is taken off. Never
+    /// true where a position is not finite.
+    bool serves(const Eigen::Ref<const Points<Dim>>& position);
 
     ClusterView view() const;
     std::size_t size() const { return size_; }
@@ -50,7 +50,7 @@ class ClusterList {
     void sort(const Eigen::Ref<const Points<Dim>>& position);
     std::size_t search_slice(std::size_t slice);
     void put_in_order(std::uint32_t* first, std::uint32_t* last) const;
-    double largest_displacement2(const Eigen::Ref<const Points<Dim>>& position) const;
+    bool near_build(const Eigen::Ref<const Points<Dim>>& position) const;
 
     double range_, skin_;
     Box<Dim> box_;

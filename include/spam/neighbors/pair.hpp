@@ -7,14 +7,15 @@
 
 namespace spam {
 
-/// What every pair body sees of a pair: i minus j. The mass of j is a factor of every sum.
+/// What every pair body sees of a pair. Differences are j minus i: a register of particles i is then
+/// the operand that may stay in memory, which saves a load each.
 template <int Dim, class T>
 struct Pair {
-    Vec<Dim, T> r_ij;
+    Vec<Dim, T> r_ji;  ///< r_j - r_i
     T r2;
-    T m_w;                 ///< m_j w_ij
-    Vec<Dim, T> m_grad_w;  ///< m_j grad_i w_ij = m_j (w'/r) r_ij
-    Vec<Dim, T> v_ij;
+    T w;                 ///< w_ij
+    Vec<Dim, T> grad_w;  ///< gradient of w_ij at i: -(w'/r) r_ji
+    Vec<Dim, T> v_ji;    ///< v_j - v_i
 };
 
 /// Space without images.
@@ -25,20 +26,20 @@ struct OpenSpace {
     }
 };
 
-/// Everything a pair body may ask of a pair, from two records that hold at least x, v and m.
-/// `space`: OpenSpace, or a Box. Exactly antisymmetric for equal masses: exchanging i and j flips
-/// the signs of r_ij, m_grad_w and v_ij and changes no other bit.
+/// Everything a pair body may ask of a pair, from two records that hold at least x and v.
+/// `space`: OpenSpace, or a Box. Exactly antisymmetric: exchanging i and j flips the signs of r_ji,
+/// grad_w and v_ji and changes no other bit.
 template <int Dim, class T, class Weight, class Space, class Record>
 constexpr Pair<Dim, T> make_pair(const Weight& weight, const Space& space, const Record& i,
                                  const Record& j) {
     using std::sqrt;
     Pair<Dim, T> pair;
-    for (int a = 0; a < Dim; ++a) pair.r_ij[a] = space.nearest_image(a, i.x[a] - j.x[a]);
-    pair.r2 = dot(pair.r_ij, pair.r_ij);
+    for (int a = 0; a < Dim; ++a) pair.r_ji[a] = space.nearest_image(a, j.x[a] - i.x[a]);
+    pair.r2 = dot(pair.r_ji, pair.r_ji);
     const T r = sqrt(pair.r2);
-    pair.m_w = j.m * weight.value(r);
-    pair.m_grad_w = (j.m * weight.slope_over_r(r)) * pair.r_ij;
-    pair.v_ij = i.v - j.v;
+    pair.w = weight.value(r);
+    pair.grad_w = weight.minus_slope_over_r(r) * pair.r_ji;
+    pair.v_ji = j.v - i.v;
     return pair;
 }
 

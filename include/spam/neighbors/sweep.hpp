@@ -23,31 +23,34 @@ void sweep(const ClusterView& list, const Weight& weight, const Space& space,
            const Records& records, const Store& store) {
     using T = LanesOf<W>;
     using Lanes = typename R::template With<T>;
+    using Sums = std::tuple<typename Passes::template Sums<T>...>;
     // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
-    parallel_for(
-        list.clusters,
-        [&](std::size_t cluster) __attribute__((flatten)) {
-            const double* const own = records.numbers + cluster * W * records.stride;
-            Lanes i, j;
-            i.visit([&](T& number, int k) {
-                for (int l = 0; l < W; ++l)
-                    set_lane(number, l,
-                             own[static_cast<std::size_t>(l) * records.stride +
-                                 static_cast<std::size_t>(k)]);
-            });
-            std::tuple<typename Passes::template Sums<T>...> sums;
-            const ClusterView::Range range = list.range[cluster];
-            const std::uint32_t* entry =
-                list.slices[cluster / ClusterView::slice_size] + range.first;
-            for (const std::uint32_t* const end = entry + range.count; entry != end; ++entry) {
-                const double* const other = records.numbers + *entry * records.stride;
-                j.visit([&](T& number, int k) { number = T(other[k]); });
-                const auto pair = make_pair<Dim, T>(weight, space, i, j);
-                std::apply([&](auto&... s) { (Passes::add(pair, i, j, s), ...); }, sums);
-            }
-            std::apply([&](const auto&... s) { store(cluster * W, i, s...); }, sums);
-        },
-        W);
+    const auto sweep_cluster = [&](std::size_t cluster) __attribute__((flatten)) {
+        const double* const own = records.numbers + cluster * W * records.stride;
+        Lanes gathered;
+        gathered.visit([&](T& number, int k) {
+            for (int l = 0; l < W; ++l)
+                set_lane(number, l,
+                         own[static_cast<std::size_t>(l) * records.stride +
+                             static_cast<std::size_t>(k)]);
+        });
+        // Copies, here and below, of what is also taken apart lane by lane: these alone can stay in
+        // registers during the loop.
+        const Lanes i = gathered;
+        Lanes j;
+        Sums sums;
+        const ClusterView::Range range = list.range[cluster];
+        const std::uint32_t* entry = list.slices[cluster / ClusterView::slice_size] + range.first;
+        for (const std::uint32_t* const end = entry + range.count; entry != end; ++entry) {
+            const double* const other = records.numbers + *entry * records.stride;
+            j.visit([&](T& number, int k) { number = T(other[k]); });
+            const auto pair = make_pair<Dim, T>(weight, space, i, j);
+            std::apply([&](auto&... s) { (Passes::add(pair, i, j, s), ...); }, sums);
+        }
+        const Sums found = sums;
+        std::apply([&](const auto&... s) { store(cluster * W, gathered, s...); }, found);
+    };
+    parallel_for(list.clusters, sweep_cluster, W);
 }
 
 /// f(lane, particle) for the particles of the cluster that begins at `first_slot`.

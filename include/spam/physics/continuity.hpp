@@ -13,8 +13,8 @@ struct Continuity {
         T rho_dot{};
     };
     template <int Dim, class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) {
-        add_dot(sums.rho_dot, pair.v_ij, pair.m_grad_w);
+    static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
+        sums.rho_dot -= j.m * dot(pair.v_ji, pair.grad_w);
     }
 };
 
@@ -27,7 +27,7 @@ struct ChainRuleContinuity {
     };
     template <int Dim, class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        add_dot(sums.rho_dot, i.u - j.u, pair.m_grad_w);
+        sums.rho_dot -= j.m * dot(j.u - i.u, pair.grad_w);
     }
 };
 

@@ -12,8 +12,8 @@ struct DensitySum {
         T rho{};
     };
     template <int Dim, class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) {
-        sums.rho += pair.m_w;
+    static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
+        sums.rho += j.m * pair.w;
     }
 };
 

@@ -7,12 +7,12 @@
 
 namespace spam {
 
-/// Acceleration of i by j, m_j f_ij = m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij,
+/// Force of j on i for unit masses, f_ij = (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad_i w_ij,
 /// [HHM04] II; f_ij = -f_ji bit for bit. In general not along r_ij: hence the angular momentum's
 /// drift.
 template <int Dim, class T, class Record>
 constexpr Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, const Record& j) {
-    return (i.A + j.A) * pair.m_grad_w;
+    return (i.A + j.A) * pair.grad_w;
 }
 
 /// Rates that follow from pair forces, whatever changed them on the way:
@@ -21,13 +21,13 @@ constexpr Vec<Dim, T> stress_force(const Pair<Dim, T>& pair, const Record& i, co
 template <int Dim, class T>
 struct ForceSums {
     Vec<Dim, T> v_dot;
-    T power{};  ///< sum_j m_j f_ij . v_ij
+    T power{};  ///< sum_j m_j f_ij . (v_j - v_i)
 
-    constexpr void add(const Vec<Dim, T>& m_f_ij, const Vec<Dim, T>& v_ij) {
-        v_dot += m_f_ij;
-        add_dot(power, m_f_ij, v_ij);
+    constexpr void add(const T& m_j, const Vec<Dim, T>& f_ij, const Vec<Dim, T>& v_ji) {
+        v_dot += m_j * f_ij;
+        power += m_j * dot(f_ij, v_ji);
     }
-    constexpr T e_dot() const { return T(-0.5) * power; }
+    constexpr T e_dot() const { return T(0.5) * power; }
 };
 
 /// The stress force as it is.
@@ -38,7 +38,7 @@ struct StressForce {
 
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(stress_force(pair, i, j), pair.v_ij);
+        sums.add(j.m, stress_force(pair, i, j), pair.v_ji);
     }
 };
 

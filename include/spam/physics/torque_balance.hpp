@@ -25,7 +25,7 @@ struct TorqueSums {
     };
     template <class T, class Record>
     static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T torque = i.m * cross(pair.r_ij, stress_force(pair, i, j));
+        const T torque = i.m * j.m * cross(stress_force(pair, i, j), pair.r_ji);
         sums.positive += positive_part(torque);
         sums.negative += positive_part(-torque);
     }
@@ -47,14 +47,14 @@ template <class T, class Record>
 Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
                        const Vec<2, T>& f_ij) {
     using std::max;
-    const T torque = cross(pair.r_ij, f_ij);
+    const T torque = cross(f_ij, pair.r_ji);
     const T s_positive = T(0.5) * (i.positive_factor + j.positive_factor);
     const T s_negative = T(0.5) * (i.negative_factor + j.negative_factor);
     const T change = (s_positive - T(1.0)) * positive_part(torque) -
                      (s_negative - T(1.0)) * positive_part(-torque);
     // A particle's pair with itself has r = 0 and torque = 0; the floor keeps 0/0 out.
     const T k = change / max(pair.r2, T(1e-300));
-    return {{f_ij[0] - k * pair.r_ij[1], f_ij[1] + k * pair.r_ij[0]}};
+    return {{f_ij[0] + k * pair.r_ji[1], f_ij[1] - k * pair.r_ji[0]}};
 }
 
 /// The stress force with balanced pair torques; its power enters the energy like any force's.
@@ -64,7 +64,7 @@ struct BalancedStressForce {
 
     template <class T, class Record>
     static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ij);
+        sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
     }
 };
 

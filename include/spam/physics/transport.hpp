@@ -31,8 +31,9 @@ struct AverageTransport {
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
-        sums.momentum += pair.m_w * j.v;
-        sums.weight += pair.m_w;
+        const T m_w = j.m * pair.w;
+        sums.momentum += m_w * j.v;
+        sums.weight += m_w;
     }
     template <class T, class Record>
     static Vec<Dim, T> velocity(const Record&, const Sums<T>& sums) {
@@ -46,16 +47,16 @@ template <int Dim, class MeanDensity>
 struct MonaghanTransport {
     template <class T>
     struct Sums {
-        Vec<Dim, T> correction;
+        Vec<Dim, T> correction;  ///< by `factor`
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T volume = T(1.0) / MeanDensity::mean(i.rho, j.rho);
-        sums.correction -= pair.m_w * (volume * pair.v_ij);
+        const T volume = j.m / MeanDensity::divisor(i.rho, j.rho);
+        sums.correction += pair.w * (volume * pair.v_ji);
     }
     template <class T, class Record>
     static Vec<Dim, T> velocity(const Record& i, const Sums<T>& sums) {
-        return i.v + sums.correction;
+        return i.v + T(MeanDensity::factor) * sums.correction;
     }
 };
 

@@ -12,14 +12,15 @@ template <int Dim, class MeanDensity>
 struct VelocityGradient {
     template <class T>
     struct Sums {
-        Mat<Dim, T> grad_v;
+        Mat<Dim, T> grad_v;  ///< by `factor`
+        constexpr Mat<Dim, T> value() const { return T(MeanDensity::factor) * grad_v; }
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T volume = T(1.0) / MeanDensity::mean(i.rho, j.rho);
-        const Vec<Dim, T> v = volume * pair.v_ij;
+        const T volume = j.m / MeanDensity::divisor(i.rho, j.rho);
+        const Vec<Dim, T> v = volume * pair.v_ji;
         for (int a = 0; a < Dim; ++a)
-            for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) -= pair.m_grad_w[a] * v[b];
+            for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) += pair.grad_w[a] * v[b];
     }
 };
 

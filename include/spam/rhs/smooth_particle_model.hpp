@@ -42,10 +42,11 @@ class SmoothParticleModel final : public Model<Dim> {
 
   private:
     bool load(std::span<const double> y, std::span<double> y_dot);
-    void pack(std::span<const double> y, std::span<const double> rho,
-              std::span<const std::uint32_t> order, std::span<double> records) const;
+    std::size_t pack(std::span<const double> y, std::span<const double> rho,
+                     std::span<const std::uint32_t> order, std::span<double> records) const;
     bool sum_density(std::span<const double> y, std::span<double> y_dot);
-    bool density_is_physical(std::span<const double> rho, std::span<double> y_dot);
+    bool pack_with_density(std::span<const double> y, std::span<const double> rho,
+                           std::span<double> y_dot);
     void balance_torques(std::span<const double> y, std::span<const double> u);
     void load_transport(std::span<const double> u);
 
