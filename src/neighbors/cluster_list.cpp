@@ -154,23 +154,25 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     ++builds_;
 }
 
-/// No displacement from the build, moved along with motion_, beyond half the skin.
+template <int Dim>
+typename ClusterList<Dim>::Displacement ClusterList<Dim>::displacement() const {
+    Displacement d;
+    const Point<Dim> shift = motion_.to - motion_.rotation * motion_.from;
+    for (int a = 0; a < Dim; ++a) {
+        d.shift_[static_cast<std::size_t>(a)] = shift[a];
+        for (int b = 0; b < Dim; ++b)
+            d.rotation_[static_cast<std::size_t>(Dim * a + b)] = motion_.rotation(a, b);
+    }
+    d.then_ = built_at_.data();
+    d.limit2_ = 0.25 * skin_ * skin_;
+    return d;
+}
+
 template <int Dim>
 bool ClusterList<Dim>::near_build(const Eigen::Ref<const Points<Dim>>& position) const {
-    const double limit = 0.25 * skin_ * skin_;
-    const auto rotation = motion_.rotation;
-    const Point<Dim> shift = motion_.to - rotation * motion_.from;
-    const double *const then = built_at_.data(), *const now = position.data();
-    return parallel_count(size_, [&](std::size_t i) {
-               double d2 = 0.0;
-               for (int a = 0; a < Dim; ++a) {
-                   double d = now[Dim * i + static_cast<std::size_t>(a)] - shift[a];
-                   for (int b = 0; b < Dim; ++b)
-                       d -= rotation(a, b) * then[Dim * i + static_cast<std::size_t>(b)];
-                   d2 += d * d;
-               }
-               return static_cast<std::size_t>(!(d2 <= limit));
-           }) == 0;
+    const Displacement far = displacement();
+    const double* const x = position.data();
+    return parallel_count(size_, [&](std::size_t i) { return far(i, x); }) == 0;
 }
 
 template <int Dim>

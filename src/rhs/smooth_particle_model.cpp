@@ -37,6 +37,20 @@ std::vector<Field> fields_of(const Scheme& scheme) {
     return fields;
 }
 
+/// The material as the sweep calls it.
+template <int Dim>
+struct StressRates {
+    const Material<Dim>& material;
+    ConstState<Dim> state;
+    State<Dim> rate;
+
+    static void call(const void* context, const std::uint32_t* particle, std::size_t count,
+                     const Mat<Dim>* grad_v) {
+        const auto& self = *static_cast<const StressRates*>(context);
+        self.material.stress_rates({particle, count}, {grad_v, count}, self.state, self.rate);
+    }
+};
+
 template <int Dim>
 void wrap(const Box<Dim>& box, double* x) {
     for (int a = 0; a < Dim; ++a)
@@ -72,7 +86,6 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
                         "below 1e6 spacings; 2 to 4 spacings are usual",
                         scheme.range, spacing));
     const std::size_t n = this->particles().size();
-    grad_v_.resize(n);
     if (sweeps_->density != nullptr) summed_density_.resize(n);
     torque_factor_.assign(static_cast<std::size_t>(this->particles().bodies()), 1.0);
     if (scheme_.angular_momentum == AngularMomentum::torque_pair) {
@@ -88,20 +101,26 @@ template <int Dim>
 void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     if (!load(y, y_dot)) return;
-    if (sweeps_->density != nullptr && !sum_density(y, y_dot)) return;
+    std::span<const double> rho = summed_density_;
+    if (sweeps_->density != nullptr)
+        sum_density(list_, records_, summed_density_);
+    else
+        rho = {ConstState<Dim>(this->layout(), y).density().data(), this->particles().size()};
+    if (!pack_density(y, rho, y_dot)) return;
 
     const State<Dim> rate(this->layout(), y_dot);
     const SweepInput<Dim> in{list_.view(), {records_.data(), stride_}, scheme_.range, &this->box()};
-    SweepOutput out;
+    SweepOutput<Dim> out;
     out.x_dot = rate.position().data();
     out.v_dot = rate.velocity().data();
     out.e_dot = rate.energy().data();
-    out.grad_v = grad_v_.data()->c.data();
     out.positive_torque = positive_torque_.data();
     out.negative_torque = negative_torque_.data();
     if (rate.has(Field::density)) out.rho_dot = rate.density().data();
+    const StressRates<Dim> stress_rates{material_, {this->layout(), y}, rate};
+    out.context = &stress_rates;
+    out.stress_rates = StressRates<Dim>::call;
     sweeps_->first(in, out);
-    material_.stress_rates(grad_v_, {this->layout(), y}, rate);
     if (sweeps_->second == nullptr) return;
 
     const std::span<const double> u(out.x_dot, this->particles().size() * Dim);
@@ -113,74 +132,78 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
 /// The list for these positions, and the records in its order.
 template <int Dim>
 bool SmoothParticleModel<Dim>::load(std::span<const double> y, std::span<double> y_dot) {
-    const ConstState<Dim> state(this->layout(), y);
-    const auto x = state.position();
-    if (!list_.serves(x)) {
-        if (!x.allFinite()) {
-            this->fail(y_dot, "a position is not finite");
-            return false;
+    const auto x = ConstState<Dim>(this->layout(), y).position();
+    const bool fits = list_.size() == this->particles().size();
+    if (!fits || !pack(y, list_, records_)) {
+        if (!list_.serves(x)) {
+            if (!x.allFinite()) {
+                this->fail(y_dot, "a position is not finite");
+                return false;
+            }
+            list_.build(x);
+            records_.resize(list_.order().size() * stride_);
+            pack(y, list_, records_);
         }
-        list_.build(x);
-        records_.resize(list_.order().size() * stride_);
     }
-    if (!state.has(Field::density)) {
-        pack(y, {}, list_.order(), records_);
-        return true;
-    }
-    return pack_with_density(y, {state.density().data(), this->particles().size()}, y_dot);
+    return true;
 }
 
-/// Fails where a density has no meaning.
+/// x, v and m by slot. Returns whether no particle has gone too far for the list.
 template <int Dim>
-bool SmoothParticleModel<Dim>::pack_with_density(std::span<const double> y,
-                                                 std::span<const double> rho,
-                                                 std::span<double> y_dot) {
-    if (pack(y, rho, list_.order(), records_) == 0) return true;
-    const auto wrong = std::find_if(rho.begin(), rho.end(), [](double r) { return !(r > 0.0); });
-    this->fail(
-        y_dot,
-        fmt::format(
-            "density {} of particle {} is not positive", *wrong,
-            this->particles().id[static_cast<std::size_t>(std::distance(rho.begin(), wrong))]));
-    return false;
-}
-
-/// Records by slot. Without density (not summed yet) what depends on it stays zero. Returns how many
-/// densities are not positive.
-template <int Dim>
-std::size_t SmoothParticleModel<Dim>::pack(std::span<const double> y, std::span<const double> rho,
-                                           std::span<const std::uint32_t> order,
-                                           std::span<double> records) const {
-    constexpr auto d = static_cast<std::size_t>(Dim),
-                   s = static_cast<std::size_t>(symmetric_size(Dim));
+bool SmoothParticleModel<Dim>::pack(std::span<const double> y, const ClusterList<Dim>& list,
+                                    std::span<double> records) const {
+    constexpr auto d = static_cast<std::size_t>(Dim);
     const ConstState<Dim> state(this->layout(), y);
     const double* const x = state.position().data();
     const double* const v = state.velocity().data();
-    const double* const sigma = state.stress().data();
     const double* const m = this->particles().mass.data();
     const Box<Dim>& box = this->box();
     const bool wraps = box.periodic();
-    return parallel_count(order.size(), [&](std::size_t slot) {
+    const auto far = list.displacement();
+    const auto order = list.order();
+    const std::size_t gone = parallel_count(order.size(), [&](std::size_t slot) {
         const std::size_t i = order[slot];
-        double* number = &records[slot * stride_];
-        for (std::size_t a = 0; a < d; ++a) *number++ = x[i * d + a];
-        for (std::size_t a = 0; a < d; ++a) *number++ = v[i * d + a];
-        *number++ = m[i];
-        const double density = rho.empty() ? 0.0 : rho[i];
-        *number++ = density;
-        const double scale = rho.empty() ? 0.0 : 1.0 / (density * density);
-        for (std::size_t k = 0; k < s; ++k) *number++ = scale * sigma[i * s + k];
-        if (wraps) wrap(box, &records[slot * stride_]);
-        return static_cast<std::size_t>(!rho.empty() && !(density > 0.0));
+        double* const record = &records[slot * stride_];
+        for (std::size_t a = 0; a < d; ++a) record[a] = x[i * d + a];
+        for (std::size_t a = 0; a < d; ++a) record[d + a] = v[i * d + a];
+        record[2 * d] = m[i];
+        if (wraps) wrap(box, record);
+        return far(i, x);
     });
+    return gone == 0;
+}
+
+/// The rest of the records, which depends on the density. Fails where that has no meaning.
+template <int Dim>
+bool SmoothParticleModel<Dim>::pack_density(std::span<const double> y, std::span<const double> rho,
+                                            std::span<double> y_dot) {
+    constexpr std::size_t first = 2 * Dim + 1;
+    constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
+    const double* const sigma = ConstState<Dim>(this->layout(), y).stress().data();
+    const auto order = list_.order();
+    const std::size_t wrong = parallel_count(order.size(), [&](std::size_t slot) {
+        const std::size_t i = order[slot];
+        double* const record = &records_[slot * stride_ + first];
+        const double density = rho[i], scale = 1.0 / (density * density);
+        record[0] = density;
+        for (std::size_t k = 0; k < n; ++k) record[1 + k] = scale * sigma[i * n + k];
+        return static_cast<std::size_t>(!(density > 0.0));
+    });
+    if (wrong == 0) return true;
+    const auto bad = std::find_if(rho.begin(), rho.end(), [](double r) { return !(r > 0.0); });
+    const auto number = static_cast<std::size_t>(std::distance(rho.begin(), bad));
+    this->fail(y_dot, fmt::format("density {} of particle {} is not positive", *bad,
+                                  this->particles().id[number]));
+    return false;
 }
 
 template <int Dim>
-bool SmoothParticleModel<Dim>::sum_density(std::span<const double> y, std::span<double> y_dot) {
-    SweepOutput out;
-    out.rho = summed_density_.data();
-    sweeps_->density({list_.view(), {records_.data(), stride_}, scheme_.range, &this->box()}, out);
-    return pack_with_density(y, summed_density_, y_dot);
+void SmoothParticleModel<Dim>::sum_density(const ClusterList<Dim>& list,
+                                           std::span<const double> records,
+                                           std::span<double> rho) const {
+    SweepOutput<Dim> out;
+    out.rho = rho.data();
+    sweeps_->density({list.view(), {records.data(), stride_}, scheme_.range, &this->box()}, out);
 }
 
 /// R of every body from its own sums, taken in the order of the particles.
@@ -233,10 +256,8 @@ std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y)
     ClusterList<Dim> list(scheme_.range, 0.0, this->box(), sweeps_->width);
     list.build(ConstState<Dim>(this->layout(), y).position());
     std::vector<double> records(list.order().size() * stride_), rho(list.size());
-    pack(y, {}, list.order(), records);
-    SweepOutput out;
-    out.rho = rho.data();
-    sweeps_->density({list.view(), {records.data(), stride_}, scheme_.range, &this->box()}, out);
+    pack(y, list, records);
+    sum_density(list, records, rho);
     return rho;
 }
 

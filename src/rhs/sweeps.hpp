@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/instruction_set.hpp>
+#include <spam/core/tensor.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/physics/scheme.hpp>
@@ -18,19 +19,24 @@ struct SweepInput {
 };
 
 /// ... and write, by number of particle. What is null is not wanted.
+template <int Dim>
 struct SweepOutput {
     double* x_dot = nullptr;            ///< Dim x N, the transport velocity
     double* v_dot = nullptr;            ///< Dim x N
     double* rho_dot = nullptr;          ///< N
     double* e_dot = nullptr;            ///< N
-    double* grad_v = nullptr;           ///< N x Dim x Dim
     double* rho = nullptr;              ///< N, the summed density
     double* positive_torque = nullptr;  ///< N, TorqueSums
     double* negative_torque = nullptr;  ///< N
+
+    /// Called with the velocity gradients of some particles and their numbers, from any thread.
+    void (*stress_rates)(const void* context, const std::uint32_t* particle, std::size_t count,
+                         const Mat<Dim>* grad_v) = nullptr;
+    const void* context = nullptr;
 };
 
 template <int Dim>
-using Sweep = void (*)(const SweepInput<Dim>&, const SweepOutput&);
+using Sweep = void (*)(const SweepInput<Dim>&, const SweepOutput<Dim>&);
 
 /// The sweeps of a scheme, compiled for an instruction set: run-time choices become functions once
 /// per model.

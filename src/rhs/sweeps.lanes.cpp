@@ -22,64 +22,80 @@ void store(double* field, std::size_t i, int l, const Vec<Dim, T>& value) {
     for (int a = 0; a < Dim; ++a) field[i * Dim + static_cast<std::size_t>(a)] = lane(value[a], l);
 }
 
-/// One sweep, in open space or in a box.
+/// In open space or in a box.
 template <int Dim, class R, class... Passes, class Store>
-void sweep_in(const SweepInput<Dim>& in, const Store& store_sums) {
+void sweep_clusters(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
+                    const Store& store_sums) {
     const Lucy<Dim> weight(in.range);
     if (in.box->periodic())
-        sweep<W, Dim, R, Passes...>(in.list, weight, *in.box, in.records, store_sums);
+        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, *in.box, in.records,
+                                          store_sums);
     else
-        sweep<W, Dim, R, Passes...>(in.list, weight, OpenSpace(), in.records, store_sums);
+        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, OpenSpace(), in.records,
+                                          store_sums);
 }
 
 template <int Dim>
-void density(const SweepInput<Dim>& in, const SweepOutput& out) {
-    sweep_in<Dim, Record<Dim>, DensitySum>(
-        in, [&](std::size_t slot, const auto&, const auto& sums) {
-            for_each_lane<W>(in.list, slot,
-                             [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
-        });
+void density(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
+    for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
+        sweep_clusters<Dim, Record<Dim>, DensitySum>(
+            in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
+                for_each_lane<W>(in.list, slot,
+                                 [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
+            });
+    });
 }
 
 template <int Dim, class Mean, class Transport, class Force>
-void first(const SweepInput<Dim>& in, const SweepOutput& out) {
-    sweep_in<Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity, Transport, Force>(
-        in, [&](std::size_t slot, const auto& particles, const auto& gradient,
+void first(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
+    for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
+        // By slot, and gone after the block: stress rates are found from it right away.
+        std::array<Mat<Dim>, clusters_per_block * W> grad_v;
+        sweep_clusters<Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity, Transport, Force>(
+            in, begin, end,
+            [&](std::size_t slot, const auto& particles, const auto& gradient,
                 const auto& continuity, const auto& transport, const auto& force) {
-            const Vec<Dim, T> u = Transport::velocity(particles, transport);
-            const Mat<Dim, T> grad_v = gradient.value();
-            for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
-                store<Dim>(out.x_dot, i, l, u);
+                const Vec<Dim, T> u = Transport::velocity(particles, transport);
+                const Mat<Dim, T> gradient_v = gradient.value();
                 for (std::size_t k = 0; k < Dim * Dim; ++k)
-                    out.grad_v[i * Dim * Dim + k] = lane(grad_v.c[k], l);
-                if (out.rho_dot != nullptr) out.rho_dot[i] = lane(continuity.rho_dot, l);
-                if constexpr (std::is_same_v<Force, TorqueSums>) {
-                    out.positive_torque[i] = lane(force.positive, l);
-                    out.negative_torque[i] = lane(force.negative, l);
-                } else {
-                    store<Dim>(out.v_dot, i, l, force.v_dot);
-                    out.e_dot[i] = lane(force.e_dot(), l);
-                }
+                    for (int l = 0; l < W; ++l)
+                        grad_v[slot - begin * W + static_cast<std::size_t>(l)].c[k] =
+                            lane(gradient_v.c[k], l);
+                for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
+                    store<Dim>(out.x_dot, i, l, u);
+                    if (out.rho_dot != nullptr) out.rho_dot[i] = lane(continuity.rho_dot, l);
+                    if constexpr (std::is_same_v<Force, TorqueSums>) {
+                        out.positive_torque[i] = lane(force.positive, l);
+                        out.negative_torque[i] = lane(force.negative, l);
+                    } else {
+                        store<Dim>(out.v_dot, i, l, force.v_dot);
+                        out.e_dot[i] = lane(force.e_dot(), l);
+                    }
+                });
             });
-        });
+        const std::size_t particles = std::min(end * W, in.list.particles) - begin * W;
+        out.stress_rates(out.context, in.list.order + begin * W, particles, grad_v.data());
+    });
 }
 
 template <int Dim, class... Passes>
-void second(const SweepInput<Dim>& in, const SweepOutput& out) {
-    sweep_in<Dim, TransportRecord<Dim>, Passes...>(
-        in, [&](std::size_t slot, const auto&, const auto&... sums) {
-            for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
-                const auto store_one = [&](const auto& s) {
-                    if constexpr (requires { s.rho_dot; }) {
-                        out.rho_dot[i] = lane(s.rho_dot, l);
-                    } else {
-                        store<Dim>(out.v_dot, i, l, s.v_dot);
-                        out.e_dot[i] = lane(s.e_dot(), l);
-                    }
-                };
-                (store_one(sums), ...);
+void second(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
+    for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
+        sweep_clusters<Dim, TransportRecord<Dim>, Passes...>(
+            in, begin, end, [&](std::size_t slot, const auto&, const auto&... sums) {
+                for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
+                    const auto store_one = [&](const auto& s) {
+                        if constexpr (requires { s.rho_dot; }) {
+                            out.rho_dot[i] = lane(s.rho_dot, l);
+                        } else {
+                            store<Dim>(out.v_dot, i, l, s.v_dot);
+                            out.e_dot[i] = lane(s.e_dot(), l);
+                        }
+                    };
+                    (store_one(sums), ...);
+                });
             });
-        });
+    });
 }
 
 /// Run-time choices of the scheme turned into the sweeps compiled for them.

@@ -33,6 +33,31 @@ class ClusterList {
     /// true where a position is not finite.
     bool serves(const Eigen::Ref<const Points<Dim>>& position);
 
+    /// far(i, x): 1 if particle i, at x[Dim i], has moved by more than half the skin since the build,
+    /// the rigid motion known last taken off; else 0. For a loop that reads the positions anyway:
+    /// where nobody is far, the list serves.
+    class Displacement {
+      public:
+        std::size_t operator()(std::size_t i, const double* now) const {
+            double d2 = 0.0;
+            for (std::size_t a = 0; a < Dim; ++a) {
+                double d = now[Dim * i + a] - shift_[a];
+                for (std::size_t b = 0; b < Dim; ++b)
+                    d -= rotation_[Dim * a + b] * then_[Dim * i + b];
+                d2 += d * d;
+            }
+            return static_cast<std::size_t>(!(d2 <= limit2_));
+        }
+
+      private:
+        friend class ClusterList;
+        std::array<double, Dim * Dim> rotation_;
+        std::array<double, Dim> shift_;
+        const double* then_;
+        double limit2_;
+    };
+    Displacement displacement() const;
+
     ClusterView view() const;
     std::size_t size() const { return size_; }
     std::size_t clusters() const { return range_of_.size(); }

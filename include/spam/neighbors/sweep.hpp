@@ -6,26 +6,29 @@
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/pair.hpp>
 
+#include <algorithm>
 #include <tuple>
 
 namespace spam {
 inline namespace SPAM_LANES {
 
-/// One sweep over all pairs for one or more passes that need nothing from each other, gather form:
-/// for each cluster of W particles i, in the lanes of T = LanesOf<W>, the sums of every pass over its
-/// neighbours (themselves included), one neighbour j at a time in all lanes; then
-/// store(first slot, i, sums...). Lanes out of range add exact zeros. A pass is a plain type with
+/// One sweep over the pairs of the clusters [first, last), for one or more passes that need nothing
+/// from each other, gather form: for each cluster of W particles i, in the lanes of T = LanesOf<W>,
+/// the sums of every pass over its neighbours (themselves included), one neighbour j at a time in all
+/// lanes; then store(first slot, i, sums...). Lanes out of range add exact zeros. A pass is a plain
+/// type with
 ///     template <class T> struct Sums;
 ///     template <class T, class Record> static void add(pair, i, j, Sums<T>&);
 /// R: the record the passes need (record.hpp). W must be the list's width.
+// flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
 template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
-void sweep(const ClusterView& list, const Weight& weight, const Space& space,
-           const Records& records, const Store& store) {
+[[gnu::flatten]] void sweep_block(const ClusterView& list, std::size_t first, std::size_t last,
+                                  const Weight& weight, const Space& space, const Records& records,
+                                  const Store& store) {
     using T = LanesOf<W>;
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;
-    // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
-    const auto sweep_cluster = [&](std::size_t cluster) __attribute__((flatten)) {
+    for (std::size_t cluster = first; cluster < last; ++cluster) {
         const double* const own = records.numbers + cluster * W * records.stride;
         Lanes gathered;
         gathered.visit([&](T& number, int k) {
@@ -49,8 +52,27 @@ void sweep(const ClusterView& list, const Weight& weight, const Space& space,
         }
         const Sums found = sums;
         std::apply([&](const auto&... s) { store(cluster * W, gathered, s...); }, found);
-    };
-    parallel_for(list.clusters, sweep_cluster, W);
+    }
+}
+
+/// body(first, last) for blocks of clusters, a few hundred particles each: what one block leaves
+/// behind for the next thing done with its particles still fits into the nearest cache.
+inline constexpr std::size_t clusters_per_block = 32;
+template <int W, class Body>
+void for_each_block(const ClusterView& list, const Body& body) {
+    constexpr std::size_t size = clusters_per_block;
+    parallel_for((list.clusters + size - 1) / size,
+                 [&](std::size_t b) { body(b * size, std::min(list.clusters, (b + 1) * size)); },
+                 size * W);
+}
+
+/// A sweep over all clusters.
+template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
+void sweep(const ClusterView& list, const Weight& weight, const Space& space,
+           const Records& records, const Store& store) {
+    for_each_block<W>(list, [&](std::size_t first, std::size_t last) {
+        sweep_block<W, Dim, R, Passes...>(list, first, last, weight, space, records, store);
+    });
 }
 
 /// f(lane, particle) for the particles of the cluster that begins at `first_slot`.

@@ -42,11 +42,12 @@ class SmoothParticleModel final : public Model<Dim> {
 
   private:
     bool load(std::span<const double> y, std::span<double> y_dot);
-    std::size_t pack(std::span<const double> y, std::span<const double> rho,
-                     std::span<const std::uint32_t> order, std::span<double> records) const;
-    bool sum_density(std::span<const double> y, std::span<double> y_dot);
-    bool pack_with_density(std::span<const double> y, std::span<const double> rho,
-                           std::span<double> y_dot);
+    bool pack(std::span<const double> y, const ClusterList<Dim>& list,
+              std::span<double> records) const;
+    void sum_density(const ClusterList<Dim>& list, std::span<const double> records,
+                     std::span<double> rho) const;
+    bool pack_density(std::span<const double> y, std::span<const double> rho,
+                      std::span<double> y_dot);
     void balance_torques(std::span<const double> y, std::span<const double> u);
     void load_transport(std::span<const double> u);
 
@@ -56,7 +57,6 @@ class SmoothParticleModel final : public Model<Dim> {
     ClusterList<Dim> list_;
     std::size_t stride_;           ///< of the records
     std::vector<double> records_;  ///< by slot
-    std::vector<Mat<Dim>> grad_v_;
     std::vector<double> summed_density_;
     std::vector<double> positive_torque_, negative_torque_;  ///< per particle, TorqueSums
     struct BodySums {
