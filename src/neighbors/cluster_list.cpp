@@ -14,11 +14,13 @@
 namespace spam {
 
 template <int Dim>
-ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, int width)
+ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, int width,
+                              std::size_t stride)
     : range_(range),
       skin_(skin),
       box_(box),
-      width_(width) {
+      width_(width),
+      stride_(static_cast<std::uint32_t>(stride)) {
     for (int a = 0; a < Dim; ++a) {
         const double least = 2.0 * (range + skin);
         if (box.periodic(a) && box.length(a) <= least)
@@ -137,9 +139,13 @@ std::size_t ClusterList<Dim>::search_slice(std::size_t slice) {
         });
         flush();
         if (!in_order_) put_in_order(out.data() + first, out.data() + used);
+        for (std::size_t k = first; k < used; ++k) out[k] *= stride_;
         range_of_[c] = {static_cast<std::uint32_t>(first),
                         static_cast<std::uint32_t>(used - first)};
     }
+    // Sweeps look one entry ahead.
+    if (out.size() < used + 1) out.resize(used + 1);
+    out[used] = 0;
     slice_of_[slice] = out.data();
     return pairs;
 }
@@ -155,24 +161,23 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
 }
 
 template <int Dim>
-typename ClusterList<Dim>::Displacement ClusterList<Dim>::displacement() const {
-    Displacement d;
+Displacement<Dim> ClusterList<Dim>::displacement() const {
+    Displacement<Dim> d;
     const Point<Dim> shift = motion_.to - motion_.rotation * motion_.from;
     for (int a = 0; a < Dim; ++a) {
-        d.shift_[static_cast<std::size_t>(a)] = shift[a];
-        for (int b = 0; b < Dim; ++b)
-            d.rotation_[static_cast<std::size_t>(Dim * a + b)] = motion_.rotation(a, b);
+        d.shift[a] = shift[a];
+        for (int b = 0; b < Dim; ++b) d.rotation[a][b] = motion_.rotation(a, b);
     }
-    d.then_ = built_at_.data();
-    d.limit2_ = 0.25 * skin_ * skin_;
+    d.then = built_at_.data();
+    d.limit2 = 0.25 * skin_ * skin_;
     return d;
 }
 
 template <int Dim>
 bool ClusterList<Dim>::near_build(const Eigen::Ref<const Points<Dim>>& position) const {
-    const Displacement far = displacement();
+    const Displacement<Dim> now = displacement();
     const double* const x = position.data();
-    return parallel_count(size_, [&](std::size_t i) { return far(i, x); }) == 0;
+    return parallel_count(size_, [&](std::size_t i) { return now.too_far(i, x); }) == 0;
 }
 
 template <int Dim>

@@ -52,14 +52,12 @@ struct StressRates {
 };
 
 template <int Dim>
-void wrap(const Box<Dim>& box, double* x) {
-    for (int a = 0; a < Dim; ++a)
-        if (box.periodic(a)) x[a] = box.wrap(a, x[a]);
-}
-
-template <int Dim>
 Sweeps<Dim> best_sweeps(const Scheme& scheme) {
-    return at_level(instruction_set(), [&](auto level) { return sweeps_of<Dim, level>(scheme); });
+    return at_level(instruction_set(), [&](auto level) {
+        Sweeps<Dim> sweeps = sweeps_of<Dim, level>(scheme);
+        sweeps.pack = pack_for<Dim, level>();
+        return sweeps;
+    });
 }
 
 }  // namespace
@@ -75,9 +73,9 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       material_(material),
       scheme_(scheme),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
-      list_(scheme.range, list_skin(scheme.range, box), box, sweeps_->width),
       stride_(static_cast<std::size_t>(sweeps_->second != nullptr ? TransportRecord<Dim>::numbers
-                                                                  : Record<Dim>::numbers)) {
+                                                                  : Record<Dim>::numbers)),
+      list_(scheme.range, list_skin(scheme.range, box), box, sweeps_->width, stride_) {
     const double spacing = this->particles().spacing;
     if (!(scheme.range > spacing) || !(scheme.range < 1e6 * spacing))
         throw InputError(
@@ -101,13 +99,6 @@ template <int Dim>
 void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     if (!load(y, y_dot)) return;
-    std::span<const double> rho = summed_density_;
-    if (sweeps_->density != nullptr)
-        sum_density(list_, records_, summed_density_);
-    else
-        rho = {ConstState<Dim>(this->layout(), y).density().data(), this->particles().size()};
-    if (!pack_density(y, rho, y_dot)) return;
-
     const State<Dim> rate(this->layout(), y_dot);
     const SweepInput<Dim> in{list_.view(), {records_.data(), stride_}, scheme_.range, &this->box()};
     SweepOutput<Dim> out;
@@ -129,67 +120,55 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
     sweeps_->second(in, out);
 }
 
+template <int Dim>
+PackInput<Dim> SmoothParticleModel<Dim>::pack_input(std::span<const double> y,
+                                                    const ClusterList<Dim>& list) const {
+    const ConstState<Dim> state(this->layout(), y);
+    PackInput<Dim> in;
+    in.order = list.order().data();
+    in.slots = list.order().size();
+    in.x = state.position().data();
+    in.v = state.velocity().data();
+    in.m = this->particles().mass.data();
+    in.rho = state.has(Field::density) ? state.density().data() : nullptr;
+    in.sigma = state.stress().data();
+    in.box = &this->box();
+    in.displacement = list.displacement();
+    in.stride = stride_;
+    return in;
+}
+
 /// The list for these positions, and the records in its order.
 template <int Dim>
 bool SmoothParticleModel<Dim>::load(std::span<const double> y, std::span<double> y_dot) {
     const auto x = ConstState<Dim>(this->layout(), y).position();
-    const bool fits = list_.size() == this->particles().size();
-    if (!fits || !pack(y, list_, records_)) {
-        if (!list_.serves(x)) {
-            if (!x.allFinite()) {
-                this->fail(y_dot, "a position is not finite");
-                return false;
-            }
-            list_.build(x);
-            records_.resize(list_.order().size() * stride_);
-            pack(y, list_, records_);
+    PackCount count{1};
+    if (list_.size() == this->particles().size())
+        count = sweeps_->pack(pack_input(y, list_), false, records_.data());
+    if (count.far > 0 && !list_.serves(x)) {
+        if (!x.allFinite()) {
+            this->fail(y_dot, "a position is not finite");
+            return false;
         }
+        list_.build(x);
+        records_.resize(list_.order().size() * stride_);
+        count = sweeps_->pack(pack_input(y, list_), false, records_.data());
     }
-    return true;
-}
-
-/// x, v and m by slot. Returns whether no particle has gone too far for the list.
-template <int Dim>
-bool SmoothParticleModel<Dim>::pack(std::span<const double> y, const ClusterList<Dim>& list,
-                                    std::span<double> records) const {
-    constexpr auto d = static_cast<std::size_t>(Dim);
     const ConstState<Dim> state(this->layout(), y);
-    const double* const x = state.position().data();
-    const double* const v = state.velocity().data();
-    const double* const m = this->particles().mass.data();
-    const Box<Dim>& box = this->box();
-    const bool wraps = box.periodic();
-    const auto far = list.displacement();
-    const auto order = list.order();
-    const std::size_t gone = parallel_count(order.size(), [&](std::size_t slot) {
-        const std::size_t i = order[slot];
-        double* const record = &records[slot * stride_];
-        for (std::size_t a = 0; a < d; ++a) record[a] = x[i * d + a];
-        for (std::size_t a = 0; a < d; ++a) record[d + a] = v[i * d + a];
-        record[2 * d] = m[i];
-        if (wraps) wrap(box, record);
-        return far(i, x);
-    });
-    return gone == 0;
+    if (count.invalid > 0)
+        return fail_density({state.density().data(), this->particles().size()}, y_dot);
+    if (sweeps_->density == nullptr) return true;
+
+    sum_density(list_, records_, summed_density_);
+    PackInput<Dim> in = pack_input(y, list_);
+    in.rho = summed_density_.data();
+    count = sweeps_->pack(in, true, records_.data());
+    return count.invalid == 0 || fail_density(summed_density_, y_dot);
 }
 
-/// The rest of the records, which depends on the density. Fails where that has no meaning.
+/// Names the first density that has no meaning. Returns false.
 template <int Dim>
-bool SmoothParticleModel<Dim>::pack_density(std::span<const double> y, std::span<const double> rho,
-                                            std::span<double> y_dot) {
-    constexpr std::size_t first = 2 * Dim + 1;
-    constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
-    const double* const sigma = ConstState<Dim>(this->layout(), y).stress().data();
-    const auto order = list_.order();
-    const std::size_t wrong = parallel_count(order.size(), [&](std::size_t slot) {
-        const std::size_t i = order[slot];
-        double* const record = &records_[slot * stride_ + first];
-        const double density = rho[i], scale = 1.0 / (density * density);
-        record[0] = density;
-        for (std::size_t k = 0; k < n; ++k) record[1 + k] = scale * sigma[i * n + k];
-        return static_cast<std::size_t>(!(density > 0.0));
-    });
-    if (wrong == 0) return true;
+bool SmoothParticleModel<Dim>::fail_density(std::span<const double> rho, std::span<double> y_dot) {
     const auto bad = std::find_if(rho.begin(), rho.end(), [](double r) { return !(r > 0.0); });
     const auto number = static_cast<std::size_t>(std::distance(rho.begin(), bad));
     this->fail(y_dot, fmt::format("density {} of particle {} is not positive", *bad,
@@ -253,10 +232,10 @@ double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) cons
 template <int Dim>
 std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
     if (sweeps_->density == nullptr) return Model<Dim>::density(y);
-    ClusterList<Dim> list(scheme_.range, 0.0, this->box(), sweeps_->width);
+    ClusterList<Dim> list(scheme_.range, 0.0, this->box(), sweeps_->width, stride_);
     list.build(ConstState<Dim>(this->layout(), y).position());
     std::vector<double> records(list.order().size() * stride_), rho(list.size());
-    pack(y, list, records);
+    sweeps_->pack(pack_input(y, list), false, records.data());
     sum_density(list, records, rho);
     return rho;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "pack.hpp"
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/tensor.hpp>
 #include <spam/neighbors/box.hpp>
@@ -43,6 +44,7 @@ using Sweep = void (*)(const SweepInput<Dim>&, const SweepOutput<Dim>&);
 template <int Dim>
 struct Sweeps {
     int width;                     ///< of the clusters they need
+    Pack<Dim> pack = nullptr;      ///< makes their records
     Sweep<Dim> density = nullptr;  ///< null where density is part of y
     Sweep<Dim> first = nullptr;
     Sweep<Dim> second = nullptr;  ///< null where the first finds everything

@@ -137,7 +137,8 @@ void dormand_prince_step(benchmark::State& state) {
 }
 
 void sizes(benchmark::internal::Benchmark* b) {
-    b->Arg(217)->Arg(16000)->Arg(200000)->Unit(benchmark::kMicrosecond);
+    b->Arg(217)->Arg(2000)->Arg(16000)->Arg(20000)->Arg(64000)->Arg(200000)->Arg(1000000)->Unit(
+        benchmark::kMicrosecond);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ void compare(const Box<Dim>& box, const Space& space, double size) {
     std::uniform_real_distribution<double> u(0.0, size);
     Points<Dim> x(Dim, 301);
     for (auto& c : x.reshaped()) c = u(random);
-    ClusterList<Dim> list(1.0, 0.1, box, W);
+    ClusterList<Dim> list(1.0, 0.1, box, W, Dot<Dim>::numbers);
     list.build(x);
     std::vector<double> records(list.order().size() * Dot<Dim>::numbers, 1.0);
     for (std::size_t slot = 0; slot < list.order().size(); ++slot)

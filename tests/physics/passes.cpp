@@ -69,7 +69,9 @@ std::vector<std::vector<double>> pair_by_pair(const Cloud<Dim>& cloud, double h)
         typename Pass::template Sums<double> sums;
         for (const auto j : neighbours[i]) {
             const auto ri = cloud.record(i), rj = cloud.record(j);
-            Pass::add(make_pair<Dim, double>(Lucy<Dim>(h), OpenSpace(), ri, rj), ri, rj, sums);
+            Pass::add(
+                make_pair<Dim, double>(Lucy<Dim>(h), separation(OpenSpace(), ri.x, rj.x), ri, rj),
+                ri, rj, sums);
         }
         results.push_back(flat(sums));
     }
@@ -78,7 +80,7 @@ std::vector<std::vector<double>> pair_by_pair(const Cloud<Dim>& cloud, double h)
 
 template <int W, int Dim, class Pass>
 std::vector<std::vector<double>> swept(const Cloud<Dim>& cloud, double h) {
-    ClusterList<Dim> list(h, 0.2, {}, W);
+    ClusterList<Dim> list(h, 0.2, {}, W, R<Dim>::numbers);
     list.build(cloud.particles.reference_position);
     std::vector<double> records;
     for (const auto i : list.order()) {

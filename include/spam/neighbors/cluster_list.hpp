@@ -3,6 +3,7 @@
 
 #include <spam/core/rigid_motion.hpp>
 #include <spam/neighbors/cluster_view.hpp>
+#include <spam/neighbors/displacement.hpp>
 #include <spam/neighbors/strip_sort.hpp>
 
 #include <span>
@@ -20,9 +21,9 @@ template <int Dim>
 class ClusterList {
   public:
     /// `range` > 0, the range of the weight function; `skin` >= 0, how much further the list looks;
-    /// `width` 1, 2, 4 or 8. Throws InputError when a periodic length is not above
-    /// 2 (range + skin).
-    ClusterList(double range, double skin, const Box<Dim>& box, int width);
+    /// `width` 1, 2, 4 or 8; `stride`: numbers in a record of the sweeps. Throws InputError when a
+    /// periodic length is not above 2 (range + skin).
+    ClusterList(double range, double skin, const Box<Dim>& box, int width, std::size_t stride = 1);
 
     /// Builds the list for positions Dim x N (finite, not necessarily wrapped).
     void build(const Eigen::Ref<const Points<Dim>>& position);
@@ -33,30 +34,9 @@ class ClusterList {
     /// true where a position is not finite.
     bool serves(const Eigen::Ref<const Points<Dim>>& position);
 
-    /// far(i, x): 1 if particle i, at x[Dim i], has moved by more than half the skin since the build,
-    /// the rigid motion known last taken off; else 0. For a loop that reads the positions anyway:
-    /// where nobody is far, the list serves.
-    class Displacement {
-      public:
-        std::size_t operator()(std::size_t i, const double* now) const {
-            double d2 = 0.0;
-            for (std::size_t a = 0; a < Dim; ++a) {
-                double d = now[Dim * i + a] - shift_[a];
-                for (std::size_t b = 0; b < Dim; ++b)
-                    d -= rotation_[Dim * a + b] * then_[Dim * i + b];
-                d2 += d * d;
-            }
-            return static_cast<std::size_t>(!(d2 <= limit2_));
-        }
-
-      private:
-        friend class ClusterList;
-        std::array<double, Dim * Dim> rotation_;
-        std::array<double, Dim> shift_;
-        const double* then_;
-        double limit2_;
-    };
-    Displacement displacement() const;
+    /// Who has moved by more than half the skin since the build, the rigid motion known last taken
+    /// off. Where nobody has, the list serves.
+    Displacement<Dim> displacement() const;
 
     ClusterView view() const;
     std::size_t size() const { return size_; }
@@ -64,7 +44,7 @@ class ClusterList {
     int width() const { return width_; }
     /// Slot -> particle, `width` entries a cluster.
     std::span<const std::uint32_t> order() const { return order_; }
-    /// Slots of the neighbours of a cluster.
+    /// Neighbours of a cluster: slot times stride, where their records begin.
     std::span<const std::uint32_t> entries(std::size_t cluster) const;
     /// Pairs (undirected) closer than range + skin when the list was built.
     std::size_t pairs() const { return pairs_; }
@@ -80,6 +60,7 @@ class ClusterList {
     double range_, skin_;
     Box<Dim> box_;
     int width_;
+    std::uint32_t stride_;
     std::size_t size_ = 0, pairs_ = 0, builds_ = 0;
     StripSort<Dim> strips_;
     bool in_order_ = false;  ///< slots are particle numbers

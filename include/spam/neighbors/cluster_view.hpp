@@ -18,7 +18,7 @@ struct ClusterView {
     std::size_t clusters;
     const std::uint32_t* order;          ///< slot -> particle; the last one repeated to fill lanes
     const Range* range;                  ///< by cluster, within its slice
-    const std::uint32_t* const* slices;  ///< slots of neighbours
+    const std::uint32_t* const* slices;  ///< where the records of neighbours begin
 };
 
 /// Records of all particles by slot: `stride` numbers each, of which a sweep reads the first.

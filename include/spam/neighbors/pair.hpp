@@ -26,21 +26,32 @@ struct OpenSpace {
     }
 };
 
-/// Everything a pair body may ask of a pair, from two records that hold at least x and v.
-/// `space`: OpenSpace, or a Box. Exactly antisymmetric: exchanging i and j flips the signs of r_ji,
-/// grad_w and v_ji and changes no other bit.
-template <int Dim, class T, class Weight, class Space, class Record>
-constexpr Pair<Dim, T> make_pair(const Weight& weight, const Space& space, const Record& i,
-                                 const Record& j) {
+/// The part of a pair that takes longest: a sweep begins it one neighbour ahead of the rest.
+template <int Dim, class T>
+struct Separation {
+    Vec<Dim, T> r_ji;
+    T r2, r;
+};
+
+/// `space`: OpenSpace, or a Box.
+template <int Dim, class T, class Space>
+constexpr Separation<Dim, T> separation(const Space& space, const Vec<Dim, T>& x_i,
+                                        const Vec<Dim, T>& x_j) {
     using std::sqrt;
-    Pair<Dim, T> pair;
-    for (int a = 0; a < Dim; ++a) pair.r_ji[a] = space.nearest_image(a, j.x[a] - i.x[a]);
-    pair.r2 = dot(pair.r_ji, pair.r_ji);
-    const T r = sqrt(pair.r2);
-    pair.w = weight.value(r);
-    pair.grad_w = weight.minus_slope_over_r(r) * pair.r_ji;
-    pair.v_ji = j.v - i.v;
-    return pair;
+    Separation<Dim, T> s;
+    for (int a = 0; a < Dim; ++a) s.r_ji[a] = space.nearest_image(a, x_j[a] - x_i[a]);
+    s.r2 = dot(s.r_ji, s.r_ji);
+    s.r = sqrt(s.r2);
+    return s;
+}
+
+/// Everything a pair body may ask of a pair, from two records that hold at least v. Exactly
+/// antisymmetric: exchanging i and j flips the signs of r_ji, grad_w and v_ji and changes no other
+/// bit.
+template <int Dim, class T, class Weight, class Record>
+constexpr Pair<Dim, T> make_pair(const Weight& weight, const Separation<Dim, T>& s, const Record& i,
+                                 const Record& j) {
+    return {s.r_ji, s.r2, weight.value(s.r), weight.minus_slope_over_r(s.r) * s.r_ji, j.v - i.v};
 }
 
 }  // namespace spam

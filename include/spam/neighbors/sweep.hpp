@@ -19,7 +19,8 @@ inline namespace SPAM_LANES {
 /// type with
 ///     template <class T> struct Sums;
 ///     template <class T, class Record> static void add(pair, i, j, Sums<T>&);
-/// R: the record the passes need (record.hpp). W must be the list's width.
+/// R: the record the passes need (record.hpp). W must be the list's width, the records'
+/// stride the list's.
 // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
 template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
 [[gnu::flatten]] void sweep_block(const ClusterView& list, std::size_t first, std::size_t last,
@@ -44,11 +45,23 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
         Sums sums;
         const ClusterView::Range range = list.range[cluster];
         const std::uint32_t* entry = list.slices[cluster / ClusterView::slice_size] + range.first;
+        const auto distance_to = [&](const double* other) {
+            Vec<Dim, T> x_j;
+            for (int a = 0; a < Dim; ++a) x_j[a] = T(other[a]);
+            return separation(space, i.x, x_j);
+        };
+        const double* other = records.numbers + *entry;
+        auto apart = distance_to(other);
         for (const std::uint32_t* const end = entry + range.count; entry != end; ++entry) {
-            const double* const other = records.numbers + *entry * records.stride;
+            // What waits for a square root would fill the processor's queue before the next one is
+            // begun: it is begun here. (There is always one entry more than the list's.)
+            const double* const next = records.numbers + entry[1];
+            const auto next_apart = distance_to(next);
             j.visit([&](T& number, int k) { number = T(other[k]); });
-            const auto pair = make_pair<Dim, T>(weight, space, i, j);
+            const auto pair = make_pair<Dim, T>(weight, apart, i, j);
             std::apply([&](auto&... s) { (Passes::add(pair, i, j, s), ...); }, sums);
+            other = next;
+            apart = next_apart;
         }
         const Sums found = sums;
         std::apply([&](const auto&... s) { store(cluster * W, gathered, s...); }, found);

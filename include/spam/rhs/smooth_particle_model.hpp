@@ -12,6 +12,8 @@ namespace spam {
 
 template <int Dim>
 struct Sweeps;
+template <int Dim>
+struct PackInput;
 
 /// A solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
 /// decides whether density is part of y, what velocity moves the particles, and whether pair
@@ -42,20 +44,18 @@ class SmoothParticleModel final : public Model<Dim> {
 
   private:
     bool load(std::span<const double> y, std::span<double> y_dot);
-    bool pack(std::span<const double> y, const ClusterList<Dim>& list,
-              std::span<double> records) const;
+    PackInput<Dim> pack_input(std::span<const double> y, const ClusterList<Dim>& list) const;
     void sum_density(const ClusterList<Dim>& list, std::span<const double> records,
                      std::span<double> rho) const;
-    bool pack_density(std::span<const double> y, std::span<const double> rho,
-                      std::span<double> y_dot);
+    bool fail_density(std::span<const double> rho, std::span<double> y_dot);
     void balance_torques(std::span<const double> y, std::span<const double> u);
     void load_transport(std::span<const double> u);
 
     Material<Dim> material_;
     Scheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
+    std::size_t stride_;  ///< of the records
     ClusterList<Dim> list_;
-    std::size_t stride_;           ///< of the records
     std::vector<double> records_;  ///< by slot
     std::vector<double> summed_density_;
     std::vector<double> positive_torque_, negative_torque_;  ///< per particle, TorqueSums
