@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "levels.hpp"
 #include "nvector_operations.hpp"
 #include <spam/core/nvector.hpp>
 
@@ -22,10 +23,13 @@ SundialsContext::SundialsContext() {
 
 SundialsContext::~SundialsContext() { SUNContext_Free(&context_); }
 
-Vector::Vector(std::size_t size, const SundialsContext& context)
-    : v_(N_VNew_Serial(static_cast<sunindextype>(size), context.get())) {
+Vector::Vector(std::size_t size, const SundialsContext& context) {
+    N_Vector empty = N_VNewEmpty_Serial(static_cast<sunindextype>(size), context.get());
+    if (empty == nullptr) throw std::bad_alloc();
+    at_level(instruction_set(), [&](auto level) { use_operations<level>(empty); });
+    v_ = N_VClone(empty);
+    N_VDestroy(empty);
     if (v_ == nullptr) throw std::bad_alloc();
-    use_own_operations(v_);
     N_VConst(0.0, v_);
 }
 

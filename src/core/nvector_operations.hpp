@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/instruction_set.hpp>
+
 #include <sundials/sundials_nvector.h>
 
 namespace spam {
@@ -9,6 +11,7 @@ namespace spam {
 /// are compiled without optimisation and cost more than a right-hand side. Sums are taken block by
 /// block in a fixed order: norms, and with them adaptive steps, have the same bits with any number
 /// of threads.
-void use_own_operations(N_Vector v);
+template <InstructionSet Level>
+void use_operations(N_Vector v);
 
 }  // namespace spam
