@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
+#include "packed_particles.hpp"
 #include "sweeps.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
@@ -11,20 +12,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace spam {
 namespace {
-
-/// The list looks a little beyond the range, so that it lasts several steps; 0.075 h costs about a
-/// tenth more lanes. A tight periodic box leaves less.
-template <int Dim>
-double list_skin(double range, const Box<Dim>& box) {
-    double skin = 0.075 * range;
-    for (int a = 0; a < Dim; ++a)
-        if (box.periodic(a) && box.length(a) > 2.0 * range)
-            skin = std::min(skin, 0.49 * (box.length(a) - 2.0 * range));
-    return skin;
-}
 
 Scheme validated(const Scheme& scheme, int dim) {
     scheme.validate(dim);
@@ -73,9 +64,8 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       material_(material),
       scheme_(scheme),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
-      stride_(static_cast<std::size_t>(sweeps_->second != nullptr ? TransportRecord<Dim>::numbers
-                                                                  : Record<Dim>::numbers)),
-      list_(scheme.range, list_skin(scheme.range, box), box, sweeps_->width, stride_) {
+      // 0.075 h costs about a tenth more lanes.
+      packed_(packed_with(list_skin(scheme.range, 0.075, box))) {
     const double spacing = this->particles().spacing;
     if (!(scheme.range > spacing) || !(scheme.range < 1e6 * spacing))
         throw InputError(
@@ -100,7 +90,7 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
     this->failure_.clear();
     if (!load(y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
-    const SweepInput<Dim> in{list_.view(), {records_.data(), stride_}, scheme_.range, &this->box()};
+    const SweepInput<Dim> in = packed_->input();
     SweepOutput<Dim> out;
     out.x_dot = rate.position().data();
     out.v_dot = rate.velocity().data();
@@ -121,49 +111,36 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
 }
 
 template <int Dim>
-PackInput<Dim> SmoothParticleModel<Dim>::pack_input(std::span<const double> y,
-                                                    const ClusterList<Dim>& list) const {
-    const ConstState<Dim> state(this->layout(), y);
-    PackInput<Dim> in;
-    in.order = list.order().data();
-    in.slots = list.order().size();
-    in.x = state.position().data();
-    in.v = state.velocity().data();
-    in.m = this->particles().mass.data();
-    in.rho = state.has(Field::density) ? state.density().data() : nullptr;
-    in.sigma = state.stress().data();
-    in.box = &this->box();
-    in.displacement = list.displacement();
-    in.stride = stride_;
-    return in;
+std::unique_ptr<PackedParticles<Dim>> SmoothParticleModel<Dim>::packed_with(double skin) const {
+    const int numbers =
+        sweeps_->second != nullptr ? TransportRecord<Dim>::numbers : Record<Dim>::numbers;
+    return std::make_unique<PackedParticles<Dim>>(scheme_.range, skin, this->box(), sweeps_->width,
+                                                  static_cast<std::size_t>(numbers), sweeps_->pack);
 }
 
-/// The list for these positions, and the records in its order.
+template <int Dim>
+PackedFields SmoothParticleModel<Dim>::fields(std::span<const double> y) const {
+    const ConstState<Dim> state(this->layout(), y);
+    return {state.position().data(), state.velocity().data(), this->particles().mass.data(),
+            state.has(Field::density) ? state.density().data() : nullptr, state.stress().data()};
+}
+
+/// List and records for this state.
 template <int Dim>
 bool SmoothParticleModel<Dim>::load(std::span<const double> y, std::span<double> y_dot) {
-    const auto x = ConstState<Dim>(this->layout(), y).position();
-    PackCount count{1};
-    if (list_.size() == this->particles().size())
-        count = sweeps_->pack(pack_input(y, list_), false, records_.data());
-    if (count.far > 0 && !list_.serves(x)) {
-        if (!x.allFinite()) {
-            this->fail(y_dot, "a position is not finite");
-            return false;
-        }
-        list_.build(x);
-        records_.resize(list_.order().size() * stride_);
-        count = sweeps_->pack(pack_input(y, list_), false, records_.data());
+    const std::size_t n = this->particles().size();
+    PackedFields given = fields(y);
+    if (!packed_->follow(n, given)) {
+        this->fail(y_dot, "a position is not finite");
+        return false;
     }
-    const ConstState<Dim> state(this->layout(), y);
-    if (count.invalid > 0)
-        return fail_density({state.density().data(), this->particles().size()}, y_dot);
+    if (packed_->invalid_densities() > 0) return fail_density({given.rho, n}, y_dot);
     if (sweeps_->density == nullptr) return true;
 
-    sum_density(list_, records_, summed_density_);
-    PackInput<Dim> in = pack_input(y, list_);
-    in.rho = summed_density_.data();
-    count = sweeps_->pack(in, true, records_.data());
-    return count.invalid == 0 || fail_density(summed_density_, y_dot);
+    sum_density(*packed_, summed_density_);
+    given.rho = summed_density_.data();
+    packed_->load_density(given);
+    return packed_->invalid_densities() == 0 || fail_density(summed_density_, y_dot);
 }
 
 /// Names the first density that has no meaning. Returns false.
@@ -177,12 +154,11 @@ bool SmoothParticleModel<Dim>::fail_density(std::span<const double> rho, std::sp
 }
 
 template <int Dim>
-void SmoothParticleModel<Dim>::sum_density(const ClusterList<Dim>& list,
-                                           std::span<const double> records,
+void SmoothParticleModel<Dim>::sum_density(const PackedParticles<Dim>& packed,
                                            std::span<double> rho) const {
     SweepOutput<Dim> out;
     out.rho = rho.data();
-    sweeps_->density({list.view(), {records.data(), stride_}, scheme_.range, &this->box()}, out);
+    sweeps_->density(packed.input(), out);
 }
 
 /// R of every body from its own sums, taken in the order of the particles.
@@ -208,10 +184,10 @@ void SmoothParticleModel<Dim>::balance_torques(std::span<const double> y,
 template <int Dim>
 void SmoothParticleModel<Dim>::load_transport(std::span<const double> u) {
     constexpr auto d = static_cast<std::size_t>(Dim);
-    const auto order = list_.order();
+    const auto order = packed_->list().order();
     parallel_for(order.size(), [&](std::size_t slot) {
         const std::size_t i = order[slot];
-        double* number = &records_[slot * stride_ + TransportRecord<Dim>::first];
+        double* number = packed_->record(slot) + TransportRecord<Dim>::first;
         for (std::size_t a = 0; a < d; ++a) *number++ = u[i * d + a];
         const double R = torque_factor_[static_cast<std::size_t>(this->particles().body[i])];
         *number++ = R;
@@ -232,12 +208,22 @@ double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) cons
 template <int Dim>
 std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
     if (sweeps_->density == nullptr) return Model<Dim>::density(y);
-    ClusterList<Dim> list(scheme_.range, 0.0, this->box(), sweeps_->width, stride_);
-    list.build(ConstState<Dim>(this->layout(), y).position());
-    std::vector<double> records(list.order().size() * stride_), rho(list.size());
-    sweeps_->pack(pack_input(y, list), false, records.data());
-    sum_density(list, records, rho);
+    const auto packed = packed_with(0.0);
+    std::vector<double> rho(this->particles().size());
+    if (!packed->follow(rho.size(), fields(y)))
+        rho.assign(rho.size(), std::numeric_limits<double>::quiet_NaN());
+    else
+        sum_density(*packed, rho);
     return rho;
+}
+
+template <int Dim>
+std::size_t SmoothParticleModel<Dim>::pairs() const {
+    return packed_->list().pairs();
+}
+template <int Dim>
+std::size_t SmoothParticleModel<Dim>::list_builds() const {
+    return packed_->list().builds();
 }
 
 template <int Dim>

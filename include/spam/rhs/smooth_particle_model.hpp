@@ -3,7 +3,6 @@
 
 #include <spam/core/sums.hpp>
 #include <spam/material/material.hpp>
-#include <spam/neighbors/cluster_list.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <memory>
@@ -13,7 +12,8 @@ namespace spam {
 template <int Dim>
 struct Sweeps;
 template <int Dim>
-struct PackInput;
+class PackedParticles;
+struct PackedFields;
 
 /// A solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
 /// decides whether density is part of y, what velocity moves the particles, and whether pair
@@ -34,19 +34,19 @@ class SmoothParticleModel final : public Model<Dim> {
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override { return scheme_.promises(Dim); }
     std::string describe() const override;
-    std::size_t pairs() const override { return list_.pairs(); }
+    std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
 
     const Scheme& scheme() const { return scheme_; }
     /// R of each body in the latest rates(); 1 where torques are left free.
     std::span<const double> torque_factors() const { return torque_factor_; }
-    std::size_t list_builds() const { return list_.builds(); }
+    std::size_t list_builds() const;
 
   private:
     bool load(std::span<const double> y, std::span<double> y_dot);
-    PackInput<Dim> pack_input(std::span<const double> y, const ClusterList<Dim>& list) const;
-    void sum_density(const ClusterList<Dim>& list, std::span<const double> records,
-                     std::span<double> rho) const;
+    PackedFields fields(std::span<const double> y) const;
+    std::unique_ptr<PackedParticles<Dim>> packed_with(double skin) const;
+    void sum_density(const PackedParticles<Dim>& packed, std::span<double> rho) const;
     bool fail_density(std::span<const double> rho, std::span<double> y_dot);
     void balance_torques(std::span<const double> y, std::span<const double> u);
     void load_transport(std::span<const double> u);
@@ -54,9 +54,7 @@ class SmoothParticleModel final : public Model<Dim> {
     Material<Dim> material_;
     Scheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
-    std::size_t stride_;  ///< of the records
-    ClusterList<Dim> list_;
-    std::vector<double> records_;  ///< by slot
+    std::unique_ptr<PackedParticles<Dim>> packed_;
     std::vector<double> summed_density_;
     std::vector<double> positive_torque_, negative_torque_;  ///< per particle, TorqueSums
     struct BodySums {

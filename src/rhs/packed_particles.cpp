@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "packed_particles.hpp"
+
+#include <algorithm>
+
+namespace spam {
+
+/// Returns how many particles have moved too far for the list.
+template <int Dim>
+std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_only) {
+    PackInput<Dim> in;
+    in.order = list_.order().data();
+    in.slots = list_.order().size();
+    in.x = fields.x;
+    in.v = fields.v;
+    in.m = fields.m;
+    in.rho = fields.rho;
+    in.sigma = fields.sigma;
+    in.box = &list_.box();
+    in.displacement = list_.displacement();
+    in.stride = stride_;
+    const PackCount count = make_records_(in, density_only, records_.data());
+    invalid_ = count.invalid;
+    return count.far;
+}
+
+template <int Dim>
+bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
+    // Most often nobody has gone too far, and packing has read all positions anyway.
+    if (list_.size() == n && pack(fields, false) == 0) return true;
+    const Eigen::Map<const Points<Dim>> x(fields.x, Dim, static_cast<Eigen::Index>(n));
+    if (list_.serves(x)) return true;
+    if (!x.allFinite()) return false;
+    list_.build(x);
+    records_.resize(list_.order().size() * stride_);
+    pack(fields, false);
+    return true;
+}
+
+template <int Dim>
+void PackedParticles<Dim>::load_density(const PackedFields& fields) {
+    pack(fields, true);
+}
+
+template <int Dim>
+double list_skin(double range, double share, const Box<Dim>& box) {
+    double skin = share * range;
+    for (int a = 0; a < Dim; ++a)
+        if (box.periodic(a) && box.length(a) > 2.0 * range)
+            skin = std::min(skin, 0.49 * (box.length(a) - 2.0 * range));
+    return skin;
+}
+
+template class PackedParticles<1>;
+template class PackedParticles<2>;
+template class PackedParticles<3>;
+template double list_skin<1>(double, double, const Box<1>&);
+template double list_skin<2>(double, double, const Box<2>&);
+template double list_skin<3>(double, double, const Box<3>&);
+
+}  // namespace spam

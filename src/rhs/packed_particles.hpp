@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "pack.hpp"
+#include "sweeps.hpp"
+#include <spam/neighbors/cluster_list.hpp>
+
+#include <vector>
+
+namespace spam {
+
+/// Fields by number of particle, as records are made from them.
+struct PackedFields {
+    const double *x, *v, *m;
+    const double* rho = nullptr;    ///< null where it is not part of the state
+    const double* sigma = nullptr;  ///< D(D+1)/2 each
+};
+
+/// The cluster list of a model, and in its order the records that sweeps read. Both follow the
+/// particles; the list is built anew only when they have moved too far for it.
+template <int Dim>
+class PackedParticles {
+  public:
+    /// `stride`: numbers in a record; `make_records` writes them; the rest as for ClusterList.
+    PackedParticles(double range, double skin, const Box<Dim>& box, int width, std::size_t stride,
+                    Pack<Dim> make_records)
+        : list_(range, skin, box, width, stride),
+          range_(range),
+          stride_(stride),
+          make_records_(make_records) {}
+
+    /// List and records for n particles. False where a position is not finite: nothing may be swept.
+    bool follow(std::size_t n, const PackedFields& fields);
+    /// Of what follow() or load_density() met last.
+    std::size_t invalid_densities() const { return invalid_; }
+    /// Density and what depends on it, where it became known after follow().
+    void load_density(const PackedFields& fields);
+
+    const ClusterList<Dim>& list() const { return list_; }
+    double* record(std::size_t slot) { return &records_[slot * stride_]; }
+    SweepInput<Dim> input() const {
+        return {list_.view(), {records_.data(), stride_}, range_, &list_.box()};
+    }
+
+  private:
+    std::size_t pack(const PackedFields& fields, bool density_only);
+
+    ClusterList<Dim> list_;
+    double range_;
+    std::size_t stride_;
+    Pack<Dim> make_records_;
+    std::vector<double> records_;  ///< by slot
+    std::size_t invalid_ = 0;
+};
+
+/// A list looks a little beyond the range, so that it lasts several steps: by `share` of the range,
+/// or less in a tight periodic box.
+template <int Dim>
+double list_skin(double range, double share, const Box<Dim>& box);
+
+}  // namespace spam
