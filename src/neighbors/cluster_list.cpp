@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
+#include "candidates.hpp"
 #include "search.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
@@ -42,23 +43,12 @@ std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) co
     return {slice_of_[cluster / ClusterView::slice_size] + range.first, range.count};
 }
 
-/// Slots for all particles, and their coordinates in that order; the last slot is repeated until
-/// the last cluster is full.
+/// Coordinates and bounds for this order of particles; the last slot is repeated until the last
+/// cluster is full.
 template <int Dim>
-void ClusterList<Dim>::sort(const Eigen::Ref<const Points<Dim>>& position) {
-    size_ = static_cast<std::size_t>(position.cols());
-    built_at_ = position;
-    motion_ = {};
-    if (box_.periodic())
-        strips_.build(box_.wrapped(built_at_), box_);
-    else
-        strips_.build(built_at_, box_);
+void ClusterList<Dim>::gather() {
     const auto width = static_cast<std::size_t>(width_);
-    const std::size_t clusters = (size_ + width - 1) / width;
-    order_.assign(strips_.order().begin(), strips_.order().end());
-    in_order_ = true;
-    for (std::size_t k = 0; k < size_; ++k) in_order_ = in_order_ && order_[k] == k;
-    if (size_ > 0) order_.resize(clusters * width, order_.back());
+    order_.resize((size_ + width - 1) / width * width, size_ > 0 ? order_.back() : 0);
     for (int a = 0; a < Dim; ++a) {
         auto& x = x_[static_cast<std::size_t>(a)];
         x.resize(order_.size());
@@ -67,95 +57,155 @@ void ClusterList<Dim>::sort(const Eigen::Ref<const Points<Dim>>& position) {
             x[k] = box_.periodic(a) ? box_.wrap(a, unwrapped) : unwrapped;
         });
     }
-    range_of_.resize(clusters);
-    slices_.resize((clusters + ClusterView::slice_size - 1) / ClusterView::slice_size);
-    slice_of_.resize(slices_.size());
+    boxes_.build(x_, width, box_);
 }
 
-/// Slots in ascending number of particle. Where particles have hardly changed places since they were
-/// numbered little is out of order, and insertion is quick; else not.
+/// Slots for all particles. Their own order is best as long as it keeps neighbours together as well
+/// as strips would: in a solid, always.
 template <int Dim>
-void ClusterList<Dim>::put_in_order(std::uint32_t* first, std::uint32_t* last) const {
-    std::ptrdiff_t moves_left = 4 * (last - first);
-    for (std::uint32_t* k = first + 1; k < last; ++k) {
-        const std::uint32_t moving = *k, number = order_[moving];
-        std::uint32_t* to = k;
-        for (; to > first && order_[to[-1]] > number; --to) *to = to[-1];
-        *to = moving;
-        moves_left -= k - to;
-        if (moves_left >= 0) continue;
-        std::sort(first, last,
-                  [&](std::uint32_t a, std::uint32_t b) { return order_[a] < order_[b]; });
-        return;
+void ClusterList<Dim>::sort() {
+    const bool own_order_may_do = strip_volume_ > 0.0 && (in_order_ || builds_ % 16 == 1);
+    if (own_order_may_do && builds_ % 64 != 0) {
+        order_.resize(size_);
+        std::iota(order_.begin(), order_.end(), 0U);
+        gather();
+        in_order_ = boxes_.mean_volume(reach()) < 1.1 * strip_volume_ && boxes_.sort();
+        if (in_order_) return;
     }
+    strips_.build(box_.periodic() ? box_.wrapped(built_at_) : built_at_, box_);
+    order_.assign(strips_.order().begin(), strips_.order().end());
+    in_order_ = false;
+    gather();
+    strip_volume_ = boxes_.mean_volume(reach());
 }
 
-/// Entries of the clusters of one slice. Returns how many pairs were found, each from both ends.
+/// Searches for the entries of one slice of clusters.
 template <int Dim>
-std::size_t ClusterList<Dim>::search_slice(std::size_t slice) {
-    const double cutoff = range_ + skin_;
-    SearchInput<Dim> input;
-    input.cutoff2 = cutoff * cutoff;
-    input.wraps = box_.periodic();
-    for (int a = 0; a < Dim; ++a) {
-        input.x[a] = x_[static_cast<std::size_t>(a)].data();
-        input.length[a] = box_.length(a);
-        input.inverse[a] = box_.periodic(a) ? 1.0 / box_.length(a) : 0.0;
+class ClusterList<Dim>::SliceSearch {
+  public:
+    SliceSearch(ClusterList& list, std::size_t slice)
+        : list_(list),
+          width_(static_cast<std::size_t>(list.width_)),
+          out_(list.slices_[slice]),
+          search_(at_level(instruction_set(),
+                           [&](auto level) { return search_for<Dim, level>(list.width_); })) {
+        const double cutoff = list.range_ + list.skin_;
+        input_.cutoff2 = cutoff * cutoff;
+        input_.reach2 = list.reach() * list.reach();
+        input_.slots = list.size_;
+        input_.bounds = list.boxes_.data();
+        input_.stride = list.stride_;
+        for (int a = 0; a < Dim; ++a) {
+            input_.x[a] = list.x_[static_cast<std::size_t>(a)].data();
+            input_.length[a] = list.box_.length(a);
+            input_.inverse[a] = list.box_.periodic(a) ? 1.0 / list.box_.length(a) : 0.0;
+        }
     }
-    const auto search =
-        at_level(instruction_set(), [&](auto level) { return search_for<Dim, level>(width_); });
 
-    std::vector<std::uint32_t>& out = slices_[slice];
-    const auto width = static_cast<std::size_t>(width_);
-    const std::size_t begin = slice * ClusterView::slice_size;
-    const std::size_t end = std::min(begin + ClusterView::slice_size, range_of_.size());
-    std::size_t used = 0, pairs = 0;
-    std::array<SlotRange, 1024> candidates;
-    for (std::size_t c = begin; c < end; ++c) {
+    /// Some clusters in a row, whose candidates are found together. Returns how many pairs were
+    /// found, each from both ends.
+    std::size_t run(std::size_t first, std::size_t last) {
+        const Bounds<Dim> around = list_.boxes_.around(first, last);
+        const bool wraps = list_.boxes_.wraps(around, list_.reach());
+        return list_.in_order_ ? among_clusters(first, last, around, wraps)
+                               : among_slots(first, last, around, wraps);
+    }
+
+    /// Sweeps look one entry ahead. Returns where the entries are.
+    const std::uint32_t* finish() {
+        if (out_.size() < used_ + 1) out_.resize(used_ + 1);
+        out_[used_] = 0;
+        return out_.data();
+    }
+
+  private:
+    std::size_t among_clusters(std::size_t first, std::size_t last, const Bounds<Dim>& around,
+                               bool wraps) {
+        static thread_local std::vector<std::uint32_t> near_all, near_one;
+        near_all.clear();
+        list_.boxes_.collect(around, list_.reach(), near_all);
+        near_all.resize(search_.keep_near(input_, around, wraps, near_all.data(), near_all.size(),
+                                          near_all.data()));
+        std::sort(near_all.begin(), near_all.end());
+        near_one.resize(near_all.size());
+        std::size_t pairs = 0;
+        for (std::size_t c = first; c < last; ++c) {
+            const std::size_t count = search_.keep_near(
+                input_, list_.boxes_[c], wraps, near_all.data(), near_all.size(), near_one.data());
+            pairs += search(search_.among_clusters, c, wraps, near_one.data(), count, width_);
+        }
+        return pairs;
+    }
+
+    std::size_t among_slots(std::size_t first, std::size_t last, const Bounds<Dim>& around,
+                            bool wraps) {
+        static thread_local Candidates candidates;
         Point<Dim> low, high;
         for (int a = 0; a < Dim; ++a) {
-            const double* const x = input.x[a] + c * width;
-            const auto [least, most] = std::minmax_element(x, x + width);
-            const double reach = cutoff * (1.0 + 1e-12);  // whatever rounding does to a bin
-            low[a] = *least - reach;
-            high[a] = *most + reach;
+            low[a] = around.centre[a] - around.half[a] - list_.reach();
+            high[a] = around.centre[a] + around.half[a] + list_.reach();
         }
-        const std::size_t first = used;
-        // The repeated particle of the last cluster counts once.
-        const auto members = static_cast<unsigned>(std::min(width, size_ - c * width));
-        int count = 0;
-        const auto flush = [&] {
-            std::size_t room = 0;
-            for (int k = 0; k < count; ++k) room += candidates[k].last - candidates[k].first;
-            if (out.size() < used + room) out.resize(used + room + (used + room) / 4);
-            used = static_cast<std::size_t>(search(input, c * width, members, candidates.data(),
-                                                   count, out.data() + used, pairs) -
-                                            out.data());
-            count = 0;
-        };
-        strips_.for_each_range(low, high, [&](std::uint32_t from, std::uint32_t to) {
-            if (count == static_cast<int>(candidates.size())) flush();
-            candidates[static_cast<std::size_t>(count++)] = {from, to};
-        });
-        flush();
-        if (!in_order_) put_in_order(out.data() + first, out.data() + used);
-        for (std::size_t k = first; k < used; ++k) out[k] *= stride_;
-        range_of_[c] = {static_cast<std::uint32_t>(first),
-                        static_cast<std::uint32_t>(used - first)};
+        candidates.clear();
+        list_.strips_.for_each_range(
+            low, high, [&](std::uint32_t from, std::uint32_t to) { candidates.add(from, to); });
+        candidates.sort(list_.order_.data());
+        const auto slots = candidates.slots();
+        std::size_t pairs = 0;
+        for (std::size_t c = first; c < last; ++c)
+            pairs += search(search_.among_slots, c, wraps, slots.data(), slots.size(), 1);
+        return pairs;
     }
-    // Sweeps look one entry ahead.
-    if (out.size() < used + 1) out.resize(used + 1);
-    out[used] = 0;
-    slice_of_[slice] = out.data();
-    return pairs;
-}
+
+    /// One cluster, among places of `slots_each` slots.
+    std::size_t search(decltype(Search<Dim>::among_slots) function, std::size_t cluster, bool wraps,
+                       const std::uint32_t* places, std::size_t count, std::size_t slots_each) {
+        const std::size_t most = used_ + count * slots_each;
+        if (out_.size() < most) out_.resize(most * 5 / 4);
+        std::size_t pairs = 0;
+        // The repeated particle of the last cluster counts once.
+        const auto members =
+            static_cast<unsigned>(std::min(width_, list_.size_ - cluster * width_));
+        const std::uint32_t* const end = function(input_, cluster * width_, members, wraps, places,
+                                                  count, out_.data() + used_, pairs);
+        const std::size_t first = used_;
+        used_ = static_cast<std::size_t>(end - out_.data());
+        list_.range_of_[cluster] = {static_cast<std::uint32_t>(first),
+                                    static_cast<std::uint32_t>(used_ - first)};
+        return pairs;
+    }
+
+    ClusterList& list_;
+    std::size_t width_;
+    std::vector<std::uint32_t>& out_;
+    Search<Dim> search_;
+    SearchInput<Dim> input_;
+    std::size_t used_ = 0;
+};
 
 template <int Dim>
 void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
-    sort(position);
+    size_ = static_cast<std::size_t>(position.cols());
+    built_at_ = position;
+    motion_ = {};
+    sort();
+    constexpr std::size_t slice_size = ClusterView::slice_size;
+    range_of_.resize(boxes_.size());
+    slices_.resize((boxes_.size() + slice_size - 1) / slice_size);
+    slice_of_.resize(slices_.size());
+    const auto width = static_cast<std::size_t>(width_);
+    const std::size_t group = std::max<std::size_t>(1, 32 / width);
     const std::size_t found = parallel_count(
-        slices_.size(), [&](std::size_t slice) { return search_slice(slice); },
-        ClusterView::slice_size * static_cast<std::size_t>(width_));
+        slices_.size(),
+        [&](std::size_t slice) {
+            SliceSearch search(*this, slice);
+            const std::size_t end = std::min((slice + 1) * slice_size, boxes_.size());
+            std::size_t pairs = 0;
+            for (std::size_t c = slice * slice_size; c < end; c += group)
+                pairs += search.run(c, std::min(c + group, end));
+            slice_of_[slice] = search.finish();
+            return pairs;
+        },
+        slice_size * width);
     pairs_ = (found - size_) / 2;  // each was found from both ends, each particle found itself
     ++builds_;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/instruction_set.hpp>
+#include <spam/neighbors/bounds.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 
 namespace spam {
@@ -13,16 +14,32 @@ struct SearchInput {
     double length[Dim];   ///< zero where free
     double inverse[Dim];  ///< of length, likewise
     double cutoff2;
-    bool wraps;  ///< periodic in some direction
+    double reach2;              ///< a little more than cutoff2, for bounds
+    std::size_t slots;          ///< beyond them particles are repeated
+    const Bounds<Dim>* bounds;  ///< by cluster
+    std::uint32_t stride;
 };
 
-/// Looks among candidate slots for those within the cutoff of any particle of the cluster that
-/// begins at `first_slot` (`members` of its lanes count); writes them in the order given, adds the number of pairs found, returns
-/// the end of what it wrote. There must be room for all candidates.
+/// The parts of a search that are compiled for every instruction set. `wraps`: whether images of
+/// what is looked for may be nearer.
 template <int Dim>
-using Search = std::uint32_t* (*)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
-                                  const SlotRange* candidates, int count, std::uint32_t* out,
-                                  std::size_t& pairs);
+struct Search {
+    /// Keeps of the clusters numbered ids[0..count), in their order, those closer than the reach to the
+    /// bounds; may write to where it reads. Returns how many.
+    std::size_t (*keep_near)(const SearchInput<Dim>&, const Bounds<Dim>&, bool wraps,
+                             const std::uint32_t* ids, std::size_t count, std::uint32_t* kept);
+
+    /// Looks among slots for those within the cutoff of any particle of the cluster that begins at
+    /// `first_slot` (`members` of its lanes count); writes them times `stride` in the order given,
+    /// adds the number of pairs found, returns the end of what it wrote. There must be room for all.
+    std::uint32_t* (*among_slots)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
+                                  bool wraps, const std::uint32_t* slots, std::size_t count,
+                                  std::uint32_t* out, std::size_t& pairs);
+    /// The same among the slots of whole clusters.
+    std::uint32_t* (*among_clusters)(const SearchInput<Dim>&, std::size_t first_slot,
+                                     unsigned members, bool wraps, const std::uint32_t* ids,
+                                     std::size_t count, std::uint32_t* out, std::size_t& pairs);
+};
 
 /// For clusters of `width`. Defined in search.lanes.cpp for every level.
 template <int Dim, InstructionSet Level>

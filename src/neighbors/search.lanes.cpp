@@ -6,9 +6,33 @@
 namespace spam {
 namespace {
 
-template <int Dim, int W, bool Wraps>
+/// f(slot) for those listed.
+struct Slots {
+    template <class F>
+    [[gnu::always_inline]] static void for_each(const std::uint32_t* slots, std::size_t count,
+                                                std::size_t, const F& f) {
+        for (std::size_t k = 0; k < count; ++k) f(slots[k]);
+    }
+};
+/// f(slot) for all that belong to the clusters listed.
+template <int W>
+struct Clusters {
+    template <class F>
+    [[gnu::always_inline]] static void for_each(const std::uint32_t* ids, std::size_t count,
+                                                std::size_t all, const F& f) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint32_t first = ids[k] * W;
+            if (first + W <= all)
+                for (std::uint32_t l = 0; l < W; ++l) f(first + l);
+            else
+                for (std::uint32_t slot = first; slot < all; ++slot) f(slot);
+        }
+    }
+};
+
+template <int Dim, int W, bool Wraps, class Places>
 std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
-                      const SlotRange* candidates, int count, std::uint32_t* out,
+                      const std::uint32_t* places, std::size_t count, std::uint32_t* out,
                       std::size_t& pairs) {
     using T = LanesOf<W>;
     T x[Dim];
@@ -17,31 +41,63 @@ std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsign
     const T cutoff2(in.cutoff2);
     const unsigned counted = (1U << members) - 1;
     std::size_t found = 0;
-    for (int k = 0; k < count; ++k) {
-        for (std::uint32_t j = candidates[k].first; j < candidates[k].last; ++j) {
-            T r2(0.0);
-            for (int a = 0; a < Dim; ++a) {
-                T s = x[a] - T(in.x[a][j]);
-                if constexpr (Wraps) s -= T(in.length[a]) * nearest_integer(s * T(in.inverse[a]));
-                r2 += s * s;
-            }
-            const unsigned near = lanes_below(r2, cutoff2);
-            *out = j;
-            out += near != 0;
-            found += static_cast<unsigned>(__builtin_popcount(near & counted));
+    Places::for_each(places, count, in.slots, [&](std::uint32_t j) {
+        T r2(0.0);
+        for (int a = 0; a < Dim; ++a) {
+            T s = x[a] - T(in.x[a][j]);
+            if constexpr (Wraps) s -= T(in.length[a]) * nearest_integer(s * T(in.inverse[a]));
+            r2 += s * s;
         }
-    }
+        const unsigned near = lanes_below(r2, cutoff2);
+        *out = j * in.stride;
+        out += near != 0;
+        found += static_cast<unsigned>(__builtin_popcount(near & counted));
+    });
     pairs += found;
     return out;
 }
 
-/// With one copy for boxes that wrap around and one for those that do not.
-template <int Dim, int W>
+template <int Dim, int W, class Places>
 std::uint32_t* search_in(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
-                         const SlotRange* candidates, int count, std::uint32_t* out,
-                         std::size_t& pairs) {
-    return in.wraps ? search<Dim, W, true>(in, first_slot, members, candidates, count, out, pairs)
-                    : search<Dim, W, false>(in, first_slot, members, candidates, count, out, pairs);
+                         bool wraps, const std::uint32_t* places, std::size_t count,
+                         std::uint32_t* out, std::size_t& pairs) {
+    return wraps
+               ? search<Dim, W, true, Places>(in, first_slot, members, places, count, out, pairs)
+               : search<Dim, W, false, Places>(in, first_slot, members, places, count, out, pairs);
+}
+
+template <int Dim, bool Wraps>
+std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
+                      const std::uint32_t* ids, std::size_t count, std::uint32_t* kept) {
+    const Bounds<Dim> b = bounds;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t id = ids[k];
+        const Bounds<Dim>& other = in.bounds[id];
+        double d2 = 0.0;
+        for (int a = 0; a < Dim; ++a) {
+            double s = other.centre[a] - b.centre[a];
+            if constexpr (Wraps) s -= in.length[a] * __builtin_nearbyint(s * in.inverse[a]);
+            const double gap = __builtin_fabs(s) - (other.half[a] + b.half[a]);
+            const double apart = gap > 0.0 ? gap : 0.0;
+            d2 += apart * apart;
+        }
+        kept[found] = id;
+        found += d2 < in.reach2;
+    }
+    return found;
+}
+
+template <int Dim>
+std::size_t keep_near_in(const SearchInput<Dim>& in, const Bounds<Dim>& bounds, bool wraps,
+                         const std::uint32_t* ids, std::size_t count, std::uint32_t* kept) {
+    return wraps ? keep_near<Dim, true>(in, bounds, ids, count, kept)
+                 : keep_near<Dim, false>(in, bounds, ids, count, kept);
+}
+
+template <int Dim, int W>
+constexpr Search<Dim> functions() {
+    return {keep_near_in<Dim>, search_in<Dim, W, Slots>, search_in<Dim, W, Clusters<W>>};
 }
 
 }  // namespace
@@ -50,13 +106,13 @@ template <int Dim, InstructionSet Level>
 Search<Dim> search_for(int width) {
     switch (width) {
         case 8:
-            return search_in<Dim, 8>;
+            return functions<Dim, 8>();
         case 4:
-            return search_in<Dim, 4>;
+            return functions<Dim, 4>();
         case 2:
-            return search_in<Dim, 2>;
+            return functions<Dim, 2>();
         default:
-            return search_in<Dim, 1>;
+            return functions<Dim, 1>();
     }
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "packed_particles.hpp"
 
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace spam {
@@ -40,6 +44,15 @@ bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
 template <int Dim>
 void PackedParticles<Dim>::load_density(const PackedFields& fields) {
     pack(fields, true);
+}
+
+double valid_range(double range, double spacing) {
+    if (!(range > spacing) || !(range < 1e6 * spacing))
+        throw InputError(fmt::format(
+            "range: {} must lie above the particle spacing {} (else no particle has a neighbour) "
+            "and below 1e6 spacings; 2 to 4 spacings are usual",
+            range, spacing));
+    return range;
 }
 
 template <int Dim>

@@ -53,6 +53,9 @@ class PackedParticles {
     std::size_t invalid_ = 0;
 };
 
+/// The range, if it makes sense for this spacing; else throws InputError.
+double valid_range(double range, double spacing);
+
 /// A list looks a little beyond the range, so that it lasts several steps: by `share` of the range,
 /// or less in a tight periodic box.
 template <int Dim>

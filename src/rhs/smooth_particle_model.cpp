@@ -2,7 +2,6 @@
 #include "../core/levels.hpp"
 #include "packed_particles.hpp"
 #include "sweeps.hpp"
-#include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/physics/record.hpp>
@@ -65,14 +64,8 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       scheme_(scheme),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
       // 0.075 h costs about a tenth more lanes.
-      packed_(packed_with(list_skin(scheme.range, 0.075, box))) {
-    const double spacing = this->particles().spacing;
-    if (!(scheme.range > spacing) || !(scheme.range < 1e6 * spacing))
-        throw InputError(
-            fmt::format("range: {} must lie above the particle spacing {} (else no particle has a "
-                        "neighbour) and "
-                        "below 1e6 spacings; 2 to 4 spacings are usual",
-                        scheme.range, spacing));
+      packed_(packed_with(
+          list_skin(valid_range(scheme.range, this->particles().spacing), 0.075, box))) {
     const std::size_t n = this->particles().size();
     if (sweeps_->density != nullptr) summed_density_.resize(n);
     torque_factor_.assign(static_cast<std::size_t>(this->particles().bodies()), 1.0);

@@ -54,4 +54,8 @@ struct Sweeps {
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> sweeps_of(const Scheme& scheme);
 
+/// For PairPotentialModel, of PointRecord, in potential_sweeps.lanes.cpp.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> potential_sweeps();
+
 }  // namespace spam

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sweeps.hpp"
-
-#include <spam/kernel/lucy.hpp>
-#include <spam/neighbors/sweep.hpp>
+#include "sweep_clusters.hpp"
 #include <spam/physics/continuity.hpp>
-#include <spam/physics/density_sum.hpp>
 #include <spam/physics/mean_density.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/physics/torque_balance.hpp>
@@ -17,41 +13,13 @@ namespace {
 constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
 using T = LanesOf<W>;
 
-template <int Dim>
-void store(double* field, std::size_t i, int l, const Vec<Dim, T>& value) {
-    for (int a = 0; a < Dim; ++a) field[i * Dim + static_cast<std::size_t>(a)] = lane(value[a], l);
-}
-
-/// In open space or in a box.
-template <int Dim, class R, class... Passes, class Store>
-void sweep_clusters(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
-                    const Store& store_sums) {
-    const Lucy<Dim> weight(in.range);
-    if (in.box->periodic())
-        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, *in.box, in.records,
-                                          store_sums);
-    else
-        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, OpenSpace(), in.records,
-                                          store_sums);
-}
-
-template <int Dim>
-void density(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
-    for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<Dim, Record<Dim>, DensitySum>(
-            in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
-                for_each_lane<W>(in.list, slot,
-                                 [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
-            });
-    });
-}
-
 template <int Dim, class Mean, class Transport, class Force>
 void first(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
         // By slot, and gone after the block: stress rates are found from it right away.
         std::array<Mat<Dim>, clusters_per_block * W> grad_v;
-        sweep_clusters<Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity, Transport, Force>(
+        sweep_clusters<W, Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity, Transport,
+                       Force>(
             in, begin, end,
             [&](std::size_t slot, const auto& particles, const auto& gradient,
                 const auto& continuity, const auto& transport, const auto& force) {
@@ -81,7 +49,7 @@ void first(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
 template <int Dim, class... Passes>
 void second(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<Dim, TransportRecord<Dim>, Passes...>(
+        sweep_clusters<W, Dim, TransportRecord<Dim>, Passes...>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto&... sums) {
                 for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
                     const auto store_one = [&](const auto& s) {
@@ -140,7 +108,7 @@ Sweeps<Dim> sweeps_of(const Scheme& scheme) {
                        ? C::template first_of<ArithmeticMean>(scheme)
                        : C::template first_of<GeometricMean>(scheme);
     sweeps.second = C::second_of(scheme);
-    if (scheme.density == Density::summed) sweeps.density = density<Dim>;
+    if (scheme.density == Density::summed) sweeps.density = density_sweep<W, Dim, Record<Dim>>;
     return sweeps;
 }
 

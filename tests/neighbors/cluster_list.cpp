@@ -115,6 +115,61 @@ BOOST_AUTO_TEST_CASE(odd_sets_of_particles) {
     }
 }
 
+namespace {
+
+/// The points in the order in which a list would put them.
+template <int Dim>
+Points<Dim> renumbered(const Points<Dim>& x, const Box<Dim>& box) {
+    ClusterList<Dim> list(1.0, 0.1, box, 8);
+    list.build(x);
+    return x(Eigen::all, std::vector<int>(list.order().begin(), list.order().begin() + x.cols()));
+}
+
+/// Builds for places that change; returns after how many of them slots were particle numbers.
+template <int Dim>
+int builds_in_own_order(const Points<Dim>& start, const Box<Dim>& box, double step) {
+    int count = 0;
+    for (const int width : {2, 4, 8}) {
+        Points<Dim> x = start;
+        ClusterList<Dim> list(1.0, 0.1, box, width);
+        std::mt19937_64 random(5);
+        std::uniform_real_distribution<double> u(-step, step);
+        for (int k = 0; k < 5; ++k) {
+            list.build(x);
+            BOOST_TEST(wrong_clusters(list, x, 1.1, box) == 0U);
+            bool own = true;
+            for (std::size_t slot = 0; slot < list.size(); ++slot)
+                own = own && list.order()[slot] == slot;
+            count += k > 0 && own ? 1 : 0;
+            for (auto& c : x.reshaped()) c += u(random);
+        }
+    }
+    return count;
+}
+
+}  // namespace
+
+// A list need not be sorted again for particles that stay together, and must be for others.
+BOOST_AUTO_TEST_CASE(particles_in_an_order_of_their_own) {
+    const Box<2> free, box({16.0, 16.0});
+    const Points<2> x = renumbered<2>(random_points<2>(700, 16.0, 1), free);
+    BOOST_TEST(builds_in_own_order<2>(x, free, 0.05) == 12);
+    BOOST_TEST(builds_in_own_order<2>(x, free, 8.0) == 0);
+    const Points<2> y = renumbered<2>(random_points<2>(700, 16.0, 2), box);
+    BOOST_TEST(builds_in_own_order<2>(y, box, 0.05) == 12);
+    BOOST_TEST(builds_in_own_order<2>(random_points<2>(700, 16.0, 2), box, 0.05) == 0);
+    const Box<3> box3({7.0, 7.0, 7.0});
+    const Points<3> z = renumbered<3>(random_points<3>(800, 7.0, 3), box3);
+    BOOST_TEST(builds_in_own_order<3>(z, box3, 0.05) > 0);
+
+    Points<2> two(2, 2 * x.cols());  // bodies: some clusters have particles of both
+    two << x, (x.colwise() + Point<2>(1e4, 0.0));
+    builds_in_own_order<2>(renumbered<2>(two, free), free, 0.05);
+    Points<2> flung = x;
+    for (int k = 0; k < 5; ++k) flung.col(100 * k) *= 1e3;
+    builds_in_own_order<2>(flung, free, 0.05);
+}
+
 BOOST_AUTO_TEST_CASE(the_comparison_notices_a_short_list) {
     const auto x = random_points<2>(300, 12.0, 1);
     ClusterList<2> list(0.98, 0.0, {}, 4);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <spam/core/rigid_motion.hpp>
+#include <spam/neighbors/cluster_boxes.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/displacement.hpp>
-#include <spam/neighbors/strip_sort.hpp>
 
 #include <span>
 #include <vector>
@@ -52,9 +52,11 @@ class ClusterList {
     const Box<Dim>& box() const { return box_; }
 
   private:
-    void sort(const Eigen::Ref<const Points<Dim>>& position);
-    std::size_t search_slice(std::size_t slice);
-    void put_in_order(std::uint32_t* first, std::uint32_t* last) const;
+    class SliceSearch;
+    void sort();
+    void gather();
+    /// A little more than the list must hold, whatever rounding does to bounds.
+    double reach() const { return (range_ + skin_) * (1.0 + 1e-9); }
     bool near_build(const Eigen::Ref<const Points<Dim>>& position) const;
 
     double range_, skin_;
@@ -63,7 +65,9 @@ class ClusterList {
     std::uint32_t stride_;
     std::size_t size_ = 0, pairs_ = 0, builds_ = 0;
     StripSort<Dim> strips_;
-    bool in_order_ = false;  ///< slots are particle numbers
+    ClusterBoxes<Dim> boxes_;
+    bool in_order_ = false;      ///< slots are particle numbers
+    double strip_volume_ = 0.0;  ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
     std::array<std::vector<double>, Dim> x_;  ///< wrapped, by slot
     Points<Dim> built_at_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/lanes.hpp>
 #include <spam/core/vec.hpp>
 
 #include <cmath>
@@ -33,15 +34,19 @@ struct Separation {
     T r2, r;
 };
 
-/// `space`: OpenSpace, or a Box.
-template <int Dim, class T, class Space>
+/// `space`: OpenSpace, or a Box. `Light`: whatever is done with the pair is quicker than a square
+/// root, which then is better made of products.
+template <int Dim, bool Light = false, class T, class Space>
 constexpr Separation<Dim, T> separation(const Space& space, const Vec<Dim, T>& x_i,
                                         const Vec<Dim, T>& x_j) {
     using std::sqrt;
     Separation<Dim, T> s;
     for (int a = 0; a < Dim; ++a) s.r_ji[a] = space.nearest_image(a, x_j[a] - x_i[a]);
     s.r2 = dot(s.r_ji, s.r_ji);
-    s.r = sqrt(s.r2);
+    if constexpr (Light)
+        s.r = sqrt_by_products(s.r2);
+    else
+        s.r = sqrt(s.r2);
     return s;
 }
 

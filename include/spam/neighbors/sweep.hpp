@@ -12,6 +12,12 @@
 namespace spam {
 inline namespace SPAM_LANES {
 
+template <class Pass>
+constexpr bool is_light() {
+    if constexpr (requires { Pass::light; }) return Pass::light;
+    return false;
+}
+
 /// One sweep over the pairs of the clusters [first, last), for one or more passes that need nothing
 /// from each other, gather form: for each cluster of W particles i, in the lanes of T = LanesOf<W>,
 /// the sums of every pass over its neighbours (themselves included), one neighbour j at a time in all
@@ -19,6 +25,8 @@ inline namespace SPAM_LANES {
 /// type with
 ///     template <class T> struct Sums;
 ///     template <class T, class Record> static void add(pair, i, j, Sums<T>&);
+/// and, where it does so little that a square root would be waited for,
+///     static constexpr bool light = true;
 /// R: the record the passes need (record.hpp). W must be the list's width, the records'
 /// stride the list's.
 // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
@@ -29,6 +37,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
     using T = LanesOf<W>;
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;
+    constexpr bool light = (is_light<Passes>() && ...);
     for (std::size_t cluster = first; cluster < last; ++cluster) {
         const double* const own = records.numbers + cluster * W * records.stride;
         Lanes gathered;
@@ -48,7 +57,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
         const auto distance_to = [&](const double* other) {
             Vec<Dim, T> x_j;
             for (int a = 0; a < Dim; ++a) x_j[a] = T(other[a]);
-            return separation(space, i.x, x_j);
+            return separation<Dim, light>(space, i.x, x_j);
         };
         const double* other = records.numbers + *entry;
         auto apart = distance_to(other);

@@ -7,6 +7,8 @@ namespace spam {
 
 /// rho_i = sum_j m_j w_ij, self term included, [HHM04] II.
 struct DensitySum {
+    static constexpr bool light = true;  // sweep.hpp
+
     template <class T>
     struct Sums {
         T rho{};

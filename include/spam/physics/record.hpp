@@ -5,10 +5,31 @@
 
 namespace spam {
 
-/// What a pair body may know of a particle of a solid. Packed once per right-hand side, in the order
-/// of the slots, so that a sweep reads neighbours from adjacent memory.
 /// A record is a row of numbers in memory and a struct in a pair body: `visit` calls f(number, k)
 /// for k = 0, 1, ... `numbers` - 1.
+
+/// What pairs that act by their distance alone need of a particle.
+template <int Dim, class T = double>
+struct PointRecord {
+    template <class U>
+    using With = PointRecord<Dim, U>;
+    static constexpr int numbers = 2 * Dim + 1;
+
+    Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
+    Vec<Dim, T> v;
+    T m{};
+
+    template <class F>
+    constexpr void visit(const F& f) {
+        int k = 0;
+        for (T& c : x.c) f(c, k++);
+        for (T& c : v.c) f(c, k++);
+        f(m, k);
+    }
+};
+
+/// What a pair body may know of a particle of a solid. Packed once per right-hand side, in the order
+/// of the slots, so that a sweep reads neighbours from adjacent memory.
 template <int Dim, class T = double>
 struct Record {
     template <class U>

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/bounds.hpp>
+#include <spam/neighbors/strip_sort.hpp>
+
+#include <array>
+#include <vector>
+
+namespace spam {
+
+/// Bounds of clusters, and who is near whom.
+template <int Dim>
+class ClusterBoxes {
+  public:
+    /// Coordinates by slot, wrapped; all clusters full.
+    void build(const std::array<std::vector<double>, Dim>& x, std::size_t width,
+               const Box<Dim>& box);
+
+    /// Prepares collect(). False where too many clusters are much larger than most.
+    bool sort();
+
+    std::size_t size() const { return bounds_.size(); }
+    const Bounds<Dim>* data() const { return bounds_.data(); }
+    const Bounds<Dim>& operator[](std::size_t cluster) const { return bounds_[cluster]; }
+    /// Around clusters [first, last), which must not be far apart.
+    Bounds<Dim> around(std::size_t first, std::size_t last) const;
+
+    /// Adds all clusters closer than `reach` to the bounds, and some around.
+    void collect(const Bounds<Dim>& bounds, double reach, std::vector<std::uint32_t>& found) const;
+
+    /// Whether what is within `reach` of the bounds lies beyond the border of a periodic box.
+    bool wraps(const Bounds<Dim>& bounds, double reach) const;
+
+    /// Mean number of places that a cluster's list has to look at, at unit density.
+    double mean_volume(double reach) const;
+
+  private:
+    Box<Dim> box_;
+    std::vector<Bounds<Dim>> bounds_;
+    StripSort<Dim> centres_;
+    std::array<double, Dim> largest_half_{};  ///< of clusters in centres_
+    std::vector<std::uint32_t> sorted_;       ///< clusters in centres_
+    std::vector<std::uint32_t> large_;        ///< the others
+};
+
+extern template class ClusterBoxes<1>;
+extern template class ClusterBoxes<2>;
+extern template class ClusterBoxes<3>;
+
+}  // namespace spam

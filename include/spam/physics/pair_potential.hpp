@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/pair.hpp>
+
+namespace spam {
+
+/// v_dot_i = -sum_j m_j grad_i w_ij: the weight function as a pair potential, m_i m_j w_ij. Smooth
+/// particles of the gas P = rho^2/2 move like this, [HH01]: P/rho^2 is the same for all.
+template <int Dim>
+struct PairPotential {
+    static constexpr bool light = true;  // sweep.hpp
+
+    template <class T>
+    struct Sums {
+        Vec<Dim, T> v_dot;
+    };
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
+        sums.v_dot -= j.m * pair.grad_w;
+    }
+};
+
+}  // namespace spam

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../core/levels.hpp"
+#include "packed_particles.hpp"
+#include "sweeps.hpp"
+#include <spam/core/sums.hpp>
+#include <spam/kernel/lucy.hpp>
+#include <spam/physics/record.hpp>
+#include <spam/rhs/pair_potential_model.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+Sweeps<Dim> best_sweeps() {
+    return at_level(instruction_set(), [](auto level) {
+        Sweeps<Dim> sweeps = potential_sweeps<Dim, level>();
+        sweeps.pack = pack_for<Dim, level>();
+        return sweeps;
+    });
+}
+
+template <int Dim>
+PackedFields fields(const Model<Dim>& model, std::span<const double> y) {
+    const ConstState<Dim> state(model.layout(), y);
+    return {state.position().data(), state.velocity().data(), model.particles().mass.data()};
+}
+
+}  // namespace
+
+template <int Dim>
+PairPotentialModel<Dim>::PairPotentialModel(Particles<Dim> particles, double range,
+                                            const Box<Dim>& box)
+    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+      range_(valid_range(range, this->particles().spacing)),
+      sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>())),
+      // Particles of a gas go past each other: their lists are soon used up.
+      packed_(packed_with(list_skin(range, 0.125, box))) {}
+
+template <int Dim>
+PairPotentialModel<Dim>::~PairPotentialModel() = default;
+
+template <int Dim>
+std::unique_ptr<PackedParticles<Dim>> PairPotentialModel<Dim>::packed_with(double skin) const {
+    return std::make_unique<PackedParticles<Dim>>(
+        range_, skin, this->box(), sweeps_->width,
+        static_cast<std::size_t>(PointRecord<Dim>::numbers), sweeps_->pack);
+}
+
+template <int Dim>
+void PairPotentialModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+    this->failure_.clear();
+    if (!packed_->follow(this->particles().size(), fields(*this, y))) {
+        this->fail(y_dot, "a position is not finite");
+        return;
+    }
+    const State<Dim> rate(this->layout(), y_dot);
+    rate.position() = ConstState<Dim>(this->layout(), y).velocity();
+    SweepOutput<Dim> out;
+    out.v_dot = rate.velocity().data();
+    sweeps_->first(packed_->input(), out);
+}
+
+/// For observers: its own list, so that the one of the right-hand side stays as it is.
+template <int Dim>
+std::vector<double> PairPotentialModel<Dim>::density(std::span<const double> y) const {
+    const auto packed = packed_with(0.0);
+    std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
+    if (!packed->follow(rho.size(), fields(*this, y))) return rho;
+    SweepOutput<Dim> out;
+    out.rho = rho.data();
+    sweeps_->density(packed->input(), out);
+    return rho;
+}
+
+template <int Dim>
+double PairPotentialModel<Dim>::internal_energy(std::span<const double> y) const {
+    const std::vector<double> rho = density(y);
+    const double w_0 = Lucy<Dim>(range_).value(0.0);
+    CompensatedSum sum;
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+        const double m = this->particles().mass[i];
+        sum += 0.5 * m * (rho[i] - m * w_0);
+    }
+    return sum;
+}
+
+template <int Dim>
+Promises PairPotentialModel<Dim>::promises() const {
+    Promises p;
+    if (!this->box().periodic()) p.angular_momentum = Promise::integrator_error;
+    return p;
+}
+
+template <int Dim>
+std::string PairPotentialModel<Dim>::describe() const {
+    return fmt::format("molecular dynamics, Lucy's weight function of range {:g} as pair potential",
+                       range_);
+}
+
+template <int Dim>
+std::size_t PairPotentialModel<Dim>::pairs() const {
+    return packed_->list().pairs();
+}
+template <int Dim>
+std::size_t PairPotentialModel<Dim>::list_builds() const {
+    return packed_->list().builds();
+}
+
+template class PairPotentialModel<1>;
+template class PairPotentialModel<2>;
+template class PairPotentialModel<3>;
+
+}  // namespace spam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sweep_clusters.hpp"
+#include <spam/physics/pair_potential.hpp>
+#include <spam/physics/record.hpp>
+
+namespace spam {
+namespace {
+
+constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
+
+template <int Dim>
+void force(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
+    for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
+        sweep_clusters<W, Dim, PointRecord<Dim>, PairPotential<Dim>>(
+            in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
+                for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
+                    store<Dim>(out.v_dot, i, l, sums.v_dot);
+                });
+            });
+    });
+}
+
+}  // namespace
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> potential_sweeps() {
+    Sweeps<Dim> sweeps{W};
+    sweeps.density = density_sweep<W, Dim, PointRecord<Dim>>;
+    sweeps.first = force<Dim>;
+    return sweeps;
+}
+
+template Sweeps<1> potential_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> potential_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> potential_sweeps<3, InstructionSet::SPAM_LEVEL>();
+
+}  // namespace spam

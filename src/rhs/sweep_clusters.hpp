@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// For *.lanes.cpp of this room.
+#pragma once
+
+#include "sweeps.hpp"
+#include <spam/kernel/lucy.hpp>
+#include <spam/neighbors/sweep.hpp>
+#include <spam/physics/density_sum.hpp>
+
+namespace spam {
+inline namespace SPAM_LANES {
+
+/// sweep_block() with Lucy's weight function, in open space or in a box.
+template <int W, int Dim, class R, class... Passes, class Store>
+void sweep_clusters(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
+                    const Store& store_sums) {
+    const Lucy<Dim> weight(in.range);
+    if (in.box->periodic())
+        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, *in.box, in.records,
+                                          store_sums);
+    else
+        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, OpenSpace(), in.records,
+                                          store_sums);
+}
+
+template <int Dim, class T>
+SPAM_INLINE void store(double* field, std::size_t i, int l, const Vec<Dim, T>& value) {
+    for (int a = 0; a < Dim; ++a) field[i * Dim + static_cast<std::size_t>(a)] = lane(value[a], l);
+}
+
+/// The density, summed, of all particles.
+template <int W, int Dim, class R>
+void density_sweep(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
+    for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
+        sweep_clusters<W, Dim, R, DensitySum>(
+            in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
+                for_each_lane<W>(in.list, slot,
+                                 [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
+            });
+    });
+}
+
+}  // namespace SPAM_LANES
+}  // namespace spam
