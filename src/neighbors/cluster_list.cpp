@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <numeric>
 
 namespace spam {
@@ -33,8 +33,36 @@ ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, in
 }
 
 template <int Dim>
-ClusterView ClusterList<Dim>::view() const {
-    return {size_, range_of_.size(), order_.data(), range_of_.data(), slice_of_.data()};
+ClusterView ClusterList<Dim>::view() {
+    ClusterView view{size_, range_of_.size(), order_.data(), range_of_.data(), slice_of_.data()};
+    if (box_.periodic()) {
+        find_direct();
+        view.direct = direct_.data();
+    }
+    return view;
+}
+
+/// Far enough from the border, wherever particles have drifted since the build: nearest images would
+/// be looked for in vain, which takes as long as the rest of a light pass.
+template <int Dim>
+void ClusterList<Dim>::find_direct() {
+    direct_.resize(boxes_.size());
+    const Displacement<Dim> drift = displacement();
+    const double margin = reach() + skin_;
+    parallel_for(
+        boxes_.size(),
+        [&](std::size_t c) {
+            bool direct = true;
+            for (int a = 0; a < Dim; ++a) {
+                if (!box_.periodic(a)) continue;
+                const double centre = boxes_[c].centre[a] + drift.shift[a];
+                const double most = boxes_[c].half[a] + margin;
+                direct = direct && std::floor((centre - most) / box_.length(a)) ==
+                                       std::floor((centre + most) / box_.length(a));
+            }
+            direct_[c] = direct ? 1 : 0;
+        },
+        static_cast<std::size_t>(width_));
 }
 
 template <int Dim>
@@ -227,7 +255,7 @@ template <int Dim>
 bool ClusterList<Dim>::near_build(const Eigen::Ref<const Points<Dim>>& position) const {
     const Displacement<Dim> now = displacement();
     const double* const x = position.data();
-    return parallel_count(size_, [&](std::size_t i) { return now.too_far(i, x); }) == 0;
+    return parallel_count(size_, [&](std::size_t i) { return now.too_far(i, x + Dim * i); }) == 0;
 }
 
 template <int Dim>

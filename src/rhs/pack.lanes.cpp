@@ -20,10 +20,15 @@ template <int Dim>
 template <int Dim>
 [[gnu::always_inline]] inline std::size_t pack_motion(const PackInput<Dim>& in, std::size_t i,
                                                       double* record) {
-    for (std::size_t a = 0; a < Dim; ++a) record[a] = in.x[Dim * i + a];
+    // Read before anything is written: for all the compiler knows that may change what is read.
+    const double* const from = in.x + Dim * i;
+    double x[Dim];
+    for (std::size_t a = 0; a < Dim; ++a) x[a] = from[a];
+    const std::size_t far = in.displacement.too_far(i, x);
+    for (std::size_t a = 0; a < Dim; ++a) record[a] = x[a];
     for (std::size_t a = 0; a < Dim; ++a) record[Dim + a] = in.v[Dim * i + a];
     record[2 * Dim] = in.m[i];
-    return in.displacement.too_far(i, in.x);
+    return far;
 }
 
 /// Counts in one number, `far` in the lower half: fewer than 2^32 particles have slots.

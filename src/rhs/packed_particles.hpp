@@ -11,7 +11,7 @@ namespace spam {
 
 /// Fields by number of particle, as records are made from them.
 struct PackedFields {
-    const double *x, *v, *m;
+    const double *x, *v, *m;        ///< v is not read for PointRecord
     const double* rho = nullptr;    ///< null where it is not part of the state
     const double* sigma = nullptr;  ///< D(D+1)/2 each
 };
@@ -38,7 +38,7 @@ class PackedParticles {
 
     const ClusterList<Dim>& list() const { return list_; }
     double* record(std::size_t slot) { return &records_[slot * stride_]; }
-    SweepInput<Dim> input() const {
+    SweepInput<Dim> input() {
         return {list_.view(), {records_.data(), stride_}, range_, &list_.box()};
     }
 

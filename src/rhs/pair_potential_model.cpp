@@ -17,17 +17,13 @@ namespace {
 
 template <int Dim>
 Sweeps<Dim> best_sweeps() {
-    return at_level(instruction_set(), [](auto level) {
-        Sweeps<Dim> sweeps = potential_sweeps<Dim, level>();
-        sweeps.pack = pack_for<Dim, level>();
-        return sweeps;
-    });
+    return at_level(instruction_set(), [](auto level) { return potential_sweeps<Dim, level>(); });
 }
 
 template <int Dim>
 PackedFields fields(const Model<Dim>& model, std::span<const double> y) {
     const ConstState<Dim> state(model.layout(), y);
-    return {state.position().data(), state.velocity().data(), model.particles().mass.data()};
+    return {state.position().data(), nullptr, model.particles().mass.data()};
 }
 
 }  // namespace

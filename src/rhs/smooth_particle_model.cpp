@@ -147,7 +147,7 @@ bool SmoothParticleModel<Dim>::fail_density(std::span<const double> rho, std::sp
 }
 
 template <int Dim>
-void SmoothParticleModel<Dim>::sum_density(const PackedParticles<Dim>& packed,
+void SmoothParticleModel<Dim>::sum_density(PackedParticles<Dim>& packed,
                                            std::span<double> rho) const {
     SweepOutput<Dim> out;
     out.rho = rho.data();

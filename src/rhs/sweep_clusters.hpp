@@ -10,14 +10,30 @@
 namespace spam {
 inline namespace SPAM_LANES {
 
-/// sweep_block() with Lucy's weight function, in open space or in a box.
+/// In a periodic box: runs of clusters that have images for neighbours and runs that have none.
+template <int W, int Dim, class R, class... Passes, class Weight, class Store>
+[[gnu::flatten, gnu::noinline]] void sweep_runs(const SweepInput<Dim>& in, std::size_t begin,
+                                                std::size_t end, const Weight& weight,
+                                                const Store& store_sums) {
+    const std::uint8_t* const direct = in.list.direct;
+    for (std::size_t next = begin; begin < end; begin = next) {
+        while (++next < end && direct[next] == direct[begin]) continue;
+        if (direct[begin] == 0)
+            sweep_block<W, Dim, R, Passes...>(in.list, begin, next, weight, *in.box, in.records,
+                                              store_sums);
+        else
+            sweep_block<W, Dim, R, Passes...>(in.list, begin, next, weight, OpenSpace(), in.records,
+                                              store_sums);
+    }
+}
+
+/// sweep_block() with Lucy's weight function, looking for nearest images only where there are any.
 template <int W, int Dim, class R, class... Passes, class Store>
 void sweep_clusters(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
                     const Store& store_sums) {
     const Lucy<Dim> weight(in.range);
-    if (in.box->periodic())
-        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, *in.box, in.records,
-                                          store_sums);
+    if (in.list.direct != nullptr)
+        sweep_runs<W, Dim, R, Passes...>(in, begin, end, weight, store_sums);
     else
         sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, OpenSpace(), in.records,
                                           store_sums);

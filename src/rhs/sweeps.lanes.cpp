@@ -16,8 +16,10 @@ using T = LanesOf<W>;
 template <int Dim, class Mean, class Transport, class Force>
 void first(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        // By slot, and gone after the block: stress rates are found from it right away.
-        std::array<Mat<Dim>, clusters_per_block * W> grad_v;
+        // By slot, and gone after the block: stress rates are found from it right away. Bytes, because
+        // there is no need for zeros.
+        alignas(64) std::byte memory[clusters_per_block * W * sizeof(Mat<Dim>)];
+        auto* const grad_v = reinterpret_cast<Mat<Dim>*>(memory);
         sweep_clusters<W, Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity, Transport,
                        Force>(
             in, begin, end,
@@ -42,7 +44,7 @@ void first(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
                 });
             });
         const std::size_t particles = std::min(end * W, in.list.particles) - begin * W;
-        out.stress_rates(out.context, in.list.order + begin * W, particles, grad_v.data());
+        out.stress_rates(out.context, in.list.order + begin * W, particles, grad_v);
     });
 }
 

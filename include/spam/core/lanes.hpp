@@ -119,7 +119,7 @@ struct Lanes {
     }
 
     /// The same, within two units in the last place, for loops that have little else to do than wait
-    /// for it; x >= 0.
+    /// for it; x > 0.
     SPAM_INLINE friend Lanes sqrt_by_products(const Lanes& x) {
 #if defined(__AVX512F__)
         if constexpr (W == 8) return Vector(products_for_root((__m512d)x.v));
@@ -166,10 +166,8 @@ struct Lanes {
 
     // From an estimate y of 1/sqrt(x) to 14 bits, e = 1 - x y^2 and s = x y: sqrt(x) = s (1 - e)^(-1/2).
     SPAM_INLINE static __m512d products_for_root(__m512d x) {
-        const __m512d floor = _mm512_set1_pd(1e-300);  // 0 becomes 1e-150
-        const __m512d x1 = _mm512_maskz_max_pd(0xff, x, floor);
-        const __m512d y = _mm512_maskz_rsqrt14_pd(0xff, x1);
-        const __m512d s = _mm512_mul_pd(x1, y);
+        const __m512d y = _mm512_maskz_rsqrt14_pd(0xff, x);
+        const __m512d s = _mm512_mul_pd(x, y);
         const __m512d e = _mm512_fnmadd_pd(s, y, _mm512_set1_pd(1.0));
         const __m512d p = _mm512_fmadd_pd(_mm512_set1_pd(0.3125), e, _mm512_set1_pd(0.375));
         const __m512d q = _mm512_fmadd_pd(p, e, _mm512_set1_pd(0.5));

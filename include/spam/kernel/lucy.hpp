@@ -4,6 +4,7 @@
 #include <spam/core/vec.hpp>
 #include <spam/kernel/weight_function.hpp>
 
+#include <cmath>
 #include <numbers>
 
 namespace spam {
@@ -15,33 +16,41 @@ namespace spam {
 template <int Dim>
 class Lucy {
   public:
-    explicit Lucy(double h)
-        : h_(h),
-          inverse_h_(1.0 / h),
-          c_(normalisation(h)),
-          slope_(12.0 * c_ / (h * h)) {}
+    explicit Lucy(double h) : h_(h) {
+        const double c = normalisation(h);
+        s_ = std::sqrt(12.0 * c) / h;
+        // Rounded up, so that q is exactly zero at r = h and beyond.
+        s_over_h_ = std::nextafter(s_ / h, 2.0 * s_ / h);
+        constant_ = 4.0 * c / (s_ * s_ * s_);
+        linear_ = 3.0 * c / (s_ * s_ * s_ * s_);
+    }
 
     double range() const { return h_; }
 
     template <class T>
     T value(const T& r) const {
-        const T q = positive_part(T(1.0) - r * inverse_h_);
-        return (T(4.0 * c_) - T(3.0 * c_) * q) * q * (q * q);  // 1 + 3u = 4 - 3q
+        const T q = scaled_rest(r);
+        return (T(constant_) - T(linear_) * q) * q * (q * q);  // 1 + 3u = 4 - 3 (1 - u)
     }
 
     template <class T>
     T minus_slope_over_r(const T& r) const {
-        const T q = positive_part(T(1.0) - r * inverse_h_);
-        return slope_ * (q * q);
+        const T q = scaled_rest(r);
+        return q * q;
     }
 
   private:
+    /// s (1 - u) up to the range, with s such that its square is -w'/r: spares a factor.
+    template <class T>
+    T scaled_rest(const T& r) const {
+        return positive_part(T(s_) - r * T(s_over_h_));
+    }
     static double normalisation(double h) {
         if constexpr (Dim == 1) return 5.0 / (4.0 * h);
         if constexpr (Dim == 2) return 5.0 / (std::numbers::pi * h * h);
         return 105.0 / (16.0 * std::numbers::pi * h * h * h);
     }
-    double h_, inverse_h_, c_, slope_;
+    double h_, s_, s_over_h_, constant_, linear_;
 };
 
 static_assert(WeightFunction<Lucy<1>> && WeightFunction<Lucy<2>> && WeightFunction<Lucy<3>>);

@@ -38,7 +38,8 @@ class ClusterList {
     /// off. Where nobody has, the list serves.
     Displacement<Dim> displacement() const;
 
-    ClusterView view() const;
+    /// For sweeps over records whose positions the list serves.
+    ClusterView view();
     std::size_t size() const { return size_; }
     std::size_t clusters() const { return range_of_.size(); }
     int width() const { return width_; }
@@ -53,6 +54,7 @@ class ClusterList {
 
   private:
     class SliceSearch;
+    void find_direct();
     void sort();
     void gather();
     /// A little more than the list must hold, whatever rounding does to bounds.
@@ -75,6 +77,7 @@ class ClusterList {
     std::vector<ClusterView::Range> range_of_;
     std::vector<std::vector<std::uint32_t>> slices_;
     std::vector<const std::uint32_t*> slice_of_;
+    std::vector<std::uint8_t> direct_;
 };
 
 extern template class ClusterList<1>;

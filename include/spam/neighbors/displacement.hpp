@@ -15,11 +15,11 @@ struct Displacement {
     const double* then;  ///< Dim x N
     double limit2;
 
-    /// `now`: Dim x N. 1 for yes, also where x is not a number.
+    /// `now`: Dim, of particle i. 1 for yes, also where x is not a number.
     [[gnu::always_inline]] std::size_t too_far(std::size_t i, const double* now) const {
         double d2 = 0.0;
         for (std::size_t a = 0; a < Dim; ++a) {
-            double d = now[Dim * i + a] - shift[a];
+            double d = now[a] - shift[a];
             for (std::size_t b = 0; b < Dim; ++b) d -= rotation[a][b] * then[Dim * i + b];
             d2 += d * d;
         }

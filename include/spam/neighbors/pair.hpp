@@ -15,6 +15,7 @@ struct Pair {
     Vec<Dim, T> r_ji;  ///< r_j - r_i
     T r2;
     T w;                 ///< w_ij
+    T minus_slope;       ///< -w'/r
     Vec<Dim, T> grad_w;  ///< gradient of w_ij at i: -(w'/r) r_ji
     Vec<Dim, T> v_ji;    ///< v_j - v_i
 };
@@ -42,21 +43,31 @@ constexpr Separation<Dim, T> separation(const Space& space, const Vec<Dim, T>& x
     using std::sqrt;
     Separation<Dim, T> s;
     for (int a = 0; a < Dim; ++a) s.r_ji[a] = space.nearest_image(a, x_j[a] - x_i[a]);
-    s.r2 = dot(s.r_ji, s.r_ji);
-    if constexpr (Light)
+    if constexpr (Light) {
+        s.r2 = T(1e-300);  // a particle's distance from itself must not be divided by
+        for (int a = 0; a < Dim; ++a) s.r2 += s.r_ji[a] * s.r_ji[a];
         s.r = sqrt_by_products(s.r2);
-    else
+    } else {
+        s.r2 = dot(s.r_ji, s.r_ji);
         s.r = sqrt(s.r2);
+    }
     return s;
 }
 
-/// Everything a pair body may ask of a pair, from two records that hold at least v. Exactly
+/// Everything a pair body may ask of a pair; velocities where records hold them. Exactly
 /// antisymmetric: exchanging i and j flips the signs of r_ji, grad_w and v_ji and changes no other
 /// bit.
 template <int Dim, class T, class Weight, class Record>
 constexpr Pair<Dim, T> make_pair(const Weight& weight, const Separation<Dim, T>& s, const Record& i,
                                  const Record& j) {
-    return {s.r_ji, s.r2, weight.value(s.r), weight.minus_slope_over_r(s.r) * s.r_ji, j.v - i.v};
+    Pair<Dim, T> pair;
+    pair.r_ji = s.r_ji;
+    pair.r2 = s.r2;
+    pair.w = weight.value(s.r);
+    pair.minus_slope = weight.minus_slope_over_r(s.r);
+    pair.grad_w = pair.minus_slope * s.r_ji;
+    if constexpr (requires { j.v; }) pair.v_ji = j.v - i.v;
+    return pair;
 }
 
 }  // namespace spam

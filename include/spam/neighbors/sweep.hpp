@@ -31,9 +31,10 @@ constexpr bool is_light() {
 /// stride the list's.
 // flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
 template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
-[[gnu::flatten]] void sweep_block(const ClusterView& list, std::size_t first, std::size_t last,
-                                  const Weight& weight, const Space& space, const Records& records,
-                                  const Store& store) {
+[[gnu::always_inline]] inline void sweep_block(const ClusterView& list, std::size_t first,
+                                               std::size_t last, const Weight& weight,
+                                               const Space& space, const Records& records,
+                                               const Store& store) {
     using T = LanesOf<W>;
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;

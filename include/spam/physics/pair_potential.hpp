@@ -17,7 +17,7 @@ struct PairPotential {
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
-        sums.v_dot -= j.m * pair.grad_w;
+        sums.v_dot -= (j.m * pair.minus_slope) * pair.r_ji;
     }
 };
 

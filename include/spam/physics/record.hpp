@@ -13,17 +13,15 @@ template <int Dim, class T = double>
 struct PointRecord {
     template <class U>
     using With = PointRecord<Dim, U>;
-    static constexpr int numbers = 2 * Dim + 1;
+    static constexpr int numbers = Dim + 1;
 
     Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
-    Vec<Dim, T> v;
     T m{};
 
     template <class F>
     constexpr void visit(const F& f) {
         int k = 0;
         for (T& c : x.c) f(c, k++);
-        for (T& c : v.c) f(c, k++);
         f(m, k);
     }
 };
