@@ -17,12 +17,18 @@ void ClusterBoxes<Dim>::build(const std::array<std::vector<double>, Dim>& x, std
             for (std::size_t a = 0; a < Dim; ++a) {
                 const int axis = static_cast<int>(a);
                 const double* const p = x[a].data() + c * width;
-                // From the first member, so that a cluster may lie across the border.
-                double low = 0.0, high = 0.0;
+                double low = 0.0, high = 0.0;  // from the first member
                 for (std::size_t l = 1; l < width; ++l) {
-                    const double s = box.nearest_image(axis, p[l] - p[0]);
-                    low = std::min(low, s);
-                    high = std::max(high, s);
+                    low = std::min(low, p[l] - p[0]);
+                    high = std::max(high, p[l] - p[0]);
+                }
+                if (box.periodic(axis) && high - low > 0.5 * box.length(axis)) {
+                    low = high = 0.0;  // the cluster lies across the border
+                    for (std::size_t l = 1; l < width; ++l) {
+                        const double s = box.nearest_image(axis, p[l] - p[0]);
+                        low = std::min(low, s);
+                        high = std::max(high, s);
+                    }
                 }
                 bounds_[c].half[a] = 0.5 * (high - low);
                 bounds_[c].centre[a] = box.wrap(axis, p[0] + 0.5 * (high + low));

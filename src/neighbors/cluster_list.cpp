@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
-#include "candidates.hpp"
 #include "search.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
@@ -77,34 +76,35 @@ template <int Dim>
 void ClusterList<Dim>::gather() {
     const auto width = static_cast<std::size_t>(width_);
     order_.resize((size_ + width - 1) / width * width, size_ > 0 ? order_.back() : 0);
-    for (int a = 0; a < Dim; ++a) {
-        auto& x = x_[static_cast<std::size_t>(a)];
-        x.resize(order_.size());
-        parallel_for(order_.size(), [&](std::size_t k) {
-            const double unwrapped = built_at_(a, order_[k]);
-            x[k] = box_.periodic(a) ? box_.wrap(a, unwrapped) : unwrapped;
-        });
-    }
+    const Points<Dim>& place = box_.periodic() ? wrapped_ : built_at_;
+    for (auto& x : x_) x.resize(order_.size());
+    parallel_for(order_.size(), [&](std::size_t k) {
+        for (std::size_t a = 0; a < Dim; ++a) x_[a][k] = place.data()[Dim * order_[k] + a];
+    });
     boxes_.build(x_, width, box_);
+}
+
+template <int Dim>
+void ClusterList<Dim>::gather_strips() {
+    strips_.build(box_.periodic() ? wrapped_ : built_at_, box_);
+    order_.assign(strips_.order().begin(), strips_.order().end());
+    gather();
+    strip_volume_ = boxes_.mean_volume(reach());
 }
 
 /// Slots for all particles. Their own order is best as long as it keeps neighbours together as well
 /// as strips would: in a solid, always.
 template <int Dim>
 void ClusterList<Dim>::sort() {
-    const bool own_order_may_do = strip_volume_ > 0.0 && (in_order_ || builds_ % 16 == 1);
-    if (own_order_may_do && builds_ % 64 != 0) {
+    const bool look_again = builds_ % 64 == 0;
+    if (look_again) gather_strips();
+    if (in_order_ || builds_ % 8 == 0) {
         order_.resize(size_);
         std::iota(order_.begin(), order_.end(), 0U);
         gather();
         in_order_ = boxes_.mean_volume(reach()) < 1.1 * strip_volume_ && boxes_.sort();
-        if (in_order_) return;
     }
-    strips_.build(box_.periodic() ? box_.wrapped(built_at_) : built_at_, box_);
-    order_.assign(strips_.order().begin(), strips_.order().end());
-    in_order_ = false;
-    gather();
-    strip_volume_ = boxes_.mean_volume(reach());
+    if (!in_order_) gather_strips();
 }
 
 /// Searches for the entries of one slice of clusters.
@@ -114,6 +114,7 @@ class ClusterList<Dim>::SliceSearch {
     SliceSearch(ClusterList& list, std::size_t slice)
         : list_(list),
           width_(static_cast<std::size_t>(list.width_)),
+          periodic_(list.box_.periodic()),
           out_(list.slices_[slice]),
           search_(at_level(instruction_set(),
                            [&](auto level) { return search_for<Dim, level>(list.width_); })) {
@@ -130,13 +131,16 @@ class ClusterList<Dim>::SliceSearch {
         }
     }
 
-    /// Some clusters in a row, whose candidates are found together. Returns how many pairs were
-    /// found, each from both ends.
+    /// Some clusters in a row, few enough to be near each other. Returns how many pairs were found,
+    /// each from both ends.
     std::size_t run(std::size_t first, std::size_t last) {
-        const Bounds<Dim> around = list_.boxes_.around(first, last);
-        const bool wraps = list_.boxes_.wraps(around, list_.reach());
-        return list_.in_order_ ? among_clusters(first, last, around, wraps)
-                               : among_slots(first, last, around, wraps);
+        std::size_t pairs = 0;
+        if (list_.in_order_) find_clusters(first, last);
+        for (std::size_t c = first; c < last; ++c) {
+            const bool wraps = list_.boxes_.wraps(list_.boxes_[c], list_.reach());
+            pairs += list_.in_order_ ? among_clusters(c, wraps) : among_strips(c, wraps);
+        }
+        return pairs;
     }
 
     /// Sweeps look one entry ahead. Returns where the entries are.
@@ -147,73 +151,80 @@ class ClusterList<Dim>::SliceSearch {
     }
 
   private:
-    std::size_t among_clusters(std::size_t first, std::size_t last, const Bounds<Dim>& around,
-                               bool wraps) {
-        static thread_local std::vector<std::uint32_t> near_all, near_one;
-        near_all.clear();
-        list_.boxes_.collect(around, list_.reach(), near_all);
-        near_all.resize(search_.keep_near(input_, around, wraps, near_all.data(), near_all.size(),
-                                          near_all.data()));
-        std::sort(near_all.begin(), near_all.end());
-        near_one.resize(near_all.size());
+    /// Clusters that may be near some of a group.
+    void find_clusters(std::size_t first, std::size_t last) {
+        const Bounds<Dim> around = list_.boxes_.around(first, last);
+        near_group_.clear();
+        list_.boxes_.collect(around, list_.reach(), near_group_);
+        near_group_.resize(search_.keep_near(input_, around, periodic_, near_group_.data(),
+                                             near_group_.size(), near_group_.data()));
+        std::sort(near_group_.begin(), near_group_.end());
+        near_.resize(near_group_.size());
+    }
+
+    std::size_t among_clusters(std::size_t cluster, bool wraps) {
+        const std::size_t count =
+            search_.keep_near(input_, list_.boxes_[cluster], periodic_, near_group_.data(),
+                              near_group_.size(), near_.data());
+        make_room(count * width_);
         std::size_t pairs = 0;
-        for (std::size_t c = first; c < last; ++c) {
-            const std::size_t count = search_.keep_near(
-                input_, list_.boxes_[c], wraps, near_all.data(), near_all.size(), near_one.data());
-            pairs += search(search_.among_clusters, c, wraps, near_one.data(), count, width_);
-        }
+        finish(cluster, search_.in_clusters(input_, cluster * width_, members(cluster), wraps,
+                                            near_.data(), count, out_.data() + used_, pairs));
         return pairs;
     }
 
-    std::size_t among_slots(std::size_t first, std::size_t last, const Bounds<Dim>& around,
-                            bool wraps) {
-        static thread_local Candidates candidates;
+    std::size_t among_strips(std::size_t cluster, bool wraps) {
+        const Bounds<Dim>& bounds = list_.boxes_[cluster];
         Point<Dim> low, high;
         for (int a = 0; a < Dim; ++a) {
-            low[a] = around.centre[a] - around.half[a] - list_.reach();
-            high[a] = around.centre[a] + around.half[a] + list_.reach();
+            low[a] = bounds.centre[a] - bounds.half[a] - list_.reach();
+            high[a] = bounds.centre[a] + bounds.half[a] + list_.reach();
         }
-        candidates.clear();
-        list_.strips_.for_each_range(
-            low, high, [&](std::uint32_t from, std::uint32_t to) { candidates.add(from, to); });
-        candidates.sort(list_.order_.data());
-        const auto slots = candidates.slots();
+        ranges_.clear();
+        std::size_t slots = 0;
+        list_.strips_.for_each_range(low, high, [&](std::uint32_t from, std::uint32_t to) {
+            ranges_.push_back({from, to});
+            slots += to - from;
+        });
+        make_room(slots);
         std::size_t pairs = 0;
-        for (std::size_t c = first; c < last; ++c)
-            pairs += search(search_.among_slots, c, wraps, slots.data(), slots.size(), 1);
+        finish(cluster,
+               search_.in_ranges(input_, cluster * width_, members(cluster), wraps, ranges_.data(),
+                                 ranges_.size(), out_.data() + used_, pairs));
         return pairs;
     }
 
-    /// One cluster, among places of `slots_each` slots.
-    std::size_t search(decltype(Search<Dim>::among_slots) function, std::size_t cluster, bool wraps,
-                       const std::uint32_t* places, std::size_t count, std::size_t slots_each) {
-        const std::size_t most = used_ + count * slots_each;
-        if (out_.size() < most) out_.resize(most * 5 / 4);
-        std::size_t pairs = 0;
-        // The repeated particle of the last cluster counts once.
-        const auto members =
-            static_cast<unsigned>(std::min(width_, list_.size_ - cluster * width_));
-        const std::uint32_t* const end = function(input_, cluster * width_, members, wraps, places,
-                                                  count, out_.data() + used_, pairs);
+    /// The repeated particle of the last cluster counts once.
+    unsigned members(std::size_t cluster) const {
+        return static_cast<unsigned>(std::min(width_, list_.size_ - cluster * width_));
+    }
+    void make_room(std::size_t slots) {
+        if (out_.size() < used_ + slots) out_.resize((used_ + slots) * 5 / 4);
+    }
+    void finish(std::size_t cluster, const std::uint32_t* end) {
         const std::size_t first = used_;
         used_ = static_cast<std::size_t>(end - out_.data());
         list_.range_of_[cluster] = {static_cast<std::uint32_t>(first),
                                     static_cast<std::uint32_t>(used_ - first)};
-        return pairs;
     }
 
     ClusterList& list_;
     std::size_t width_;
+    bool
+        periodic_;  ///< bounds may lie across a border that their cluster's neighbours do not reach
     std::vector<std::uint32_t>& out_;
     Search<Dim> search_;
     SearchInput<Dim> input_;
     std::size_t used_ = 0;
+    std::vector<std::uint32_t> near_group_, near_;
+    std::vector<SlotRange> ranges_;
 };
 
 template <int Dim>
 void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     size_ = static_cast<std::size_t>(position.cols());
     built_at_ = position;
+    if (box_.periodic()) wrapped_ = box_.wrapped(built_at_);
     motion_ = {};
     sort();
     constexpr std::size_t slice_size = ClusterView::slice_size;

@@ -29,16 +29,16 @@ struct Search {
     std::size_t (*keep_near)(const SearchInput<Dim>&, const Bounds<Dim>&, bool wraps,
                              const std::uint32_t* ids, std::size_t count, std::uint32_t* kept);
 
-    /// Looks among slots for those within the cutoff of any particle of the cluster that begins at
-    /// `first_slot` (`members` of its lanes count); writes them times `stride` in the order given,
+    /// Looks in ranges of slots for those within the cutoff of any particle of the cluster that begins
+    /// at `first_slot` (`members` of its lanes count); writes them times `stride` in the order given,
     /// adds the number of pairs found, returns the end of what it wrote. There must be room for all.
-    std::uint32_t* (*among_slots)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
-                                  bool wraps, const std::uint32_t* slots, std::size_t count,
+    std::uint32_t* (*in_ranges)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
+                                bool wraps, const SlotRange* ranges, std::size_t count,
+                                std::uint32_t* out, std::size_t& pairs);
+    /// The same in the slots of clusters.
+    std::uint32_t* (*in_clusters)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
+                                  bool wraps, const std::uint32_t* ids, std::size_t count,
                                   std::uint32_t* out, std::size_t& pairs);
-    /// The same among the slots of whole clusters.
-    std::uint32_t* (*among_clusters)(const SearchInput<Dim>&, std::size_t first_slot,
-                                     unsigned members, bool wraps, const std::uint32_t* ids,
-                                     std::size_t count, std::uint32_t* out, std::size_t& pairs);
 };
 
 /// For clusters of `width`. Defined in search.lanes.cpp for every level.

@@ -6,17 +6,20 @@
 namespace spam {
 namespace {
 
-/// f(slot) for those listed.
-struct Slots {
+/// f(slot) for those in the ranges listed.
+struct Ranges {
+    using Place = SlotRange;
     template <class F>
-    [[gnu::always_inline]] static void for_each(const std::uint32_t* slots, std::size_t count,
+    [[gnu::always_inline]] static void for_each(const SlotRange* ranges, std::size_t count,
                                                 std::size_t, const F& f) {
-        for (std::size_t k = 0; k < count; ++k) f(slots[k]);
+        for (std::size_t k = 0; k < count; ++k)
+            for (std::uint32_t slot = ranges[k].first; slot < ranges[k].last; ++slot) f(slot);
     }
 };
 /// f(slot) for all that belong to the clusters listed.
 template <int W>
 struct Clusters {
+    using Place = std::uint32_t;
     template <class F>
     [[gnu::always_inline]] static void for_each(const std::uint32_t* ids, std::size_t count,
                                                 std::size_t all, const F& f) {
@@ -32,7 +35,7 @@ struct Clusters {
 
 template <int Dim, int W, bool Wraps, class Places>
 std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
-                      const std::uint32_t* places, std::size_t count, std::uint32_t* out,
+                      const typename Places::Place* places, std::size_t count, std::uint32_t* out,
                       std::size_t& pairs) {
     using T = LanesOf<W>;
     T x[Dim];
@@ -59,7 +62,7 @@ std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsign
 
 template <int Dim, int W, class Places>
 std::uint32_t* search_in(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
-                         bool wraps, const std::uint32_t* places, std::size_t count,
+                         bool wraps, const typename Places::Place* places, std::size_t count,
                          std::uint32_t* out, std::size_t& pairs) {
     return wraps
                ? search<Dim, W, true, Places>(in, first_slot, members, places, count, out, pairs)
@@ -79,11 +82,12 @@ std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
             double s = other.centre[a] - b.centre[a];
             if constexpr (Wraps) s -= in.length[a] * __builtin_nearbyint(s * in.inverse[a]);
             const double gap = __builtin_fabs(s) - (other.half[a] + b.half[a]);
-            const double apart = gap > 0.0 ? gap : 0.0;
-            d2 += apart * apart;
+            const double twice =
+                gap + __builtin_fabs(gap);  // of its positive part, without a branch
+            d2 += twice * twice;
         }
         kept[found] = id;
-        found += d2 < in.reach2;
+        found += d2 < 4.0 * in.reach2;
     }
     return found;
 }
@@ -97,7 +101,7 @@ std::size_t keep_near_in(const SearchInput<Dim>& in, const Bounds<Dim>& bounds, 
 
 template <int Dim, int W>
 constexpr Search<Dim> functions() {
-    return {keep_near_in<Dim>, search_in<Dim, W, Slots>, search_in<Dim, W, Clusters<W>>};
+    return {keep_near_in<Dim>, search_in<Dim, W, Ranges>, search_in<Dim, W, Clusters<W>>};
 }
 
 }  // namespace

@@ -73,7 +73,12 @@ void StripSort<Dim>::choose_bins(const Points<Dim>& position, const Box<Dim>& bo
                                       : 0.0;
         longest = std::max(longest, extent_[a]);
     }
-    const double volume = longest > 0.0 ? volume_per_particle(position) : 1.0;
+    // A few builds old will do: it decides about the shape of strips only.
+    if (sorted_++ % 8 == 0 || volume_of_ != position.cols()) {
+        volume_ = longest > 0.0 ? volume_per_particle(position) : 1.0;
+        volume_of_ = position.cols();
+    }
+    const double volume = volume_;
     double width = std::pow(6.0 * volume, 1.0 / Dim);
     double height = volume / std::pow(width, Dim - 1);  // about one particle a bin
     for (;; width *= 1.2, height *= 1.2) {

@@ -31,10 +31,12 @@ std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_
 template <int Dim>
 bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
     // Most often nobody has gone too far, and packing has read all positions anyway.
+    ++served_;
     if (list_.size() == n && pack(fields, false) == 0) return true;
     const Eigen::Map<const Points<Dim>> x(fields.x, Dim, static_cast<Eigen::Index>(n));
     if (list_.serves(x)) return true;
     if (!x.allFinite()) return false;
+    if (list_.builds() > 0 && list_.skin() > 0.0) choose_skin();
     list_.build(x);
     records_.resize(list_.order().size() * stride_);
     pack(fields, false);
@@ -55,8 +57,9 @@ double valid_range(double range, double spacing) {
     return range;
 }
 
+/// A tight periodic box leaves less room.
 template <int Dim>
-double list_skin(double range, double share, const Box<Dim>& box) {
+double PackedParticles<Dim>::skin(double range, double share, const Box<Dim>& box) {
     double skin = share * range;
     for (int a = 0; a < Dim; ++a)
         if (box.periodic(a) && box.length(a) > 2.0 * range)
@@ -64,11 +67,17 @@ double list_skin(double range, double share, const Box<Dim>& box) {
     return skin;
 }
 
+/// By what the list that is used up has served: never by the clock, or no run could be repeated.
+template <int Dim>
+void PackedParticles<Dim>::choose_skin() {
+    if (served_ < 10) share_ = std::min(1.25 * share_, most_share);
+    if (served_ > 60) share_ = std::max(share_ / 1.25, least_share);
+    list_.set_skin(skin(range_, share_, list_.box()));
+    served_ = 0;
+}
+
 template class PackedParticles<1>;
 template class PackedParticles<2>;
 template class PackedParticles<3>;
-template double list_skin<1>(double, double, const Box<1>&);
-template double list_skin<2>(double, double, const Box<2>&);
-template double list_skin<3>(double, double, const Box<3>&);
 
 }  // namespace spam

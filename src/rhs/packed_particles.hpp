@@ -16,15 +16,19 @@ struct PackedFields {
     const double* sigma = nullptr;  ///< D(D+1)/2 each
 };
 
+enum class ListUse { once, again_and_again };
+
 /// The cluster list of a model, and in its order the records that sweeps read. Both follow the
 /// particles; the list is built anew only when they have moved too far for it.
 template <int Dim>
 class PackedParticles {
   public:
-    /// `stride`: numbers in a record; `make_records` writes them; the rest as for ClusterList.
-    PackedParticles(double range, double skin, const Box<Dim>& box, int width, std::size_t stride,
+    /// `stride`: numbers in a record; `make_records` writes them; the rest as for ClusterList. A list
+    /// that is used again looks a little beyond the range, so that it lasts some right-hand sides.
+    PackedParticles(double range, ListUse use, const Box<Dim>& box, int width, std::size_t stride,
                     Pack<Dim> make_records)
-        : list_(range, skin, box, width, stride),
+        : list_(range, use == ListUse::once ? 0.0 : skin(range, first_share, box), box, width,
+                stride),
           range_(range),
           stride_(stride),
           make_records_(make_records) {}
@@ -43,6 +47,12 @@ class PackedParticles {
     }
 
   private:
+    // Of the range. The first costs about a tenth more lanes; a wider one pays where lists are soon
+    // used up.
+    static constexpr double first_share = 0.075, least_share = 0.05, most_share = 0.36;
+
+    static double skin(double range, double share, const Box<Dim>& box);
+    void choose_skin();
     std::size_t pack(const PackedFields& fields, bool density_only);
 
     ClusterList<Dim> list_;
@@ -51,14 +61,11 @@ class PackedParticles {
     Pack<Dim> make_records_;
     std::vector<double> records_;  ///< by slot
     std::size_t invalid_ = 0;
+    double share_ = first_share;
+    std::size_t served_ = 0;  ///< right-hand sides by this list
 };
 
 /// The range, if it makes sense for this spacing; else throws InputError.
 double valid_range(double range, double spacing);
-
-/// A list looks a little beyond the range, so that it lasts several steps: by `share` of the range,
-/// or less in a tight periodic box.
-template <int Dim>
-double list_skin(double range, double share, const Box<Dim>& box);
 
 }  // namespace spam

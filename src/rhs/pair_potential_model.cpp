@@ -34,16 +34,15 @@ PairPotentialModel<Dim>::PairPotentialModel(Particles<Dim> particles, double ran
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       range_(valid_range(range, this->particles().spacing)),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>())),
-      // Particles of a gas go past each other: their lists are soon used up.
-      packed_(packed_with(list_skin(range, 0.125, box))) {}
+      packed_(packed_with(ListUse::again_and_again)) {}
 
 template <int Dim>
 PairPotentialModel<Dim>::~PairPotentialModel() = default;
 
 template <int Dim>
-std::unique_ptr<PackedParticles<Dim>> PairPotentialModel<Dim>::packed_with(double skin) const {
+std::unique_ptr<PackedParticles<Dim>> PairPotentialModel<Dim>::packed_with(ListUse use) const {
     return std::make_unique<PackedParticles<Dim>>(
-        range_, skin, this->box(), sweeps_->width,
+        range_, use, this->box(), sweeps_->width,
         static_cast<std::size_t>(PointRecord<Dim>::numbers), sweeps_->pack);
 }
 
@@ -64,7 +63,7 @@ void PairPotentialModel<Dim>::rates(double, std::span<const double> y, std::span
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
 std::vector<double> PairPotentialModel<Dim>::density(std::span<const double> y) const {
-    const auto packed = packed_with(0.0);
+    const auto packed = packed_with(ListUse::once);
     std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
     if (!packed->follow(rho.size(), fields(*this, y))) return rho;
     SweepOutput<Dim> out;

@@ -63,9 +63,8 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       material_(material),
       scheme_(scheme),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
-      // 0.075 h costs about a tenth more lanes.
-      packed_(packed_with(
-          list_skin(valid_range(scheme.range, this->particles().spacing), 0.075, box))) {
+      packed_(packed_with(ListUse::again_and_again)) {
+    valid_range(scheme.range, this->particles().spacing);
     const std::size_t n = this->particles().size();
     if (sweeps_->density != nullptr) summed_density_.resize(n);
     torque_factor_.assign(static_cast<std::size_t>(this->particles().bodies()), 1.0);
@@ -104,10 +103,10 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
 }
 
 template <int Dim>
-std::unique_ptr<PackedParticles<Dim>> SmoothParticleModel<Dim>::packed_with(double skin) const {
+std::unique_ptr<PackedParticles<Dim>> SmoothParticleModel<Dim>::packed_with(ListUse use) const {
     const int numbers =
         sweeps_->second != nullptr ? TransportRecord<Dim>::numbers : Record<Dim>::numbers;
-    return std::make_unique<PackedParticles<Dim>>(scheme_.range, skin, this->box(), sweeps_->width,
+    return std::make_unique<PackedParticles<Dim>>(scheme_.range, use, this->box(), sweeps_->width,
                                                   static_cast<std::size_t>(numbers), sweeps_->pack);
 }
 
@@ -201,7 +200,7 @@ double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) cons
 template <int Dim>
 std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
     if (sweeps_->density == nullptr) return Model<Dim>::density(y);
-    const auto packed = packed_with(0.0);
+    const auto packed = packed_with(ListUse::once);
     std::vector<double> rho(this->particles().size());
     if (!packed->follow(rho.size(), fields(y)))
         rho.assign(rho.size(), std::numeric_limits<double>::quiet_NaN());

@@ -5,6 +5,7 @@
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/pair_potential_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -43,9 +44,26 @@ BOOST_AUTO_TEST_CASE(no_bit_depends_on_the_age_of_the_list) {
         const auto with_old_list = rates_of(used, y), with_new_list = rates_of(fresh, y);
         BOOST_TEST(used.list_builds() == 1U);
         BOOST_TEST((with_old_list == with_new_list), scheme.describe());
+        // After a time as a cloud slots are no longer numbers, and sums are taken in another order.
         rates_of(used, moved(used, start, 2.0, 44));
-        BOOST_TEST((rates_of(used, y) == with_new_list));
+        BOOST_TEST(relative_difference(rates_of(used, y), with_new_list) < 1e-13);
     }
+}
+
+// In a flow lists are sorted anew and their skins chosen anew: sums are the same but for round-off.
+BOOST_AUTO_TEST_CASE(lists_of_a_flow_do_not_change_its_rates) {
+    const Box<2> box({24.0, 12.0 * std::sqrt(3.0)});
+    const auto particles = make_particles<2>(triangular_block(24, 24), 1.0, 1.0, box);
+    PairPotentialModel<2> flow(particles, 3.0, box);
+    std::vector<double> y(flow.layout().size());
+    State<2>(flow.layout(), y).position() = particles.reference_position;
+    for (unsigned step = 0; step < 120; ++step) {
+        y = moved(flow, y, step < 60 ? 0.2 : 0.02, step);
+        PairPotentialModel<2> fresh(particles, 3.0, box);
+        BOOST_TEST(relative_difference(rates_of(flow, y), rates_of(fresh, y)) < 1e-13);
+    }
+    BOOST_TEST(flow.list_builds() > 10U);
+    BOOST_TEST(flow.list_builds() < 100U);
 }
 
 BOOST_AUTO_TEST_CASE(one_and_two_threads_give_the_same_bits) {

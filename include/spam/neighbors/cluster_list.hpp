@@ -13,10 +13,12 @@ namespace spam {
 
 /// Neighbours of clusters: `width` particles at a time, next to each other in space, which a sweep
 /// computes in the lanes of one register (sweep.hpp). A cluster's list holds every slot j with
-/// |r_ij| < range + skin for at least one of its particles i (nearest image), themselves included,
-/// in **ascending number of particle**. Weight functions vanish exactly beyond the range, and adding
-/// an exact zero changes no bit, so a sum over the list depends on the positions alone: neither on
-/// the skin, nor on when the list was built, nor on the number of threads.
+/// |r_ij| < range + skin for at least one of its particles i (nearest image), themselves included, in
+/// ascending slot. Weight functions vanish exactly beyond the range, and adding an exact zero changes
+/// no bit, so a sum over the list depends on the order of the slots alone: not on the skin, nor on
+/// the number of threads. Slots are the particles' own numbers as long as these keep neighbours
+/// together, as in a solid: then sums do not depend on when the list was built either. In a flow
+/// slots are sorted into strips at every build.
 template <int Dim>
 class ClusterList {
   public:
@@ -24,6 +26,10 @@ class ClusterList {
     /// `width` 1, 2, 4 or 8; `stride`: numbers in a record of the sweeps. Throws InputError when a
     /// periodic length is not above 2 (range + skin).
     ClusterList(double range, double skin, const Box<Dim>& box, int width, std::size_t stride = 1);
+
+    /// For later builds; as in the constructor.
+    void set_skin(double skin) { skin_ = skin; }
+    double skin() const { return skin_; }
 
     /// Builds the list for positions Dim x N (finite, not necessarily wrapped).
     void build(const Eigen::Ref<const Points<Dim>>& position);
@@ -57,6 +63,7 @@ class ClusterList {
     void find_direct();
     void sort();
     void gather();
+    void gather_strips();
     /// A little more than the list must hold, whatever rounding does to bounds.
     double reach() const { return (range_ + skin_) * (1.0 + 1e-9); }
     bool near_build(const Eigen::Ref<const Points<Dim>>& position) const;
@@ -72,8 +79,8 @@ class ClusterList {
     double strip_volume_ = 0.0;  ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
     std::array<std::vector<double>, Dim> x_;  ///< wrapped, by slot
-    Points<Dim> built_at_;
-    RigidMotion<Dim> motion_;  ///< since the last build, roughly
+    Points<Dim> built_at_, wrapped_;          ///< wrapped_: where the box is periodic
+    RigidMotion<Dim> motion_;                 ///< since the last build, roughly
     std::vector<ClusterView::Range> range_of_;
     std::vector<std::vector<std::uint32_t>> slices_;
     std::vector<const std::uint32_t*> slice_of_;

@@ -29,4 +29,9 @@ struct Records {
     std::size_t stride;
 };
 
+/// A run of slots [first, last).
+struct SlotRange {
+    std::uint32_t first, last;
+};
+
 }  // namespace spam

@@ -75,6 +75,9 @@ class StripSort {
     std::array<double, Dim> origin_{}, extent_{}, per_edge_{};
     std::array<Int, Dim> count_{};
     std::array<bool, Dim> periodic_{};
+    double volume_ = 1.0;  ///< per particle
+    Eigen::Index volume_of_ = 0;
+    std::size_t sorted_ = 0;
     std::vector<std::uint32_t> order_, start_, bin_of_;
 };
 

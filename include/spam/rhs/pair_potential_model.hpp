@@ -11,6 +11,7 @@ template <int Dim>
 struct Sweeps;
 template <int Dim>
 class PackedParticles;
+enum class ListUse;
 
 /// Molecular dynamics with Lucy's weight function as pair potential, m_i m_j w(r_ij): y = (x, v),
 /// v_dot_i = -sum_j m_j grad_i w_ij. It moves like smooth particles of the gas P = rho^2/2,
@@ -35,7 +36,7 @@ class PairPotentialModel final : public Model<Dim> {
     std::size_t list_builds() const;
 
   private:
-    std::unique_ptr<PackedParticles<Dim>> packed_with(double skin) const;
+    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
 
     double range_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;

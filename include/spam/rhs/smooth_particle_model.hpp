@@ -13,6 +13,7 @@ template <int Dim>
 struct Sweeps;
 template <int Dim>
 class PackedParticles;
+enum class ListUse;
 struct PackedFields;
 
 /// A solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
@@ -45,7 +46,7 @@ class SmoothParticleModel final : public Model<Dim> {
   private:
     bool load(std::span<const double> y, std::span<double> y_dot);
     PackedFields fields(std::span<const double> y) const;
-    std::unique_ptr<PackedParticles<Dim>> packed_with(double skin) const;
+    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     void sum_density(PackedParticles<Dim>& packed, std::span<double> rho) const;
     bool fail_density(std::span<const double> rho, std::span<double> y_dot);
     void balance_torques(std::span<const double> y, std::span<const double> u);

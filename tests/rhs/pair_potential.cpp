@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Molecular dynamics with the weight function as potential: forces against every pair, the gradient
+// of its energy, what it keeps.
+#include "support/random_state.hpp"
+#include <spam/core/error.hpp>
+#include <spam/kernel/lucy.hpp>
+#include <spam/rhs/pair_potential_model.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam;
+using namespace spam::test;
+
+namespace {
+
+template <int Dim>
+Box<Dim> periodic(double length) {
+    std::array<double, Dim> lengths;
+    lengths.fill(length);
+    return Box<Dim>(lengths);
+}
+
+template <int Dim>
+void every_pair(int cells, const Box<Dim>& box) {
+    PairPotentialModel<Dim> model(jittered_particles<Dim>(cells, 81, 0.15, box), 2.6, box);
+    auto y = random_state(model, 82);
+    const State<Dim> state(model.layout(), y);
+    state.position().array() += 37.3;  // wherever the images are
+    const auto y_dot = rates_of(model, y);
+    const auto x = state.position();
+    const auto& m = model.particles().mass;
+    const auto rate = ConstState<Dim>(model.layout(), y_dot);
+    BOOST_TEST((rate.position() == state.velocity()));
+
+    const Lucy<Dim> weight(2.6);
+    Points<Dim> v_dot = Points<Dim>::Zero(Dim, x.cols());
+    Point<Dim> total = Point<Dim>::Zero();
+    double energy = 0.0;
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        for (Eigen::Index j = 0; j < x.cols(); ++j) {
+            if (i == j) continue;
+            Point<Dim> r = x.col(j) - x.col(i);
+            for (int a = 0; a < Dim; ++a)
+                if (box.periodic(a)) r[a] -= box.length(a) * std::round(r[a] / box.length(a));
+            const double m_j = m[static_cast<std::size_t>(j)];
+            v_dot.col(i) -= m_j * weight.minus_slope_over_r(r.norm()) * r;
+            energy += 0.5 * m[static_cast<std::size_t>(i)] * m_j * weight.value(r.norm());
+        }
+    BOOST_TEST((rate.velocity() - v_dot).norm() < 1e-13 * v_dot.norm());
+    BOOST_TEST(std::abs(model.internal_energy(y) - energy) < 1e-13 * energy);
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        total += m[static_cast<std::size_t>(i)] * rate.velocity().col(i);
+    BOOST_TEST(total.norm() < 1e-13 * v_dot.norm());
+
+    // dE/dt = sum m v . v_dot + d/dt of the potential, by a central difference
+    const double h = 1e-5;
+    auto later = y, earlier = y;
+    State<Dim>(model.layout(), later).position() += h * state.velocity();
+    State<Dim>(model.layout(), earlier).position() -= h * state.velocity();
+    double power = 0.0;
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        power +=
+            m[static_cast<std::size_t>(i)] * state.velocity().col(i).dot(rate.velocity().col(i));
+    const double change =
+        (model.internal_energy(later) - model.internal_energy(earlier)) / (2.0 * h);
+    BOOST_TEST(std::abs(change + power) < 1e-7 * (1.0 + std::abs(power)));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(on_the_line) {
+    every_pair<1>(60, {});
+    every_pair<1>(60, periodic<1>(60.0));
+}
+BOOST_AUTO_TEST_CASE(in_the_plane) {
+    every_pair<2>(12, {});
+    every_pair<2>(24, Box<2>({24.0, 24.0 * std::sqrt(0.75)}));
+    every_pair<2>(12, Box<2>({12.0, 0.0}));
+}
+BOOST_AUTO_TEST_CASE(in_space) {
+    every_pair<3>(6, {});
+    every_pair<3>(7, periodic<3>(7.0));
+}
+BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
+    const auto particles = jittered_particles<2>(8, 83);
+    BOOST_CHECK_THROW(PairPotentialModel<2>(particles, 0.9), InputError);
+    BOOST_CHECK_THROW(PairPotentialModel<2>(particles, 4.1, Box<2>({8.0, 8.0})), InputError);
+}
