@@ -44,6 +44,36 @@ if(NOT SPAM_LEVELS STREQUAL "generic")
   endforeach()
 endif()
 
+# Counted and looked at in optimised code only.
+if(NOT SPAM_LEVELS STREQUAL "generic" AND CMAKE_BUILD_TYPE STREQUAL "Release"
+   AND NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
+  set(objects "")
+  foreach(level IN LISTS SPAM_LEVELS)
+    list(APPEND objects $<TARGET_OBJECTS:spam_${level}>)
+  endforeach()
+  add_test(NAME core.lanes_symbols COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} "-DOBJECTS=${objects}"
+                                           -P ${CMAKE_CURRENT_SOURCE_DIR}/core/lanes_symbols.cmake)
+  set_tests_properties(core.lanes_symbols PROPERTIES LABELS unit)
+
+  find_program(VALGRIND NAMES valgrind)
+  add_executable(instructions rhs/instructions.cpp)
+  target_link_libraries(instructions PRIVATE spam::spam spam_flags)
+  # spam_instructions_test(<name> <scheme> <most per pair>)
+  function(spam_instructions_test name scheme most)
+    add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -DVALGRIND=${VALGRIND}
+      -DPROGRAM=$<TARGET_FILE:instructions> -DSCHEME=${scheme} -DMOST=${most}
+      -P ${CMAKE_CURRENT_SOURCE_DIR}/rhs/instructions.cmake)
+    set_tests_properties(${name} PROPERTIES LABELS property TIMEOUT ${timeout})
+    if(NOT VALGRIND)
+      set_tests_properties(${name} PROPERTIES DISABLED TRUE)
+    endif()
+  endfunction()
+  spam_instructions_test(rhs.instructions one_sweep 65)
+  spam_instructions_test(rhs.instructions_two_sweeps two_sweeps 85)
+  spam_instructions_test(rhs.instructions_gate one_sweep 50)  # it fails where there are too many
+  set_tests_properties(rhs.instructions_gate PROPERTIES WILL_FAIL TRUE)
+endif()
+
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 add_test(NAME style.format COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
                                    -DCLANG_FORMAT=${CLANG_FORMAT}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dry_run.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/instruction_set.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/text.hpp>
 #include <spam/integrate/interrupt.hpp>
@@ -125,6 +126,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     const InterruptWatch watch;
     try {
         if (!options_.parse(argc, argv)) return 0;
+        instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const IntegratorOptions integrator = resolve_integrator();
         set_threads(common_.threads);
         Session session(*this, integrator, command);

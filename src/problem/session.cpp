@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/instruction_set.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
@@ -40,8 +41,9 @@ void Session::describe_environment() {
     terminal_.say(fmt::format("built       spam {}, SUNDIALS {}, Eigen {}.{}.{}, compiler {}",
                               version(), sundials_version(), EIGEN_WORLD_VERSION,
                               EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
-    terminal_.say(fmt::format("machine     {}, {} thread{}", host.data(), problem_.common_.threads,
-                              problem_.common_.threads == 1 ? "" : "s"));
+    terminal_.say(fmt::format("machine     {}, {} thread{}, {}", host.data(),
+                              problem_.common_.threads, problem_.common_.threads == 1 ? "" : "s",
+                              to_string(instruction_set())));
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
 }
 

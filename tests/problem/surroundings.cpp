@@ -123,3 +123,27 @@ BOOST_AUTO_TEST_CASE(too_many_particles_for_the_memory) {
     BOOST_TEST(folder.listing().empty());
 #endif
 }
+
+BOOST_AUTO_TEST_CASE(the_instruction_set_is_named_and_can_be_chosen) {
+    const auto run_with = [](const Scratch& folder, const char* set) {
+        Launch launch{folder.path()};
+        launch.before_exec = [set] { setenv("SPAM_ISA", set, 1); };
+        return run(problem("rotating_hexagon", short_run), launch);
+    };
+    for (const char* wrong : {"v9", "x86-64-v3", "avx2"}) {
+        const Scratch folder;
+        const Outcome outcome = run_with(folder, wrong);
+        BOOST_TEST(outcome.status == 2);
+        BOOST_TEST(lines(outcome.err) == 1U);
+        BOOST_TEST(outcome.err.find(wrong) != std::string::npos);
+        BOOST_TEST(outcome.err.find("v2, v3 and v4") != std::string::npos);
+        BOOST_TEST(folder.listing().empty());
+    }
+    const Scratch folder;
+    const Outcome outcome = run_with(folder, "v2");
+    const auto log = folder / "out/run.log";
+    if (outcome.status == 0)
+        BOOST_TEST(contents_of(log).find("x86-64-v2") != std::string::npos);
+    else  // a processor of another kind
+        BOOST_TEST(outcome.err.find("SPAM_ISA") != std::string::npos);
+}
