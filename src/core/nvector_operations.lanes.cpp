@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 
 namespace spam {
@@ -56,11 +55,7 @@ void fill(N_Vector z, const F& f) {
 constexpr int width = native_lanes(InstructionSet::SPAM_LEVEL);
 using Register = Lanes<width>;
 
-Register load(const double* p) {
-    Register x;
-    std::memcpy(&x.v, p, sizeof x.v);
-    return x;
-}
+Register load(const double* p) { return load_lanes<width>(p); }
 
 /// Sum of term(x_k, y_k): in sixteen lanes within a block, blocks in order.
 template <class Term>
@@ -158,7 +153,7 @@ void combine(const double* c, const double* const* p, double* z, std::size_t fir
     for (; k + width <= last; k += width) {
         Register total = factor[0] * load(p[0] + k);
         for (int m = 1; m < Count; ++m) total += factor[m] * load(p[m] + k);
-        std::memcpy(z + k, &total.v, sizeof total.v);
+        store_lanes(z + k, total);
     }
     for (; k < last; ++k) {
         double total = c[0] * p[0][k];

@@ -8,9 +8,9 @@ namespace spam {
 
 template <int Dim>
 void ClusterBoxes<Dim>::build(const std::array<std::vector<double>, Dim>& x, std::size_t width,
-                              const Box<Dim>& box) {
+                              std::size_t clusters, const Box<Dim>& box) {
     box_ = box;
-    bounds_.resize(x[0].size() / width);
+    bounds_.resize(clusters);
     parallel_for(
         bounds_.size(),
         [&](std::size_t c) {
@@ -115,12 +115,15 @@ bool ClusterBoxes<Dim>::wraps(const Bounds<Dim>& bounds, double reach) const {
 template <int Dim>
 double ClusterBoxes<Dim>::mean_volume(double reach) const {
     double sum = 0.0;
-    for (const auto& b : bounds_) {
-        double volume = 1.0;
-        for (std::size_t a = 0; a < Dim; ++a) volume *= 2.0 * (b.half[a] + reach);
-        sum += volume;
-    }
+    for (const auto& b : bounds_) sum += volume(b, reach);
     return sum / static_cast<double>(std::max<std::size_t>(1, bounds_.size()));
+}
+
+template <int Dim>
+double ClusterBoxes<Dim>::typical_volume(double reach) const {
+    double sum = 0.0;
+    for (const auto& b : bounds_) sum += 1.0 / volume(b, reach);
+    return static_cast<double>(bounds_.size()) / std::max(sum, 1e-300);
 }
 
 template class ClusterBoxes<1>;

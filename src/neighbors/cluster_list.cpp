@@ -77,11 +77,11 @@ void ClusterList<Dim>::gather() {
     const auto width = static_cast<std::size_t>(width_);
     order_.resize((size_ + width - 1) / width * width, size_ > 0 ? order_.back() : 0);
     const Points<Dim>& place = box_.periodic() ? wrapped_ : built_at_;
-    for (auto& x : x_) x.resize(order_.size());
+    for (auto& x : x_) x.resize(order_.size() + 8);  // searches read a register at a time
     parallel_for(order_.size(), [&](std::size_t k) {
         for (std::size_t a = 0; a < Dim; ++a) x_[a][k] = place.data()[Dim * order_[k] + a];
     });
-    boxes_.build(x_, width, box_);
+    boxes_.build(x_, width, order_.size() / width, box_);
 }
 
 template <int Dim>
@@ -90,6 +90,7 @@ void ClusterList<Dim>::gather_strips() {
     order_.assign(strips_.order().begin(), strips_.order().end());
     gather();
     strip_volume_ = boxes_.mean_volume(reach());
+    typical_volume_ = boxes_.typical_volume(reach());
 }
 
 /// Slots for all particles. Their own order is best as long as it keeps neighbours together as well
@@ -186,11 +187,19 @@ class ClusterList<Dim>::SliceSearch {
             ranges_.push_back({from, to});
             slots += to - from;
         });
-        make_room(slots);
+        make_room(slots + 8);
         std::size_t pairs = 0;
-        finish(cluster,
-               search_.in_ranges(input_, cluster * width_, members(cluster), wraps, ranges_.data(),
-                                 ranges_.size(), out_.data() + used_, pairs));
+        std::uint32_t* const out = out_.data() + used_;
+        const bool counted = cluster % list_.counted_each() == 0;
+        // Bounds of members far from each other hold many who are near none of them.
+        if (counted ||
+            ClusterBoxes<Dim>::volume(bounds, list_.reach()) > 2.0 * list_.typical_volume_)
+            finish(cluster, search_.in_ranges(input_, cluster * width_, members(cluster), wraps,
+                                              ranges_.data(), ranges_.size(), out, pairs));
+        else
+            finish(cluster, search_.around_bounds(input_, bounds, wraps, ranges_.data(),
+                                                  ranges_.size(), out));
+        if (!counted) pairs = 0;
         return pairs;
     }
 
@@ -245,7 +254,17 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
             return pairs;
         },
         slice_size * width);
-    pairs_ = (found - size_) / 2;  // each was found from both ends, each particle found itself
+    // Each pair was found from both ends, each particle found itself.
+    std::size_t counted = size_;
+    if (counted_each() > 1) {
+        const std::size_t clusters = (boxes_.size() + counted_each() - 1) / counted_each();
+        counted = std::min(clusters * width, size_);
+    }
+    pairs_ = counted == 0 ? 0
+                          : static_cast<std::size_t>(static_cast<double>(found - counted) * 0.5 *
+                                                         static_cast<double>(size_) /
+                                                         static_cast<double>(counted) +
+                                                     0.5);
     ++builds_;
 }
 

@@ -39,6 +39,12 @@ struct Search {
     std::uint32_t* (*in_clusters)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
                                   bool wraps, const std::uint32_t* ids, std::size_t count,
                                   std::uint32_t* out, std::size_t& pairs);
+
+    /// All slots in the ranges that are closer than the reach to the bounds: some more than the
+    /// members' neighbours, found several times as fast. May write a register's width too much, and
+    /// reads as much beyond the last slot.
+    std::uint32_t* (*around_bounds)(const SearchInput<Dim>&, const Bounds<Dim>&, bool wraps,
+                                    const SlotRange* ranges, std::size_t count, std::uint32_t* out);
 };
 
 /// For clusters of `width`. Defined in search.lanes.cpp for every level.

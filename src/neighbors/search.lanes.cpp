@@ -3,6 +3,8 @@
 
 #include <spam/core/lanes.hpp>
 
+#include <algorithm>
+
 namespace spam {
 namespace {
 
@@ -69,6 +71,61 @@ std::uint32_t* search_in(const SearchInput<Dim>& in, std::size_t first_slot, uns
                : search<Dim, W, false, Places>(in, first_slot, members, places, count, out, pairs);
 }
 
+/// slots first, first + 1, ... times `stride` where `bits` says so. Returns the end; writes W.
+template <int W>
+[[gnu::always_inline]] inline std::uint32_t* append(std::uint32_t first, std::uint32_t stride,
+                                                    unsigned bits, std::uint32_t* out) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+    if constexpr (W == 8) {
+        const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        const __m256i slots = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)), lanes);
+        const __m256i entries =
+            _mm256_mullo_epi32(slots, _mm256_set1_epi32(static_cast<int>(stride)));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                            _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), entries));
+        return out + __builtin_popcount(bits);
+    }
+#endif
+    for (unsigned l = 0; l < W; ++l) {
+        *out = (first + l) * stride;
+        out += bits >> l & 1U;
+    }
+    return out;
+}
+
+template <int Dim, int W, bool Wraps>
+std::uint32_t* around_bounds(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
+                             const SlotRange* ranges, std::size_t count, std::uint32_t* out) {
+    using std::max;
+    using T = LanesOf<W>;
+    const T reach2(4.0 * in.reach2);
+    const std::uint32_t stride = in.stride;
+    for (std::size_t k = 0; k < count; ++k) {
+        const SlotRange range = ranges[k];
+        for (std::uint32_t first = range.first; first < range.last; first += W) {
+            T d2(0.0);
+            for (int a = 0; a < Dim; ++a) {
+                T s = load_lanes<W>(in.x[a] + first) - T(bounds.centre[a]);
+                if constexpr (Wraps) s -= T(in.length[a]) * nearest_integer(s * T(in.inverse[a]));
+                const T gap = max(s, -s) - T(bounds.half[a]);
+                const T apart = positive_part(gap + gap);
+                d2 += apart * apart;
+            }
+            const std::uint32_t left = range.last - first;
+            const unsigned valid = left < W ? (1U << left) - 1 : (1U << W) - 1;
+            out = append<W>(first, stride, lanes_below(d2, reach2) & valid, out);
+        }
+    }
+    return out;
+}
+
+template <int Dim, int W>
+std::uint32_t* around_bounds_in(const SearchInput<Dim>& in, const Bounds<Dim>& bounds, bool wraps,
+                                const SlotRange* ranges, std::size_t count, std::uint32_t* out) {
+    return wraps ? around_bounds<Dim, W, true>(in, bounds, ranges, count, out)
+                 : around_bounds<Dim, W, false>(in, bounds, ranges, count, out);
+}
+
 template <int Dim, bool Wraps>
 std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
                       const std::uint32_t* ids, std::size_t count, std::uint32_t* kept) {
@@ -101,7 +158,8 @@ std::size_t keep_near_in(const SearchInput<Dim>& in, const Bounds<Dim>& bounds, 
 
 template <int Dim, int W>
 constexpr Search<Dim> functions() {
-    return {keep_near_in<Dim>, search_in<Dim, W, Ranges>, search_in<Dim, W, Clusters<W>>};
+    return {keep_near_in<Dim>, search_in<Dim, W, Ranges>, search_in<Dim, W, Clusters<W>>,
+            around_bounds_in<Dim, W>};
 }
 
 }  // namespace

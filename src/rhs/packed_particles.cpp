@@ -70,7 +70,7 @@ double PackedParticles<Dim>::skin(double range, double share, const Box<Dim>& bo
 /// By what the list that is used up has served: never by the clock, or no run could be repeated.
 template <int Dim>
 void PackedParticles<Dim>::choose_skin() {
-    if (served_ < 10) share_ = std::min(1.25 * share_, most_share);
+    if (served_ < 8) share_ = std::min(1.25 * share_, most_share);
     if (served_ > 60) share_ = std::max(share_ / 1.25, least_share);
     list_.set_skin(skin(range_, share_, list_.box()));
     served_ = 0;

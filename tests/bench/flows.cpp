@@ -71,7 +71,7 @@ void free_expansion(benchmark::State& state) {
     Stepping stepping(system, rk4(0.25));
     stepping.step();
     stepping.forget();
-    ClusterList<2> list(6.0, 1.7, Expansion::box(n), native_lanes(instruction_set()));
+    ClusterList<2> list(6.0, 1.4, Expansion::box(n), native_lanes(instruction_set()));
     double seconds = 0.0, building = 0.0;
     for ([[maybe_unused]] auto _ : state) {
         for (int k = 0; k < 4 * n; ++k) {

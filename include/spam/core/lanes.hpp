@@ -191,6 +191,22 @@ struct LaneType<1> {
 template <int W>
 using LanesOf = typename detail::LaneType<W>::type;
 
+/// W adjacent numbers, aligned or not.
+template <int W>
+SPAM_INLINE LanesOf<W> load_lanes(const double* from) {
+    if constexpr (W == 1) {
+        return *from;
+    } else {
+        typename Lanes<W>::Vector v;
+        __builtin_memcpy(&v, from, sizeof v);
+        return v;
+    }
+}
+template <int W>
+SPAM_INLINE void store_lanes(double* to, const Lanes<W>& x) {
+    __builtin_memcpy(to, &x.v, sizeof x.v);
+}
+
 SPAM_INLINE double sqrt_by_products(double x) { return std::sqrt(x); }
 SPAM_INLINE unsigned lanes_below(double a, double b) { return a < b ? 1U : 0U; }
 SPAM_INLINE double lane(double x, int) { return x; }

@@ -13,9 +13,9 @@ namespace spam {
 template <int Dim>
 class ClusterBoxes {
   public:
-    /// Coordinates by slot, wrapped; all clusters full.
+    /// Coordinates by slot, wrapped, of that many full clusters.
     void build(const std::array<std::vector<double>, Dim>& x, std::size_t width,
-               const Box<Dim>& box);
+               std::size_t clusters, const Box<Dim>& box);
 
     /// Prepares collect(). False where too many clusters are much larger than most.
     bool sort();
@@ -32,8 +32,17 @@ class ClusterBoxes {
     /// Whether what is within `reach` of the bounds lies beyond the border of a periodic box.
     bool wraps(const Bounds<Dim>& bounds, double reach) const;
 
+    /// Of the space between bounds that are `reach` wider on every side.
+    static double volume(const Bounds<Dim>& bounds, double reach) {
+        double volume = 1.0;
+        for (std::size_t a = 0; a < Dim; ++a) volume *= 2.0 * (bounds.half[a] + reach);
+        return volume;
+    }
+
     /// Mean number of places that a cluster's list has to look at, at unit density.
     double mean_volume(double reach) const;
+    /// The same as a harmonic mean, to which the few that are large do not count.
+    double typical_volume(double reach) const;
 
   private:
     Box<Dim> box_;

@@ -13,8 +13,8 @@ namespace spam {
 
 /// Neighbours of clusters: `width` particles at a time, next to each other in space, which a sweep
 /// computes in the lanes of one register (sweep.hpp). A cluster's list holds every slot j with
-/// |r_ij| < range + skin for at least one of its particles i (nearest image), themselves included, in
-/// ascending slot. Weight functions vanish exactly beyond the range, and adding an exact zero changes
+/// |r_ij| < range + skin for at least one of its particles i (nearest image), themselves included (in
+/// large flows some more), in ascending slot. Weight functions vanish exactly beyond the range, and adding an exact zero changes
 /// no bit, so a sum over the list depends on the order of the slots alone: not on the skin, nor on
 /// the number of threads. Slots are the particles' own numbers as long as these keep neighbours
 /// together, as in a solid: then sums do not depend on when the list was built either. In a flow
@@ -53,7 +53,8 @@ class ClusterList {
     std::span<const std::uint32_t> order() const { return order_; }
     /// Neighbours of a cluster: slot times stride, where their records begin.
     std::span<const std::uint32_t> entries(std::size_t cluster) const;
-    /// Pairs (undirected) closer than range + skin when the list was built.
+    /// Pairs (undirected) closer than range + skin when the list was built; in large lists sorted into
+    /// strips an estimate from every eighth cluster.
     std::size_t pairs() const { return pairs_; }
     std::size_t builds() const { return builds_; }
     const Box<Dim>& box() const { return box_; }
@@ -64,6 +65,9 @@ class ClusterList {
     void sort();
     void gather();
     void gather_strips();
+    /// Every how many clusters neighbours are looked for particle by particle, and counted; around the
+    /// others everything near their bounds is listed. One where the list is not in strips.
+    std::size_t counted_each() const { return !in_order_ && boxes_.size() >= 256 ? 8 : 1; }
     /// A little more than the list must hold, whatever rounding does to bounds.
     double reach() const { return (range_ + skin_) * (1.0 + 1e-9); }
     bool near_build(const Eigen::Ref<const Points<Dim>>& position) const;
@@ -75,8 +79,9 @@ class ClusterList {
     std::size_t size_ = 0, pairs_ = 0, builds_ = 0;
     StripSort<Dim> strips_;
     ClusterBoxes<Dim> boxes_;
-    bool in_order_ = false;      ///< slots are particle numbers
-    double strip_volume_ = 0.0;  ///< mean_volume() of boxes_ when strips were made last
+    bool in_order_ = false;        ///< slots are particle numbers
+    double typical_volume_ = 0.0;  ///< of the bounds of clusters in strips
+    double strip_volume_ = 0.0;    ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
     std::array<std::vector<double>, Dim> x_;  ///< wrapped, by slot
     Points<Dim> built_at_, wrapped_;          ///< wrapped_: where the box is periodic
