@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Elastic solid of PySPH on the hexagon of the SPAM benchmark: continuity, Hooke's law with
 # Jaumann's rate, momentum with stress, XSPH; no artificial viscosity or stress, as in SPAM. Cubic
-# spline with support 3 spacings. Prints what one evaluation costs as JSON; argument: how many to
-# time.
+# spline with support 3 spacings. Or, with a second argument 'scheme', PySPH's own scheme for elastic
+# solids as it comes: the same with artificial viscosity and artificial stress. Prints what one
+# evaluation costs as JSON; first argument: how many to time.
 import json
 import sys
 from time import perf_counter, process_time
@@ -45,6 +46,9 @@ equations = [
            MomentumEquationWithStress('solid', sources), XSPHCorrection('solid', sources)]),
     Group([HookesDeviatoricStressRate('solid', None)]),
 ]
+if sys.argv[2:] == ['scheme']:
+    from pysph.sph.solid_mech.basic import ElasticSolidsScheme
+    equations = ElasticSolidsScheme(elastic_solids=sources, solids=[], dim=2).get_equations()
 evaluator = SPHEvaluator([solid], equations, 2, CubicSpline(dim=2))
 
 
