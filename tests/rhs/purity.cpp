@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The right-hand side is a function of (t, y): no history, no thread count, no list age in its
-// bits; and states without meaning are named.
+// The right-hand side is a function of (t, y): no thread count in its bits, and in a solid no history
+// and no list age; in a flow these show in the last digits. States without meaning are named.
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -8,6 +8,7 @@
 #include <spam/rhs/pair_potential_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 #include <limits>
@@ -48,6 +49,19 @@ BOOST_AUTO_TEST_CASE(no_bit_depends_on_the_age_of_the_list) {
         rates_of(used, moved(used, start, 2.0, 44));
         BOOST_TEST(relative_difference(rates_of(used, y), with_new_list) < 1e-13);
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_body_that_turns_and_flies_keeps_its_list) {
+    SmoothParticleModel<2> model(jittered_particles<2>(30, 47), solid, {.range = 3.0});
+    auto y = random_state(model, 48);
+    const Points<2> start = model.particles().reference_position;
+    for (int step = 0; step <= 100; ++step) {
+        const Eigen::Rotation2Dd turn(0.02 * std::numbers::pi * step);
+        State<2>(model.layout(), y).position() =
+            (turn.toRotationMatrix() * start).colwise() + Point<2>(0.7 * step, -0.2 * step);
+        rates_of(model, y);
+    }
+    BOOST_TEST(model.list_builds() == 1U);
 }
 
 // In a flow lists are sorted anew and their skins chosen anew: sums are the same but for round-off.
