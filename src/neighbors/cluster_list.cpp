@@ -32,19 +32,20 @@ ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, in
 }
 
 template <int Dim>
-ClusterView ClusterList<Dim>::view() {
-    ClusterView view{size_, range_of_.size(), order_.data(), range_of_.data(), slice_of_.data()};
-    if (box_.periodic()) {
-        find_direct();
-        view.direct = direct_.data();
-    }
-    return view;
+ClusterView ClusterList<Dim>::view() const {
+    return {size_,
+            range_of_.size(),
+            order_.data(),
+            range_of_.data(),
+            slice_of_.data(),
+            box_.periodic() ? direct_.data() : nullptr};
 }
 
-/// Far enough from the border, wherever particles have drifted since the build: nearest images would
-/// be looked for in vain, which takes as long as the rest of a light pass.
+/// Far enough from the border, wherever the motion known takes them: nearest images would be looked
+/// for in vain, which takes as long as the rest of a light pass.
 template <int Dim>
 void ClusterList<Dim>::find_direct() {
+    if (!box_.periodic()) return;
     direct_.resize(boxes_.size());
     const Displacement<Dim> drift = displacement();
     const double margin = reach() + skin_;
@@ -97,8 +98,9 @@ void ClusterList<Dim>::gather_strips() {
 /// as strips would: in a solid, always.
 template <int Dim>
 void ClusterList<Dim>::sort() {
-    const bool look_again = builds_ % 64 == 0;
-    if (look_again) gather_strips();
+    // What strips would give changes slowly, and so does the order of a flow: neither is looked at
+    // every time.
+    if (builds_ % 64 == 0) gather_strips();
     if (in_order_ || builds_ % 8 == 0) {
         order_.resize(size_);
         std::iota(order_.begin(), order_.end(), 0U);
@@ -219,8 +221,7 @@ class ClusterList<Dim>::SliceSearch {
 
     ClusterList& list_;
     std::size_t width_;
-    bool
-        periodic_;  ///< bounds may lie across a border that their cluster's neighbours do not reach
+    bool periodic_;  ///< bounds of others may lie across a border that is out of reach
     std::vector<std::uint32_t>& out_;
     Search<Dim> search_;
     SearchInput<Dim> input_;
@@ -255,17 +256,16 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
         },
         slice_size * width);
     // Each pair was found from both ends, each particle found itself.
-    std::size_t counted = size_;
-    if (counted_each() > 1) {
-        const std::size_t clusters = (boxes_.size() + counted_each() - 1) / counted_each();
-        counted = std::min(clusters * width, size_);
-    }
+    std::size_t counted = 0;
+    for (std::size_t c = 0; c < boxes_.size(); c += counted_each())
+        counted += std::min(width, size_ - c * width);
     pairs_ = counted == 0 ? 0
                           : static_cast<std::size_t>(static_cast<double>(found - counted) * 0.5 *
                                                          static_cast<double>(size_) /
                                                          static_cast<double>(counted) +
                                                      0.5);
     ++builds_;
+    find_direct();
 }
 
 template <int Dim>
@@ -296,6 +296,7 @@ bool ClusterList<Dim>::serves(const Eigen::Ref<const Points<Dim>>& position) {
     if (near_build(position)) return true;
     motion_ = box_.periodic() ? best_translation<Dim>(built_at_, position)
                               : best_rigid_motion<Dim>(built_at_, position);
+    find_direct();
     return near_build(position);
 }
 

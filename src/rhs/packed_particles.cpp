@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace spam {
 
@@ -41,6 +42,17 @@ bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
     records_.resize(list_.order().size() * stride_);
     pack(fields, false);
     return true;
+}
+
+template <int Dim>
+std::vector<double> PackedParticles<Dim>::summed_density(Sweep<Dim> sum, std::size_t n,
+                                                         const PackedFields& fields) {
+    std::vector<double> rho(n, std::numeric_limits<double>::quiet_NaN());
+    if (!follow(n, fields)) return rho;
+    SweepOutput<Dim> out;
+    out.rho = rho.data();
+    sum(input(), out);
+    return rho;
 }
 
 template <int Dim>

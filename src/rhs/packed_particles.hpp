@@ -37,12 +37,14 @@ class PackedParticles {
     bool follow(std::size_t n, const PackedFields& fields);
     /// Of what follow() or load_density() met last.
     std::size_t invalid_densities() const { return invalid_; }
+    /// Densities for n particles, summed by that sweep; NaN where a position is not finite.
+    std::vector<double> summed_density(Sweep<Dim> sum, std::size_t n, const PackedFields& fields);
     /// Density and what depends on it, where it became known after follow().
     void load_density(const PackedFields& fields);
 
     const ClusterList<Dim>& list() const { return list_; }
     double* record(std::size_t slot) { return &records_[slot * stride_]; }
-    SweepInput<Dim> input() {
+    SweepInput<Dim> input() const {
         return {list_.view(), {records_.data(), stride_}, range_, &list_.box()};
     }
 

@@ -9,9 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 namespace spam {
 namespace {
 
@@ -63,13 +60,8 @@ void PairPotentialModel<Dim>::rates(double, std::span<const double> y, std::span
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
 std::vector<double> PairPotentialModel<Dim>::density(std::span<const double> y) const {
-    const auto packed = packed_with(ListUse::once);
-    std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
-    if (!packed->follow(rho.size(), fields(*this, y))) return rho;
-    SweepOutput<Dim> out;
-    out.rho = rho.data();
-    sweeps_->density(packed->input(), out);
-    return rho;
+    return packed_with(ListUse::once)
+        ->summed_density(sweeps_->density, this->particles().size(), fields(*this, y));
 }
 
 template <int Dim>

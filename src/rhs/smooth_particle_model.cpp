@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace spam {
 namespace {
@@ -129,7 +128,9 @@ bool SmoothParticleModel<Dim>::load(std::span<const double> y, std::span<double>
     if (packed_->invalid_densities() > 0) return fail_density({given.rho, n}, y_dot);
     if (sweeps_->density == nullptr) return true;
 
-    sum_density(*packed_, summed_density_);
+    SweepOutput<Dim> out;
+    out.rho = summed_density_.data();
+    sweeps_->density(packed_->input(), out);
     given.rho = summed_density_.data();
     packed_->load_density(given);
     return packed_->invalid_densities() == 0 || fail_density(summed_density_, y_dot);
@@ -143,14 +144,6 @@ bool SmoothParticleModel<Dim>::fail_density(std::span<const double> rho, std::sp
     this->fail(y_dot, fmt::format("density {} of particle {} is not positive", *bad,
                                   this->particles().id[number]));
     return false;
-}
-
-template <int Dim>
-void SmoothParticleModel<Dim>::sum_density(PackedParticles<Dim>& packed,
-                                           std::span<double> rho) const {
-    SweepOutput<Dim> out;
-    out.rho = rho.data();
-    sweeps_->density(packed.input(), out);
 }
 
 /// R of every body from its own sums, taken in the order of the particles.
@@ -200,13 +193,8 @@ double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) cons
 template <int Dim>
 std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
     if (sweeps_->density == nullptr) return Model<Dim>::density(y);
-    const auto packed = packed_with(ListUse::once);
-    std::vector<double> rho(this->particles().size());
-    if (!packed->follow(rho.size(), fields(y)))
-        rho.assign(rho.size(), std::numeric_limits<double>::quiet_NaN());
-    else
-        sum_density(*packed, rho);
-    return rho;
+    return packed_with(ListUse::once)
+        ->summed_density(sweeps_->density, this->particles().size(), fields(y));
 }
 
 template <int Dim>

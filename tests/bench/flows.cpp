@@ -12,26 +12,26 @@
 namespace spam::bench {
 namespace {
 
-void list_build(benchmark::State& state) {
-    ElasticSystem system(state.range(0), monaghan);
+/// Builds of a list of that skin and stride for the system as it is.
+template <class System>
+void time_builds(benchmark::State& state, System& system, double skin, std::size_t stride) {
     system.rates();
-    const Points<2> x = ConstState<2>(system.model.layout(), system.y).position();
-    ClusterList<2> list(3.0, 0.225, {}, native_lanes(instruction_set()), Record<2>::numbers);
+    const auto& model = system.model;
+    const Points<2> x = ConstState<2>(model.layout(), system.y).position();
+    ClusterList<2> list(model.reach(), skin, model.box(), native_lanes(instruction_set()), stride);
     list.build(x);
     const Stopwatch watch;
     for ([[maybe_unused]] auto _ : state) list.build(x);
-    count(state, system.model, watch.seconds() / static_cast<double>(state.iterations()));
+    count(state, model, watch.seconds() / static_cast<double>(state.iterations()));
 }
 
+void list_build(benchmark::State& state) {
+    ElasticSystem system(state.range(0), monaghan);
+    time_builds(state, system, 0.225, Record<2>::numbers);
+}
 void lucy_list_build(benchmark::State& state) {
     GasSystem system(state.range(0), 0.0);
-    system.rates();
-    const Points<2> x = ConstState<2>(system.model.layout(), system.y).position();
-    ClusterList<2> list(6.0, 0.75, system.model.box(), native_lanes(instruction_set()), 3);
-    list.build(x);
-    const Stopwatch watch;
-    for ([[maybe_unused]] auto _ : state) list.build(x);
-    count(state, system.model, watch.seconds() / static_cast<double>(state.iterations()));
+    time_builds(state, system, 0.75, PointRecord<2>::numbers);
 }
 
 /// A step of rk4 of the hot gas, per right-hand side.

@@ -64,6 +64,23 @@ BOOST_AUTO_TEST_CASE(a_body_that_turns_and_flies_keeps_its_list) {
     BOOST_TEST(model.list_builds() == 1U);
 }
 
+// Nor does a crystal that flies around a periodic box, again and again over its border.
+BOOST_AUTO_TEST_CASE(a_crystal_that_flies_around_its_box_keeps_its_list) {
+    const Box<2> box({24.0, 12.0 * std::sqrt(3.0)});
+    const auto particles = make_particles<2>(triangular_block(24, 24), 1.0, 1.0, box);
+    PairPotentialModel<2> flying(particles, 3.0, box);
+    std::vector<double> y(flying.layout().size());
+    State<2>(flying.layout(), y).position() = particles.reference_position;
+    y = moved(flying, y, 0.1, 49);
+    for (int step = 0; step < 100; ++step) {
+        const Points<2> start = State<2>(flying.layout(), y).position();
+        State<2>(flying.layout(), y).position() = start.colwise() + Point<2>(0.7, -0.4);
+        PairPotentialModel<2> fresh(particles, 3.0, box);
+        BOOST_TEST(relative_difference(rates_of(flying, y), rates_of(fresh, y)) < 1e-12);
+    }
+    BOOST_TEST(flying.list_builds() == 1U);
+}
+
 // In a flow lists are sorted anew and their skins chosen anew: sums are the same but for round-off.
 BOOST_AUTO_TEST_CASE(lists_of_a_flow_do_not_change_its_rates) {
     const Box<2> box({24.0, 12.0 * std::sqrt(3.0)});

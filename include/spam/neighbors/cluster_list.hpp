@@ -45,7 +45,7 @@ class ClusterList {
     Displacement<Dim> displacement() const;
 
     /// For sweeps over records whose positions the list serves.
-    ClusterView view();
+    ClusterView view() const;
     std::size_t size() const { return size_; }
     std::size_t clusters() const { return range_of_.size(); }
     int width() const { return width_; }

@@ -29,7 +29,7 @@ constexpr bool is_light() {
 ///     static constexpr bool light = true;
 /// R: the record the passes need (record.hpp). W must be the list's width, the records'
 /// stride the list's.
-// flatten: pair bodies are many small functions; a call per pair would cost more than its sums.
+// Inlined where it is called, stores and all: callers are compiled for the instruction set already.
 template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
 [[gnu::always_inline]] inline void sweep_block(const ClusterView& list, std::size_t first,
                                                std::size_t last, const Weight& weight,

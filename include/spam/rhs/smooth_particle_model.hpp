@@ -47,7 +47,6 @@ class SmoothParticleModel final : public Model<Dim> {
     bool load(std::span<const double> y, std::span<double> y_dot);
     PackedFields fields(std::span<const double> y) const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
-    void sum_density(PackedParticles<Dim>& packed, std::span<double> rho) const;
     bool fail_density(std::span<const double> rho, std::span<double> y_dot);
     void balance_torques(std::span<const double> y, std::span<const double> u);
     void load_transport(std::span<const double> u);
