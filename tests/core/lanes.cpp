@@ -49,6 +49,8 @@ void check() {
     };
     const auto quotient = [](const auto& a, const auto& b) { return a / b; };
     BOOST_TEST((worst_difference<W>(root, root, 1e-250, 1e300)) <= unit);
+    const auto products = [](const auto& x, const auto&) { return sqrt_by_products(x); };
+    BOOST_TEST((worst_difference<W>(products, root, 1e-250, 1e300)) <= 2.0 * unit);
     BOOST_TEST((worst_difference<W>(quotient, quotient, 1e-100, 1e100)) <= unit);
 
     using std::sqrt, std::max;
