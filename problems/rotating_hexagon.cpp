@@ -62,6 +62,7 @@ std::string title_of(ModelKind kind, const Scheme& scheme) {
     if (scheme.density == Density::summed) title += ", summed density";
     if (scheme.density == Density::chain_rule) title += ", chain rule";
     if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
+    if (scheme.closest_approach > 0.0) title += fmt::format(", R = {:g}", scheme.closest_approach);
     return title;
 }
 
@@ -110,7 +111,8 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
 /// 217 particles, speed 0.1, one turn, Lucy with range 3, RK4 with dt <= 0.1, integrated density.
 bool is_standard(const Session& session, const Parameters& p, const Model<2>& model) {
     const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
-    if (solid && (solid->scheme().range != 3.0 || solid->scheme().density == Density::summed))
+    if (solid && (solid->scheme().range != 3.0 || solid->scheme().density == Density::summed ||
+                  solid->scheme().closest_approach != 0.0))
         return false;
     const auto& integrator = session.integrator();
     return p.size == 8 && p.speed == 0.1 && p.turns == 1.0 && integrator.method == "rk4" &&
@@ -271,7 +273,8 @@ int main(int argc, char** argv) {
             hexagons.push_back(make_hexagon(p, p.model, session.scheme(), ""));
             if (md)
                 session.leave_out_of_case({"density", "transport", "mean-density",
-                                           "angular-momentum", "kernel", "range"});
+                                           "angular-momentum", "closest-approach", "kernel",
+                                           "range"});
         } else {
             session.leave_out_of_case(scheme_options);
             hexagons = comparison(p, session.scheme());

@@ -8,12 +8,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spam {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_in_step = 10'000, most_at_once = 100;
+constexpr double aim = 0.5;  // of distances in units of the tolerance
+
+/// A length and how far the distance there was from the aim.
+struct Tried {
+    double s, f;
+};
+
+double secant(const Tried& a, const Tried& b) { return (a.s * b.f - b.s * a.f) / (b.f - a.f); }
+
+/// Where the parabola s(f) through three of them meets f = 0; not a number where two are the same.
+double inverse_quadratic(const Tried& a, const Tried& b, const Tried& c) {
+    return a.s * (b.f / (a.f - b.f)) * (c.f / (a.f - c.f)) +
+           b.s * (a.f / (b.f - a.f)) * (c.f / (b.f - c.f)) +
+           c.s * (a.f / (c.f - a.f)) * (b.f / (c.f - b.f));
+}
 
 }  // namespace
 
@@ -50,36 +66,30 @@ EventWatch::Piece EventWatch::first_piece(double h, std::span<const double> z,
 }
 
 /// The distance is positive at 0 and is not at h. Looks for a length where it is in (0, 1], aiming at
-/// the middle of that by false position (Illinois), with a bisection now and then.
+/// the middle of that: inverse quadratic interpolation, false position (Illinois) where that leaves
+/// the bracket, a bisection now and then.
 EventWatch::Piece EventWatch::locate(double h, double at_h, const Retake& retake) {
-    constexpr double aim = 0.5;
-    double a = 0.0, f_a = distance(t_, y_) - aim, b = h, f_b = at_h - aim;
-    if (f_a <= -aim) return {0.0, true};
-    const double resolution = 4.0 * std::numeric_limits<double>::epsilon();
-    int side = 0;
-    for (int k = 0; k < 200 && b - a > resolution * b; ++k) {
+    constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
+    Tried a{0.0, distance(t_, y_) - aim}, b{h, at_h - aim}, before = a;
+    if (a.f <= -aim) return {0.0, true};
+    double stale_a = 1.0, stale_b = 1.0;
+    for (int k = 0; k < 200 && b.s - a.s > resolution * b.s; ++k) {
         // Just after an event the beginning is itself at the surface: no place to look near by.
-        const bool left_behind = a == 0.0 && f_a < 2.0;
-        if (left_behind && b < 1e-14 * h) return {0.0, true};
-        double s = 0.5 * (a + b);
-        if (!left_behind && k % 8 != 7) s = (a * f_b - b * f_a) / (f_b - f_a);
-        if (!(s > a && s < b)) s = 0.5 * (a + b);
-        const double f = distance(t_ + s, retake(s)) - aim;
-        if (f > -aim && f <= aim) return {s, true};
-        if (f > 0.0) {
-            a = s;
-            f_a = f;
-            if (side == 1) f_b *= 0.5;
-            side = 1;
-        } else {
-            b = s;
-            f_b = std::max(f, -std::numeric_limits<double>::max());
-            if (side == -1) f_a *= 0.5;
-            side = -1;
-        }
+        const bool left_behind = a.s == 0.0 && a.f < 2.0;
+        if (left_behind && b.s < 1e-14 * h) return {0.0, true};
+        const auto inside = [&](double s) { return s > a.s && s < b.s; };
+        double s = inverse_quadratic(a, b, before);
+        if (!inside(s)) s = secant({a.s, stale_a * a.f}, {b.s, stale_b * b.f});
+        if (left_behind || k % 8 == 7 || !inside(s)) s = 0.5 * (a.s + b.s);
+        const Tried now{s, distance(t_ + s, retake(s)) - aim};
+        if (now.f > -aim && now.f <= aim) return {s, true};
+        const bool early = now.f > 0.0;
+        stale_a = early ? 1.0 : 0.5 * stale_a;
+        stale_b = early ? 0.5 * stale_b : 1.0;
+        before = std::exchange(early ? a : b, now);
     }
-    if (a > 0.0) retake(a);
-    return {a, true};
+    if (a.s > 0.0) retake(a.s);
+    return {a.s, true};
 }
 
 std::size_t EventWatch::apply(double t, std::span<double> y) {

@@ -11,6 +11,10 @@ namespace spam {
 void Scheme::validate(int dim) const {
     if (!(range > 0.0) || !std::isfinite(range))
         throw InputError(fmt::format("range: {} is not a positive length; try --range 3", range));
+    if (!(closest_approach >= 0.0) || !std::isfinite(closest_approach))
+        throw InputError(fmt::format(
+            "closest-approach: {} is not a distance; try --closest-approach 0.7, or 0 for none",
+            closest_approach));
     if (density == Density::chain_rule && transport == Transport::plain)
         throw InputError(
             "density: chain_rule differs from continuity only when particles move with an averaged "
@@ -30,10 +34,13 @@ Promises Scheme::promises(int dim) const {
 }
 
 std::string Scheme::describe() const {
-    return fmt::format(
+    std::string words = fmt::format(
         "density {}, transport {}, {} mean density, angular momentum {}, {} weight of range {}",
         to_string(density), to_string(transport), to_string(mean_density),
         to_string(angular_momentum), to_string(kernel), range);
+    if (closest_approach > 0.0)
+        words += fmt::format(", approaching pairs reflected at {}", closest_approach);
+    return words;
 }
 
 std::string_view to_string(Density d) {

@@ -58,7 +58,7 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
 
 const std::vector<std::string>& Problem::scheme_option_names() {
     static const std::vector<std::string> names{"density", "transport", "mean-density",
-                                                "angular-momentum"};
+                                                "angular-momentum", "closest-approach"};
     return names;
 }
 
@@ -81,6 +81,8 @@ void Problem::use_scheme(const Scheme& standard) {
     options_.choice<AngularMomentum>("angular-momentum", scheme_.angular_momentum,
                                      {AngularMomentum::free, AngularMomentum::torque_pair},
                                      "leave it free, or balance pair torques");
+    options_.number("closest-approach", scheme_.closest_approach,
+                    "distance at which approaching pairs are reflected, 0: none", non_negative());
     options_.group("Problem");
 }
 

@@ -45,6 +45,7 @@ Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
                            component_name<Dim>(entry.field, entry.component),
                            model.particles().id[entry.particle]);
     };
+    if (auto event = model.event()) ode.events.push_back(std::move(*event));
     ode.absolute_tolerance.resize(model.layout().size());
     for (const auto& block : model.layout().blocks())
         std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
@@ -220,6 +221,7 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
         record.statistics.steps = s.steps;
         record.statistics.rejected_steps = s.rejected_steps;
         record.statistics.rhs_evaluations = s.rhs_evaluations;
+        record.statistics.events = s.events;
         record.statistics.wall_seconds = seconds();
     };
     terminal_.begin_progress();

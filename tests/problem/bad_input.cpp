@@ -87,7 +87,6 @@ BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
     check_all({
         {{"--restart", "checkpoint_0001.h5"}, {"--restart"}},
         {{"--viscosity", "0.1"}, {"--viscosity"}},
-        {{"--closest-approach", "0.5"}, {"--closest-approach"}},
         {{"--kernel", "monaghan"}, {"kernel", "monaghan", "lucy"}},
         {{"--kernel", "w4"}, {"kernel", "w4", "lucy"}},
         {{"--angular-momentum", "gauss"}, {"angular-momentum", "gauss", "torque_pair"}},
@@ -99,6 +98,10 @@ BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
 
 BOOST_AUTO_TEST_CASE(values_out_of_range) {
     check_all({
+        {{"--closest-approach", "-0.5"}, {"closest-approach", "-0.5", "0"}},
+        {{"--closest-approach", "nan"}, {"closest-approach", "nan"}},
+        {{"--closest-approach", "1"}, {"closest-approach", "1", "spacing", "0.5 to 0.9"}},
+        {{"--model", "md", "--closest-approach", "0.5"}, {"closest-approach", "md"}},
         {{"--range", "-1"}, {"range", "-1", "above 0"}},
         {{"--range", "0"}, {"range", "0", "above 0"}},
         {{"--range", "nan"}, {"range", "nan", "above 0"}},

@@ -53,9 +53,9 @@ double check_invariants(const std::filesystem::path& file) {
 void check_statistics(const nlohmann::json& statistics) {
     Words keys;
     for (const auto& item : statistics.items()) keys.push_back(item.key());
-    const Words expected{"pair_interactions", "particles", "problem", "rejected_steps",
-                         "rhs_evaluations",   "steps",     "t_end",   "version",
-                         "wall_seconds"};  // and no "stopped"
+    const Words expected{"events",         "pair_interactions", "particles", "problem",
+                         "rejected_steps", "rhs_evaluations",   "steps",     "t_end",
+                         "version",        "wall_seconds"};  // and no "stopped"
     BOOST_TEST(keys == expected, boost::test_tools::per_element());
     BOOST_TEST(statistics["problem"] == "rotating_hexagon");
     BOOST_TEST(statistics["wall_seconds"].get<double>() > 0.0);

@@ -78,7 +78,7 @@ std::vector<Scheme> all_schemes() {
                 for (const auto L : {AngularMomentum::free, AngularMomentum::torque_pair}) {
                     if (L == AngularMomentum::torque_pair && Dim != 2) continue;
                     if (density == Density::chain_rule && transport == Transport::plain) continue;
-                    schemes.push_back({density, transport, mean, L, Kernel::lucy, 2.6});
+                    schemes.push_back({density, transport, mean, L, 0.0, Kernel::lucy, 2.6});
                 }
     return schemes;
 }

@@ -34,6 +34,7 @@ struct Scheme {
     Transport transport = Transport::plain;
     MeanDensityKind mean_density = MeanDensityKind::arithmetic;
     AngularMomentum angular_momentum = AngularMomentum::free;
+    double closest_approach = 0.0;  ///< distance at which approaching pairs are reflected; 0: none
     Kernel kernel = Kernel::lucy;
     double range = 3.0;
 
