@@ -74,16 +74,18 @@ EventWatch::Piece EventWatch::locate(double h, double at_h, const Retake& retake
     if (a.f <= -aim) return {0.0, true};
     double stale_a = 1.0, stale_b = 1.0;
     for (int k = 0; k < 200 && b.s - a.s > resolution * b.s; ++k) {
-        // Just after an event the beginning is itself at the surface: no place to look near by.
-        const bool left_behind = a.s == 0.0 && a.f < 2.0;
+        // Just after an event the beginning is itself at the surface and no place to look near by:
+        // what is due next is approached from behind.
+        const bool left_behind = a.f < 2.0;
         if (left_behind && b.s < 1e-14 * h) return {0.0, true};
         const auto inside = [&](double s) { return s > a.s && s < b.s; };
-        double s = inverse_quadratic(a, b, before);
-        if (!inside(s)) s = secant({a.s, stale_a * a.f}, {b.s, stale_b * b.f});
-        if (left_behind || k % 8 == 7 || !inside(s)) s = 0.5 * (a.s + b.s);
+        double s = left_behind ? secant(b, before) : inverse_quadratic(a, b, before);
+        if (!left_behind && !inside(s)) s = secant({a.s, stale_a * a.f}, {b.s, stale_b * b.f});
+        if (k % 8 == 7 || !inside(s) || (left_behind && k == 0)) s = 0.5 * (a.s + b.s);
         const Tried now{s, distance(t_ + s, retake(s)) - aim};
-        if (now.f > -aim && now.f <= aim) return {s, true};
-        const bool early = now.f > 0.0;
+        const bool near = now.f > -aim && now.f <= aim;
+        if (near && (!left_behind || s >= 0.5 * b.s)) return {s, true};
+        const bool early = now.f > -aim;
         stale_a = early ? 1.0 : 0.5 * stale_a;
         stale_b = early ? 0.5 * stale_b : 1.0;
         before = std::exchange(early ? a : b, now);
