@@ -151,6 +151,9 @@ BOOST_AUTO_TEST_CASE(two_particles_collide_as_mechanics_says) {
         for (int a = 0; a < 2; ++a) r[a] -= 10.0 * std::nearbyint(r[a] / 10.0);
         const ByHand hand(r, s.v_1 - s.v_2, 0.5, s.m_1, s.m_2);
         const double t_end = hand.t + 0.777;
+        // Found some 1e-12 R too far out: the more oblique, the more that turns the impulse.
+        const double tolerance =
+            5e-12 * 0.5 * (s.v_1 - s.v_2).norm() / std::abs((s.v_1 - s.v_2).dot(hand.r));
         for (const auto& options : methods) {
             BOOST_TEST_CONTEXT(s.what << ", " << options.describe()) {
                 SmoothParticleModel<2> model(free_particles(x, {s.m_1, s.m_2}),
@@ -159,16 +162,16 @@ BOOST_AUTO_TEST_CASE(two_particles_collide_as_mechanics_says) {
                 Collisions run(model, start(model, v), options);
                 run.run(t_end);
                 BOOST_TEST(run.times.size() == 1U);
-                BOOST_TEST(std::abs(run.times.at(0) - hand.t) < 1e-11);
+                BOOST_TEST(std::abs(run.times.at(0) - hand.t) < tolerance);
                 BOOST_TEST(run.integrator->statistics().events == 1U);
                 const Point<2> v_1 = s.v_1 + hand.impulse / s.m_1,
                                v_2 = s.v_2 - hand.impulse / s.m_2;
-                BOOST_TEST((run.state().velocity().col(0) - v_1).norm() < 1e-11);
-                BOOST_TEST((run.state().velocity().col(1) - v_2).norm() < 1e-11);
+                BOOST_TEST((run.state().velocity().col(0) - v_1).norm() < tolerance);
+                BOOST_TEST((run.state().velocity().col(1) - v_2).norm() < tolerance);
                 const Point<2> x_1 = hand.t * s.v_1 + 0.777 * v_1,
                                x_2 = s.x_2 + hand.t * s.v_2 + 0.777 * v_2;
-                BOOST_TEST((run.state().position().col(0) - x_1).norm() < 1e-11);
-                BOOST_TEST((run.state().position().col(1) - x_2).norm() < 1e-11);
+                BOOST_TEST((run.state().position().col(0) - x_1).norm() < tolerance);
+                BOOST_TEST((run.state().position().col(1) - x_2).norm() < tolerance);
                 if (s.what[0] != 'i') run.check_jumps(1e-13);  // L has no meaning across images
             }
         }

@@ -64,6 +64,7 @@ class ClosestApproach {
 
     void build_list();
     void arm_pairs();
+    bool watches(const Points_& x);
     void choose_skin();
     std::vector<Numbers> touching(const Points_& x) const;
     Point<Dim> separation(const Points_& x, const Numbers& pair) const;
@@ -80,6 +81,7 @@ class ClosestApproach {
     std::vector<Armed> armed_;
     double t_ = 0.0;
     Points<Dim> x_, v_;  ///< as arm() met them
+    Displacement<Dim> then_{};
 };
 
 /// The event of a model whose y holds x and v. `layout` must outlive it.
