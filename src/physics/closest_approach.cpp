@@ -50,6 +50,7 @@ ClosestApproach<Dim>::ClosestApproach(std::vector<double> mass, const Box<Dim>& 
                                       double distance, bool moves_with_v)
     : mass_(std::move(mass)),
       box_(box),
+      periodic_(box.periodic()),
       R_(distance),
       moves_with_v_(moves_with_v),
       list_(std::make_unique<ClusterList<Dim>>(1.001 * R_, skin(share_, R_, box_), box_, 1)) {}
@@ -57,7 +58,8 @@ ClosestApproach<Dim>::ClosestApproach(std::vector<double> mass, const Box<Dim>& 
 template <int Dim>
 Point<Dim> ClosestApproach<Dim>::separation(const Points_& x, const Numbers& pair) const {
     Point<Dim> r = x.col(pair.first) - x.col(pair.second);
-    for (int a = 0; a < Dim; ++a) r[a] = box_.nearest_image(a, r[a]);
+    if (periodic_)
+        for (int a = 0; a < Dim; ++a) r[a] = box_.nearest_image(a, r[a]);
     return r;
 }
 
@@ -66,7 +68,7 @@ template <int Dim>
 void ClosestApproach<Dim>::choose_skin() {
     if (list_->builds() == 0) return;
     if (served_ < 8) share_ = std::min(1.25 * share_, 3.0);
-    if (served_ > 60) share_ = std::max(share_ / 1.25, 0.1);
+    if (served_ > 60) share_ = std::max(share_ / 1.25, 0.05);
     list_->set_skin(skin(share_, R_, box_));
 }
 

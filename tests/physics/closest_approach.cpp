@@ -117,9 +117,9 @@ BOOST_AUTO_TEST_CASE(separating_pairs_are_not_reflected) {
 
 BOOST_AUTO_TEST_CASE(a_pair_is_armed_where_it_is_outside) {
     ClosestApproach<2> approach({1.0, 1.0}, {}, 0.5, true);
-    const Two outside(0.6, 0.1), inside(0.4, 0.1);
+    const Two outside(0.54, 0.1);
     approach.arm(0.0, outside.x, outside.v);
-    BOOST_TEST(approach.distance(0.0, outside.x, outside.v) == 0.11,
+    BOOST_TEST(approach.distance(0.0, outside.x, outside.v) == 0.0416,
                boost::test_tools::tolerance(1e-12));
     const Two nearer(0.49, 0.1);
     BOOST_TEST(approach.distance(1.1, nearer.x, nearer.v) < 0.0);
@@ -133,20 +133,20 @@ BOOST_AUTO_TEST_CASE(a_pair_is_armed_where_it_is_outside) {
 BOOST_AUTO_TEST_CASE(a_pair_that_comes_and_goes_within_a_step_is_seen) {
     ClosestApproach<2> moves_with_v({1.0, 1.0}, {}, 0.5, true),
         averaged({1.0, 1.0}, {}, 0.5, false);
-    // It passes at a distance of 0.499, 0.04 to the right and then as far to the left.
-    Points<2> before{{0.0, 0.04}, {0.0, 0.499}}, after{{0.0, -0.04}, {0.0, 0.499}},
-        v{{0.0, -0.8}, {0.0, 0.0}};
+    // It passes at a distance of 0.49999, from 0.01 on one side to as far on the other.
+    Points<2> before{{0.0, 0.01}, {0.0, 0.49999}}, after{{0.0, -0.01}, {0.0, 0.49999}},
+        v{{0.0, -0.2}, {0.0, 0.0}};
     moves_with_v.arm(0.0, before, v);
     averaged.arm(0.0, before, v);
-    BOOST_TEST(moves_with_v.distance(0.1, after, v) == 0.499 * 0.499 - 0.25,
-               boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(moves_with_v.distance(0.1, after, v) == 0.49999 * 0.49999 - 0.25,
+               boost::test_tools::tolerance(1e-9));
     BOOST_TEST(averaged.distance(0.1, after, v) > 0.0);  // where only ends count
 }
 
 BOOST_AUTO_TEST_CASE(a_pair_moved_by_an_averaged_velocity_passes_the_surface_once) {
     ClosestApproach<2> approach({1.0, 1.0}, {}, 0.5, false);
     const double at_surface = 0.5 * (1.0 + 1e-13);
-    Two two(0.6, 0.1), touching(at_surface, 0.1);
+    Two two(0.54, 0.1), touching(at_surface, 0.1);
     approach.arm(0.0, two.x, two.v);
     BOOST_TEST(approach.reflect(touching.x, touching.v) == 1U);
     BOOST_TEST(touching.v(0, 1) == 0.1);

@@ -71,9 +71,10 @@ class ClosestApproach {
 
     std::vector<double> mass_;
     Box<Dim> box_;
+    bool periodic_;
     double R_;
     bool moves_with_v_;
-    double share_ = 0.3;  ///< skin of the list, of R
+    double share_ = 0.1;  ///< skin of the list, of R
     std::unique_ptr<ClusterList<Dim>> list_;
     std::size_t served_ = 0;       ///< steps begun since the list was built
     std::vector<Numbers> near_;    ///< pairs closer than R + skin when the list was built
