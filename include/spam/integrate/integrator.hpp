@@ -69,7 +69,7 @@ class Integrator {
         std::size_t steps = 0;
         std::size_t rejected_steps = 0;
         std::size_t rhs_evaluations = 0;
-        std::size_t events = 0;
+        std::size_t events = 0;  ///< as Event::apply counts them
         double last_step = 0.0;
     };
     const Statistics& statistics() const { return statistics_; }
