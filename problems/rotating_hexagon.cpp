@@ -62,6 +62,7 @@ std::string title_of(ModelKind kind, const Scheme& scheme) {
     if (scheme.density == Density::summed) title += ", summed density";
     if (scheme.density == Density::chain_rule) title += ", chain rule";
     if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
+    if (scheme.closest_approach > 0.0) title += fmt::format(", R = {:g}", scheme.closest_approach);
     return title;
 }
 
@@ -111,7 +112,7 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
 bool is_standard(const Session& session, const Parameters& p, const Model<2>& model) {
     const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
     if (solid && (solid->scheme().range != 3.0 || solid->scheme().density == Density::summed ||
-                  solid->scheme().viscosity > 0.0))
+                  solid->scheme().viscosity > 0.0 || solid->scheme().closest_approach > 0.0))
         return false;
     const auto& integrator = session.integrator();
     return p.size == 8 && p.speed == 0.1 && p.turns == 1.0 && integrator.method == "rk4" &&

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <utility>
 
 namespace spam {
 namespace {
@@ -61,6 +62,7 @@ struct Arkode::Calls {
     decltype(&ERKStepSetErrHandlerFn) set_error_handler;
     decltype(&ERKStepSVtolerances) set_tolerances;
     decltype(&ERKStepSetFixedStep) set_fixed_step;
+    decltype(&ERKStepSetInitStep) set_init_step;
     decltype(&ERKStepSetStopTime) set_stop_time;
     decltype(&ERKStepSetMinStep) set_min_step;
     decltype(&ERKStepSetAdaptivityMethod) set_adaptivity;
@@ -73,8 +75,8 @@ namespace {
 #define SPAM_ARKODE_CALLS(S)                                                               \
     {                                                                                      \
         S##Evolve, S##Reset, S##Free, S##SetUserData, S##SetErrHandlerFn, S##SVtolerances, \
-            S##SetFixedStep, S##SetStopTime, S##SetMinStep, S##SetAdaptivityMethod,        \
-            S##GetNumErrTestFails, S##GetLastStep                                          \
+            S##SetFixedStep, S##SetInitStep, S##SetStopTime, S##SetMinStep,                \
+            S##SetAdaptivityMethod, S##GetNumErrTestFails, S##GetLastStep                  \
     }
 }  // namespace
 
@@ -84,7 +86,8 @@ Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, doub
       dt_(options.dt),
       t0_(t0),
       min_step_(options.min_step),
-      accepted_(y.clone()) {
+      accepted_(y.clone()),
+      watch_(ode) {
     static constexpr Calls erkstep = SPAM_ARKODE_CALLS(ERKStep);
     static constexpr Calls arkstep = SPAM_ARKODE_CALLS(ARKStep);
     const Table table = load_table(options.method);
@@ -156,20 +159,10 @@ void Arkode::stop(int flag) const {
     throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
 }
 
-double Arkode::step(double t_stop) {
-    double t_next = t_stop;
-    bool last = true;
-    if (dt_) {
-        const double grid = t0_ + static_cast<double>(n_ + 1) * *dt_;
-        last = grid >= t_stop - 1e-9 * *dt_;
-        if (last) check(calls_->set_fixed_step(memory_, t_stop - t_), "SetFixedStep");
-        if (!last) t_next = grid;
-    } else {
-        check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
-    }
+/// One step of ARKODE from the last accepted state, into y. Returns the time it reached.
+double Arkode::evolve(double t_stop) {
     double reached = t_;
-    const int flag =
-        calls_->evolve(memory_, t_stop + (dt_ ? *dt_ : 0.0), y_.get(), &reached, ARK_ONE_STEP);
+    const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);
         guard(y_.span(), reached);
@@ -177,18 +170,70 @@ double Arkode::step(double t_stop) {
         N_VScale(1.0, accepted_.get(), y_.get());
         throw;
     }
-    N_VScale(1.0, y_.get(), accepted_.get());
+    return reached;
+}
 
+/// Another step from the last accepted state, of length h.
+std::span<const double> Arkode::retake(double h) {
+    retaking_ = true;
+    check(calls_->reset(memory_, t_, accepted_.get()), "Reset");
+    check(calls_->set_fixed_step(memory_, h), "SetFixedStep");
+    evolve(t_ + 2.0 * h);
+    return y_.span();
+}
+
+/// From y at t, where an event ended the step before: in fixed steps, or beginning with one of h.
+void Arkode::restart(double h) {
+    check(calls_->reset(memory_, t_, y_.get()), "Reset");
+    check(calls_->set_fixed_step(memory_, dt_.value_or(0.0)), "SetFixedStep");
+    if (!dt_) check(calls_->set_init_step(memory_, h), "SetInitStep");
+    retaking_ = false;
+}
+
+/// One step from t, of length h to t_next where it is fixed, or the part of it before an event.
+void Arkode::take_piece(double h, double t_next) {
+    if (dt_ && h != *dt_) check(calls_->set_fixed_step(memory_, h), "SetFixedStep");
+    watch_.begin(t_, std::as_const(accepted_).span());
+    const double reached = evolve(t_next + dt_.value_or(0.0));
+    calls_->last_step(memory_, &statistics_.last_step);
+    if (!dt_) h = reached - t_;
+    const auto [length, due] =
+        watch_.first_piece(h, y_.span(), [this](double shorter) { return retake(shorter); });
+    if (length == 0.0) N_VScale(1.0, accepted_.get(), y_.get());
     // ARKODE adds up fixed steps; the grid is computed.
-    t_ = dt_ ? t_next : reached;
+    if (length == h)
+        t_ = dt_ ? t_next : reached;
+    else
+        t_ = std::min(t_ + length, t_next);
+    if (due) statistics_.events += watch_.apply(t_, y_.span());
+    N_VScale(1.0, y_.get(), accepted_.get());
+    if (length < h)
+        restart(h);
+    else if (dt_ && h != *dt_)
+        check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
+}
+
+double Arkode::step(double t_stop) {
+    double t_next = t_stop;
+    bool last = true;
+    if (dt_) {
+        const double grid = t0_ + static_cast<double>(n_ + 1) * *dt_;
+        last = grid >= t_stop - 1e-9 * *dt_;
+        if (!last) t_next = grid;
+        const bool on_grid = t_ == t0_ + static_cast<double>(n_) * *dt_;
+        const double whole = last || !on_grid ? t_next - t_ : *dt_;
+        for (double h = whole; t_ < t_next; h = t_next - t_) take_piece(h, t_next);
+        statistics_.last_step = whole;
+    } else {
+        check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
+        take_piece(0.0, t_stop);
+    }
     ++n_;
     ++statistics_.steps;
     long rejected = 0;
     calls_->rejected(memory_, &rejected);
     statistics_.rejected_steps = static_cast<std::size_t>(rejected);
-    calls_->last_step(memory_, &statistics_.last_step);
     if (dt_ && last) {
-        check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
         t0_ = t_;
         n_ = 0;
     }
@@ -199,6 +244,9 @@ void Arkode::reset(double t) {
     t_ = t0_ = t;
     n_ = 0;
     check(calls_->reset(memory_, t, y_.get()), "Reset");
+    // A step that failed while it was taken again has left its length behind.
+    if (dt_ || retaking_) check(calls_->set_fixed_step(memory_, dt_.value_or(0.0)), "SetFixedStep");
+    retaking_ = false;
     N_VScale(1.0, y_.get(), accepted_.get());
 }
 

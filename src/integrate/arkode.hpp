@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/integrate/integrator.hpp>
+#include "event_watch.hpp"
 
 #include <exception>
 
@@ -22,6 +22,10 @@ class Arkode final : public Integrator {
 
     void check(int flag, const char* call) const;
     [[noreturn]] void stop(int flag) const;
+    double evolve(double t_stop);
+    std::span<const double> retake(double h);
+    void take_piece(double h, double t_next);
+    void restart(double h);
     static int rates(double t, N_Vector y, N_Vector y_dot, void* self);
     static void remember_message(int code, const char* module, const char* function, char* message,
                                  void* self);
@@ -29,7 +33,9 @@ class Arkode final : public Integrator {
     std::optional<double> dt_;
     double t0_, min_step_;
     std::size_t n_ = 0;
+    bool retaking_ = false;  ///< ARKODE has the length of a step taken again
     Vector accepted_;  ///< y of the last accepted step: an ARKODE failure may leave y overwritten
+    EventWatch watch_;
     const Calls* calls_ = nullptr;
     void* memory_ = nullptr;
     std::string message_;

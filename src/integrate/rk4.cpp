@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace spam {
 
 Rk4::Rk4(const Ode& ode, Vector& y, double t0, double dt)
@@ -12,7 +15,8 @@ Rk4::Rk4(const Ode& ode, Vector& y, double t0, double dt)
       dt_(dt),
       t0_(t0),
       k_{y.clone(), y.clone(), y.clone(), y.clone()},
-      z_(y.clone()) {}
+      z_(y.clone()),
+      watch_(ode) {}
 
 void Rk4::stage(double t, const Vector& at, std::size_t k) {
     ++statistics_.rhs_evaluations;
@@ -21,13 +25,8 @@ void Rk4::stage(double t, const Vector& at, std::size_t k) {
     if (!reason.empty()) throw GuardStop(fmt::format("{} at t = {:.6g}", reason, t));
 }
 
-double Rk4::step(double t_stop) {
-    double t_next = t0_ + static_cast<double>(n_ + 1) * dt_;
-    const bool last = t_next >= t_stop - 1e-9 * dt_;
-    if (last) t_next = t_stop;
-    const double h = last ? t_stop - t_ : dt_;
-
-    stage(t_, y_, 0);
+/// The state after h, from y and the first stage there.
+std::span<const double> Rk4::advance(double h) {
     N_VLinearSum(1.0, y_.get(), 0.5 * h, k_[0].get(), z_.get());
     stage(t_ + 0.5 * h, z_, 1);
     N_VLinearSum(1.0, y_.get(), 0.5 * h, k_[1].get(), z_.get());
@@ -38,10 +37,32 @@ double Rk4::step(double t_stop) {
     std::array<double, 5> c{1.0, h / 6.0, h / 3.0, h / 3.0, h / 6.0};
     std::array<N_Vector, 5> v{y_.get(), k_[0].get(), k_[1].get(), k_[2].get(), k_[3].get()};
     N_VLinearCombination(5, c.data(), v.data(), z_.get());
-    guard(z_.span(), t_next);
-    N_VScale(1.0, z_.get(), y_.get());
+    guard(z_.span(), t_ + h);
+    return z_.span();
+}
 
-    t_ = t_next;
+/// A step of length h to t_next, in pieces where events are due.
+void Rk4::take_pieces(double h, double t_next) {
+    while (t_ < t_next) {
+        watch_.begin(t_, std::as_const(y_).span());
+        stage(t_, y_, 0);
+        const auto z = advance(h);
+        const auto [length, due] =
+            watch_.first_piece(h, z, [this](double shorter) { return advance(shorter); });
+        if (length > 0.0) N_VScale(1.0, z_.get(), y_.get());
+        t_ = length == h ? t_next : std::min(t_ + length, t_next);
+        if (due) statistics_.events += watch_.apply(t_, y_.span());
+        h = t_next - t_;
+    }
+}
+
+double Rk4::step(double t_stop) {
+    double t_next = t0_ + static_cast<double>(n_ + 1) * dt_;
+    const bool last = t_next >= t_stop - 1e-9 * dt_;
+    if (last) t_next = t_stop;
+    const bool on_grid = t_ == t0_ + static_cast<double>(n_) * dt_;
+    const double h = last || !on_grid ? t_next - t_ : dt_;
+    take_pieces(h, t_next);
     ++n_;
     if (last) reset(t_stop);
     ++statistics_.steps;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/integrate/integrator.hpp>
+#include "event_watch.hpp"
 
 #include <array>
 
@@ -18,11 +18,14 @@ class Rk4 final : public Integrator {
 
   private:
     void stage(double t, const Vector& at, std::size_t k);
+    std::span<const double> advance(double h);
+    void take_pieces(double h, double t_next);
 
     double dt_, t0_;
     std::size_t n_ = 0;
     std::array<Vector, 4> k_;
     Vector z_;
+    EventWatch watch_;
 };
 
 }  // namespace spam

@@ -35,6 +35,7 @@ void write_statistics(const RunFolder& folder, const RunStatistics& s) {
     json["steps"] = s.steps;
     json["rejected_steps"] = s.rejected_steps;
     json["rhs_evaluations"] = s.rhs_evaluations;
+    json["events"] = s.events;
     json["wall_seconds"] = s.wall_seconds;
     json["pair_interactions"] = s.pair_interactions;
     json["version"] = version();

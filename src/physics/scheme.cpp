@@ -11,6 +11,10 @@ namespace spam {
 void Scheme::validate(int dim) const {
     if (!(range > 0.0) || !std::isfinite(range))
         throw InputError(fmt::format("range: {} is not a positive length; try --range 3", range));
+    if (!(closest_approach >= 0.0) || !std::isfinite(closest_approach))
+        throw InputError(fmt::format(
+            "closest-approach: {} is not a distance; try --closest-approach 0.7, or 0 for none",
+            closest_approach));
     if (density == Density::chain_rule && transport == Transport::plain)
         throw InputError(
             "density: chain_rule differs from continuity only when particles move with an averaged "
@@ -38,6 +42,8 @@ std::string Scheme::describe() const {
     std::string more;
     if (balance == Balance::global) more += " over all bodies";
     if (viscosity > 0.0) more += fmt::format(", viscosity {}", viscosity);
+    if (closest_approach > 0.0)
+        more += fmt::format(", approaching pairs reflected at {}", closest_approach);
     return fmt::format(
         "density {}, transport {}, {} mean density, angular momentum {}{}, {} weight of range {}",
         to_string(density), to_string(transport), to_string(mean_density),

@@ -57,9 +57,9 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
-    static const std::vector<std::string> names{"density",          "transport", "mean-density",
-                                                "angular-momentum", "balance",   "gauss-singular",
-                                                "viscosity"};
+    static const std::vector<std::string> names{
+        "density", "transport",      "mean-density", "angular-momentum",
+        "balance", "gauss-singular", "viscosity",    "closest-approach"};
     return names;
 }
 
@@ -92,6 +92,8 @@ void Problem::use_scheme(const Scheme& standard) {
                                    "where Gauss' denominator vanishes: go on without, or stop");
     options_.number("viscosity", scheme_.viscosity, "alpha of von Neumann's viscosity; 0: none",
                     non_negative());
+    options_.number("closest-approach", scheme_.closest_approach,
+                    "distance at which approaching pairs are reflected; 0: none", non_negative());
     options_.group("Problem");
 }
 

@@ -41,6 +41,7 @@ Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
                            component_name<Dim>(entry.field, entry.component),
                            model.particles().id[entry.particle]);
     };
+    if (auto event = model.event()) ode.events.push_back(std::move(*event));
     ode.absolute_tolerance.resize(model.layout().size());
     for (const auto& block : model.layout().blocks())
         std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
@@ -102,6 +103,7 @@ void Run<Dim>::complete() {
     s.steps = statistics().steps;
     s.rejected_steps = statistics().rejected_steps;
     s.rhs_evaluations = statistics().rhs_evaluations;
+    s.events = statistics().events;
     s.wall_seconds = seconds();
     record_.history = recorder_.history();
     record_.drifts = drifts();

@@ -90,6 +90,7 @@ int Session::finish() {
             total.steps += statistics_[k].steps;
             total.rejected_steps += statistics_[k].rejected_steps;
             total.rhs_evaluations += statistics_[k].rhs_evaluations;
+            total.events += statistics_[k].events;
             total.wall_seconds += statistics_[k].wall_seconds;
             total.pair_interactions += statistics_[k].pair_interactions;
             if (total.stopped.empty()) total.stopped = statistics_[k].stopped;

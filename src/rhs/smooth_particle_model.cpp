@@ -9,6 +9,7 @@
 #include <spam/core/sums.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/neighbors/pair_list.hpp>
+#include <spam/physics/closest_approach.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 
@@ -70,6 +71,11 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
       packed_(packed_with(ListUse::again_and_again)) {
     valid_range(scheme.range, this->particles().spacing);
+    if (scheme.closest_approach >= this->particles().spacing)
+        throw InputError(fmt::format(
+            "closest-approach: {} must be below the particle spacing {}: particles that are "
+            "nearer from the start are not reflected; 0.5 to 0.9 spacings are usual",
+            scheme.closest_approach, this->particles().spacing));
     const std::size_t n = this->particles().size();
     if (sweeps_->density != nullptr) summed_density_.resize(n);
     const AngularMomentum law = scheme.angular_momentum;
@@ -256,6 +262,15 @@ std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y)
     if (sweeps_->density == nullptr) return Model<Dim>::density(y);
     return packed_with(ListUse::once)
         ->summed_density(sweeps_->density, this->particles().size(), fields(y));
+}
+
+template <int Dim>
+std::optional<Event> SmoothParticleModel<Dim>::event() const {
+    if (scheme_.closest_approach == 0.0) return std::nullopt;
+    return closest_approach_event<Dim>(
+        {this->particles().mass, this->box(), scheme_.closest_approach,
+         scheme_.transport == Transport::plain},
+        this->layout());
 }
 
 template <int Dim>

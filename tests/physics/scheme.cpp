@@ -4,6 +4,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+
 using namespace spam;
 
 BOOST_AUTO_TEST_CASE(combinations_without_meaning_are_refused) {
@@ -14,6 +16,9 @@ BOOST_AUTO_TEST_CASE(combinations_without_meaning_are_refused) {
                       InputError);
     BOOST_CHECK_THROW((Scheme{.range = 0.0}.validate(2)), InputError);
     BOOST_CHECK_THROW((Scheme{.range = -3.0}.validate(2)), InputError);
+    BOOST_CHECK_THROW((Scheme{.closest_approach = -0.5}.validate(2)), InputError);
+    BOOST_CHECK_THROW((Scheme{.closest_approach = std::nan("")}.validate(2)), InputError);
+    BOOST_CHECK_THROW((Scheme{.closest_approach = HUGE_VAL}.validate(2)), InputError);
     BOOST_CHECK_NO_THROW(
         (Scheme{.density = Density::chain_rule, .transport = Transport::average}.validate(3)));
 }
@@ -36,4 +41,7 @@ BOOST_AUTO_TEST_CASE(description_names_every_choice) {
                                   .describe();
     for (const char* word : {"summed", "monaghan", "geometric", "torque_pair", "lucy", "2.5"})
         BOOST_TEST((words.find(word) != std::string::npos), word << " in " << words);
+    BOOST_TEST((words.find("reflected") == std::string::npos));  // said only where it is chosen
+    BOOST_TEST((Scheme{.closest_approach = 0.75}.describe().find("reflected at 0.75") !=
+                std::string::npos));
 }

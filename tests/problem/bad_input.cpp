@@ -86,7 +86,6 @@ BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
 BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
     check_all({
         {{"--restart", "checkpoint_0001.h5"}, {"--restart"}},
-        {{"--closest-approach", "0.5"}, {"--closest-approach"}},
         {{"--kernel", "monaghan"}, {"kernel", "monaghan", "lucy"}},
         {{"--kernel", "w4"}, {"kernel", "w4", "lucy"}},
         {{"--integrator", "gsl:rk8pd"}, {"integrator", "gsl:rk8pd", "rk4"}},
@@ -101,6 +100,10 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--balance", "global"}, {"balance", "free", "torque_pair"}},
         {{"--gauss-singular", "stop", "--angular-momentum", "torque_pair"},
          {"gauss-singular", "torque_pair", "gauss"}},
+        {{"--closest-approach", "-0.5"}, {"closest-approach", "-0.5", "0"}},
+        {{"--closest-approach", "nan"}, {"closest-approach", "nan"}},
+        {{"--closest-approach", "1"}, {"closest-approach", "1", "spacing", "0.5 to 0.9"}},
+        {{"--model", "md", "--closest-approach", "0.5"}, {"closest-approach", "md"}},
         {{"--range", "-1"}, {"range", "-1", "above 0"}},
         {{"--range", "0"}, {"range", "0", "above 0"}},
         {{"--range", "nan"}, {"range", "nan", "above 0"}},

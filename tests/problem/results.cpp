@@ -53,9 +53,9 @@ double check_invariants(const std::filesystem::path& file) {
 void check_statistics(const nlohmann::json& statistics) {
     Words keys;
     for (const auto& item : statistics.items()) keys.push_back(item.key());
-    const Words expected{"pair_interactions", "particles", "problem", "rejected_steps",
-                         "rhs_evaluations",   "steps",     "t_end",   "version",
-                         "wall_seconds"};  // and no "stopped"
+    const Words expected{"events",         "pair_interactions", "particles", "problem",
+                         "rejected_steps", "rhs_evaluations",   "steps",     "t_end",
+                         "version",        "wall_seconds"};  // and no "stopped"
     BOOST_TEST(keys == expected, boost::test_tools::per_element());
     BOOST_TEST(statistics["problem"] == "rotating_hexagon");
     BOOST_TEST(statistics["wall_seconds"].get<double>() > 0.0);
@@ -90,6 +90,7 @@ BOOST_AUTO_TEST_CASE(a_single_run) {
     BOOST_TEST(statistics["steps"] == 189);
     BOOST_TEST(statistics["rhs_evaluations"] == 4 * 189);
     BOOST_TEST(statistics["rejected_steps"] == 0);
+    BOOST_TEST(statistics["events"] == 0);
     BOOST_TEST(statistics["t_end"].get<double>() == t_end, boost::test_tools::tolerance(1e-15));
     check_results(json_of(run / "result.json"));
     const std::string log = contents_of(run / "run.log");
@@ -98,6 +99,17 @@ BOOST_AUTO_TEST_CASE(a_single_run) {
     BOOST_TEST(log.find('\x1b') == std::string::npos);
     for (const auto& [name, text] : run.folder.listing())
         BOOST_TEST(!name.ends_with(".tmp"), name << " is left over");
+}
+
+BOOST_AUTO_TEST_CASE(a_run_with_reflections_counts_them) {
+    const Run run({"--smoke", "--closest-approach", "0.995"});
+    const auto statistics = json_of(run / "statistics.json");
+    check_statistics(statistics);
+    BOOST_TEST(statistics["steps"] == 189);
+    BOOST_TEST(statistics["events"] > 10);
+    BOOST_TEST(statistics["rhs_evaluations"] > 4 * 189);
+    check_results(json_of(run / "result.json"));
+    BOOST_TEST(contents_of(run / "run.log").find("reflected at 0.995") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(the_comparison) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/event.hpp>
 #include <spam/core/nvector.hpp>
 
 #include <cstddef>
@@ -23,6 +24,8 @@ struct Ode {
     std::function<std::string(std::size_t k)> entry_name;
     /// Absolute tolerance of every entry of y; used by adaptive methods.
     std::vector<double> absolute_tolerance;
+    /// What changes y at single times.
+    std::vector<Event> events{};
 };
 
 /// How to integrate. `dt` unset with an arkode method means adaptive steps.
@@ -43,8 +46,10 @@ struct IntegratorOptions {
 /// The step contract. An integrator is bound to one Ode and one state vector y:
 /// - step(t_stop) advances y by one accepted step, not past t_stop, and returns the new time;
 /// - after it y is finite; where it could not be, GuardStop is thrown with the reason and y and t
-/// are
-///   those of the last accepted step;
+///   are those of the last accepted step, or of the last event since;
+/// - an event of the ode is applied at its time, all that are due within a step one after the other.
+///   An adaptive step ends at an event, a fixed one takes the rest of its way to the grid: what
+///   observers see lies after the events. Where events no longer let time go on, GuardStop;
 /// - lands_on_stops(): whether steps may be shortened to hit intermediate times (adaptive methods);
 ///   a fixed-step method keeps its grid t_n = t_0 + n dt and shortens only the step that reaches
 ///   t_stop;
@@ -64,6 +69,7 @@ class Integrator {
         std::size_t steps = 0;
         std::size_t rejected_steps = 0;
         std::size_t rhs_evaluations = 0;
+        std::size_t events = 0;  ///< as Event::apply counts them
         double last_step = 0.0;
     };
     const Statistics& statistics() const { return statistics_; }

@@ -29,6 +29,7 @@ struct RunStatistics {
     std::size_t steps = 0;
     std::size_t rejected_steps = 0;
     std::size_t rhs_evaluations = 0;
+    std::size_t events = 0;  ///< between steps: reflections of pairs
     double wall_seconds = 0.0;
     std::size_t pair_interactions = 0;  ///< undirected pairs summed over, all right-hand sides
     std::string stopped;                ///< empty for a complete run

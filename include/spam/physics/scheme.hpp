@@ -38,7 +38,8 @@ struct Scheme {
     AngularMomentum angular_momentum = AngularMomentum::free;
     Balance balance = Balance::body;
     GaussSingular gauss_singular = GaussSingular::skip;
-    double viscosity = 0.0;  ///< von Neumann's artificial viscosity: alpha; 0 without
+    double viscosity = 0.0;         ///< von Neumann's artificial viscosity: alpha; 0 without
+    double closest_approach = 0.0;  ///< distance at which approaching pairs are reflected; 0: none
     Kernel kernel = Kernel::lucy;
     double range = 3.0;
 

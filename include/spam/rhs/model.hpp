@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/event.hpp>
 #include <spam/core/particles.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/physics/scheme.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -41,6 +43,9 @@ class Model {
 
     /// Densities of all particles; empty for a model without density.
     virtual std::vector<double> density(std::span<const double> y) const;
+
+    /// What changes y between steps, if anything does; for one run, and no longer than the model.
+    virtual std::optional<Event> event() const { return std::nullopt; }
 
     virtual Promises promises() const = 0;
     virtual std::string describe() const = 0;  ///< one line for banner and dry run

@@ -27,8 +27,9 @@ template <int Dim>
 class SmoothParticleModel final : public Model<Dim> {
   public:
     /// `material`: any stress law (stress_law.hpp). Throws InputError when the scheme makes no
-    /// sense here (Scheme::validate), the range does not reach a neighbour, a periodic box is not wider
-    /// than twice the range, or the law tells no sound speed and the scheme has viscosity.
+    /// sense here (Scheme::validate), the range does not reach a neighbour, pairs are to be reflected at
+    /// the spacing or beyond, a periodic box is not wider than twice the range, or the law tells no
+    /// sound speed and the scheme has viscosity.
     SmoothParticleModel(Particles<Dim> particles, const Material<Dim>& material,
                         const Scheme& scheme, const Box<Dim>& box = {});
 
@@ -37,6 +38,8 @@ class SmoothParticleModel final : public Model<Dim> {
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
     double internal_energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
+    /// The restriction of the distance of closest approach, where the scheme has one.
+    std::optional<Event> event() const override;
     Promises promises() const override { return scheme_.promises(Dim); }
     std::string describe() const override;
     std::size_t pairs() const override;
