@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/io/run_folder.hpp>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spam {
+
+/// One row of a study: its name (the first cell) and how to compute the other cells. Nothing comes
+/// back where the computation was interrupted.
+struct StudyTask {
+    std::string name;
+    std::function<std::optional<std::vector<std::string>>()> compute;
+};
+
+/// A table computed row by row over the cores. Each row is on disk (flushed to the device) as soon as
+/// it is known, in <name>.part.csv, so that a study that was killed goes on where it was; complete, it
+/// becomes <name>.csv with the rows in the order of the tasks.
+class StudyTable {
+  public:
+    using Row = std::vector<std::string>;
+
+    /// Reads what an earlier, unfinished study left there; a last line that is torn does not count.
+    /// Throws InputError where its columns are others.
+    StudyTable(const RunFolder& folder, std::string name, std::vector<std::string> columns);
+
+    /// Whether a study of that name was begun in the folder and not finished.
+    static bool unfinished(const std::filesystem::path& folder, std::string_view name);
+
+    std::size_t known() const { return rows_.size(); }
+
+    /// Computes the rows that are not there, `threads` at a time; `on_row` is called in this thread
+    /// with the number of rows known, and now and then without news. An exception of a task, or
+    /// OutputError, ends it after the tasks under way. Returns whether all rows are there; then the
+    /// table is complete on disk.
+    bool run(const std::vector<StudyTask>& tasks, int threads,
+             const std::function<void(std::size_t known)>& on_row);
+
+    /// Rows known, in the order of the tasks.
+    std::vector<Row> rows(const std::vector<StudyTask>& tasks) const;
+
+  private:
+    void append(const Row& row);
+    std::filesystem::path part() const { return folder_ / (name_ + ".part.csv"); }
+
+    RunFolder folder_;
+    std::string name_;
+    std::vector<std::string> columns_;
+    std::map<std::string, Row> rows_;
+};
+
+/// Cells as a line of CSV: those with a comma or quotation marks are quoted; line ends become spaces.
+std::string csv_line(const std::vector<std::string>& cells);
+/// The cells of such a line, without its end.
+std::vector<std::string> csv_cells(std::string_view line);
+
+}  // namespace spam

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: the 72 algorithm combinations of the 2004 paper on the rotating hexagon; 4 min on 2 cores
+//
+// All combinations of [HHM04] IX on the rotating hexagon:
+//
+//     closest approach    none | reflected at R                     2
+//     viscosity           none | alpha                              2
+//     density             continuity | summed                       2
+//     transport           v | <v> | <v>_Monaghan                    3
+//     angular momentum    Gauss | torques of particles | of pairs   3      2 x 2 x 2 x 3 x 3 = 72
+//
+// Each turns until its shape is lost (rms distance from the best-fit hexagon half a spacing) or it has
+// clumped (two particles nearer than 0.3 spacings), at most `turns` turns; the first turn is always
+// completed. One row of sweep.csv each. A sweep that was stopped, even by kill -9, goes on with the
+// same command.
+#include <spam/io/study_table.hpp>
+#include <spam/problem/run_in_memory.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace {
+
+using namespace spam;
+using std::numbers::pi;
+
+constexpr double shape_lost = 0.5, clumped = 0.3;  // spacings
+
+struct Parameters {
+    int size = 8;
+    double speed = 0.1, turns = 10.0, range = 3.0;
+    double viscosity = 1.0, closest_approach = 0.7;
+    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+
+    double omega() const { return speed / size; }
+    double turn() const { return 2.0 * pi / omega(); }
+};
+
+const std::vector<std::string> columns{"case",           "closest_approach",
+                                       "viscosity",      "density",
+                                       "transport",      "angular_momentum",
+                                       "turns_survived", "end",
+                                       "L_after_turn",   "L_final",
+                                       "energy_change",  "shape_error_after_turn",
+                                       "closest_pair",   "t_end",
+                                       "steps",          "events",
+                                       "promise",        "seconds"};
+
+/// In the order of the paper's list, the last varying fastest.
+std::vector<Scheme> combinations(const Parameters& p) {
+    std::vector<Scheme> all;
+    for (const double closest : {0.0, p.closest_approach})
+        for (const double viscosity : {0.0, p.viscosity})
+            for (const auto density : {Density::continuity, Density::summed})
+                for (const auto transport :
+                     {Transport::plain, Transport::average, Transport::monaghan})
+                    for (const auto law : {AngularMomentum::gauss, AngularMomentum::torque_particle,
+                                           AngularMomentum::torque_pair})
+                        all.push_back({.density = density,
+                                       .transport = transport,
+                                       .angular_momentum = law,
+                                       .viscosity = viscosity,
+                                       .closest_approach = closest,
+                                       .range = p.range});
+    return all;
+}
+
+/// Row at which the hexagon is lost, the number of rows if never.
+std::size_t lost_at(const History& h) {
+    const auto shape = h.column("shape_error"), closest = h.column("closest_pair");
+    std::size_t k = 0;
+    while (k < shape.size() && shape[k] < shape_lost && closest[k] > clumped) ++k;
+    return k;
+}
+
+std::string why_lost(const History& h, std::size_t row) {
+    const bool near = h.column("closest_pair")[row] <= clumped;
+    const bool deformed = h.column("shape_error")[row] >= shape_lost;
+    return near && deformed ? "clumped and deformed" : near ? "clumped" : "deformed";
+}
+
+std::string broken_promises(const RunRecord& run) {
+    std::string broken;
+    for (const Drift& drift : run.drifts)
+        if (!drift.kept()) broken += (broken.empty() ? "broken: " : " and ") + drift.name;
+    return broken.empty() ? "kept" : broken;
+}
+
+/// Nothing where a signal interrupted it.
+std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const Scheme& scheme,
+                                                     const IntegratorOptions& integrator) {
+    SmoothParticleModel<2> model(make_particles<2>(triangular_hexagon(p.size), 1.0),
+                                 ElasticSolid::triangular_lattice(), scheme);
+    auto y0 = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
+                               rigid_rotation(p.omega()));
+    Plan<2> plan;
+    plan.t_end = p.turns * p.turn();
+    plan.output_every = p.turn() / 48.0;
+    plan.snapshot_every = plan.t_end;
+    plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
+    plan.enough = [&p](const History& h) {
+        return h.last("t") >= 0.999 * p.turn() &&
+               (h.last("shape_error") >= shape_lost || lost_at(h) < h.rows().size());
+    };
+    const RunRecord run = run_in_memory<2>({model, std::move(y0), std::move(plan)}, integrator);
+    const std::string& stopped = run.statistics.stopped;
+    if (stopped.starts_with("signal")) return {};
+
+    const History& h = run.history;
+    const std::size_t lost = lost_at(h);
+    const bool survived = lost == h.rows().size();
+    const double turns = (survived ? h.last("t") : h.column("t")[lost]) / p.turn();
+    const double one_turn = std::min(p.turn(), h.last("t")), L0 = h.first("angular_momentum");
+    const auto number = [](double x) { return fmt::format("{:.6g}", x); };
+    return std::vector<std::string>{
+        scheme.closest_approach > 0.0 ? number(scheme.closest_approach) : "none",
+        scheme.viscosity > 0.0 ? number(scheme.viscosity) : "none",
+        std::string(to_string(scheme.density)),
+        std::string(to_string(scheme.transport)),
+        std::string(to_string(scheme.angular_momentum)),
+        number(turns),
+        !stopped.empty() ? "stopped: " + stopped
+        : survived       ? "whole"
+                         : why_lost(h, lost),
+        number(h.at(one_turn, "angular_momentum") / L0),
+        number(h.last("angular_momentum") / L0),
+        number(h.largest_change("energy") / std::abs(h.first("energy"))),
+        number(h.at(one_turn, "shape_error")),
+        number(h.smallest("closest_pair")),
+        number(run.statistics.t_end),
+        fmt::format("{}", run.statistics.steps),
+        fmt::format("{}", run.statistics.events),
+        broken_promises(run),
+        fmt::format("{:.2f}", run.statistics.wall_seconds)};
+}
+
+std::string name_of(const Scheme& s) {
+    return fmt::format(
+        "{}{}{}-{}-{}", to_string(s.density), s.closest_approach > 0.0 ? "-reflected" : "",
+        s.viscosity > 0.0 ? "-viscous" : "", to_string(s.transport), to_string(s.angular_momentum));
+}
+
+double cell(const StudyTable::Row& row, const char* column) {
+    const auto k = std::find(columns.begin(), columns.end(), column) - columns.begin();
+    return std::stod(row[static_cast<std::size_t>(k)]);
+}
+const std::string& words(const StudyTable::Row& row, const char* column) {
+    const auto k = std::find(columns.begin(), columns.end(), column) - columns.begin();
+    return row[static_cast<std::size_t>(k)];
+}
+
+/// Cells: turns survived, and L after one turn.
+void draw(Session& session, const Parameters& p, const std::vector<StudyTable::Row>& rows) {
+    HeatMap map;
+    map.rows = {{"closest approach", {"none", fmt::format("R = {:g}", p.closest_approach)}},
+                {"viscosity", {"none", fmt::format("α = {:g}", p.viscosity)}},
+                {"density", {"continuity", "summed"}}};
+    map.columns = {{"transport", {"v", "⟨v⟩", "⟨v⟩ Monaghan"}},
+                   {"angular momentum", {"Gauss", "particle", "pair"}}};
+    map.value_label = "turns survived";
+    map.log_value = true;
+    for (const auto& row : rows) {
+        map.value.push_back(cell(row, "turns_survived"));
+        map.text.push_back(fmt::format("{:.2g}{}\nL {:.2f}", cell(row, "turns_survived"),
+                                       words(row, "end") == "whole" ? "+" : "",
+                                       cell(row, "L_after_turn")));
+    }
+    session.note_drawn(draw_heat_map(
+        session.plots_folder(), "sweep",
+        fmt::format("72 algorithms: turns until the hexagon (n = {}) is lost, L/L_0 after one turn",
+                    p.size),
+        map));
+}
+
+/// Best first, as a table in words.
+void say_ranking(Session& session, std::vector<StudyTable::Row> rows) {
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+        return cell(a, "turns_survived") > cell(b, "turns_survived");
+    });
+    auto& terminal = session.terminal();
+    terminal.say("");
+    terminal.say(
+        fmt::format("{:<52}{:>6}  {:>9}  {:>8}  {}", "case", "turns", "L(1 turn)", "dE/E", "end"));
+    for (std::size_t k = 0; k < std::min<std::size_t>(rows.size(), 12); ++k)
+        terminal.say(fmt::format("{:<52}{:>6.2f}  {:>9.4f}  {:>8.0e}  {}", rows[k].front(),
+                                 cell(rows[k], "turns_survived"), cell(rows[k], "L_after_turn"),
+                                 cell(rows[k], "energy_change"), words(rows[k], "end")));
+    terminal.say(fmt::format("... all {} in sweep.csv", rows.size()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("algorithm_sweep", "the 72 algorithm combinations of [HHM04] IX");
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("size", p.size, "of the hexagon: 1 + 3n + 3n^2 particles", between(1, 200));
+    options.number("speed", p.speed, "speed of its corners", positive());
+    options.number("turns", p.turns, "nominal turns at most", at_least(1.0));
+    options.number("range", p.range, "of Lucy's weight function", positive());
+    options.number("viscosity", p.viscosity, "alpha, where there is viscosity", positive());
+    options.number("closest-approach", p.closest_approach, "R, where pairs are reflected",
+                   positive());
+    options.integer("jobs", p.jobs, "combinations computed at a time", between(1, 1024));
+    options.exclude_from_case({"jobs"});
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke) {
+            if (!session.given("size")) p.size = 2;
+            if (!session.given("turns")) p.turns = 1.0;
+        }
+        const auto schemes = combinations(p);
+        std::vector<StudyTask> tasks;
+        for (const Scheme& scheme : schemes) {
+            scheme.validate(2);
+            tasks.push_back({name_of(scheme), [&p, &session, scheme] {
+                                 return turn_hexagon(p, scheme, session.integrator());
+                             }});
+        }
+        StudyTable table = session.begin_study(
+            "sweep", columns,
+            {fmt::format(
+                "{} combinations, hexagon of {} particles, at most {:g} turns, {} at a time",
+                tasks.size(), 1 + 3 * p.size * (p.size + 1), p.turns, p.jobs)});
+        if (!session.run_study(table, tasks, p.jobs)) return;
+
+        const auto rows = table.rows(tasks);
+        say_ranking(session, rows);
+        double best = 0.0, kept = 0.0, worst_pair = 0.0, whole = 0.0;
+        for (const auto& row : rows) {
+            best = std::max(best, cell(row, "turns_survived"));
+            kept += words(row, "promise") == "kept" ? 1.0 : 0.0;
+            whole += words(row, "end") == "whole" ? 1.0 : 0.0;
+            if (words(row, "angular_momentum") == "torque_pair" &&
+                words(row, "transport") != "plain" && words(row, "closest_approach") == "none")
+                worst_pair = std::max(worst_pair, std::abs(cell(row, "L_final") - 1.0));
+        }
+        session.check({"combinations", static_cast<double>(rows.size()), 72.0, 0.0,
+                       "[HHM04] IX: 2 x 2 x 2 x 3 x 3"});
+        session.check({"pair_torque_largest_L_change", worst_pair, 0.0, 1e-8,
+                       "[HHM04] VIII: exact, with averaged velocities"});
+        session.check({"promises_kept", kept, {}, 0.0, "of the 72"});
+        session.check({"whole_to_the_end", whole, {}, 0.0, "of the 72"});
+        session.check({"turns_survived_best", best, {}, 0.0, "measured"});
+        if (session.plots()) draw(session, p, rows);
+    });
+}
