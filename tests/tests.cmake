@@ -20,6 +20,7 @@ spam_test(integrate/methods unit)
 spam_test(diagnostics/measures unit)
 spam_test(drift/hexagon drift)
 spam_test(io/text unit)
+spam_test(io/pictures unit)
 spam_test(style/house_rules style)
 target_compile_definitions(test.style.house_rules PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 
