@@ -61,7 +61,8 @@ void draw_momentum(Session& session, const std::vector<Hexagon>& hexagons,
         panel.curves.push_back({hexagons[k].title, runs[k].history.column("t"),
                                 runs[k].history.column("angular_momentum")});
     session.note_drawn(draw_curves(session.plots_folder(), "figure_6",
-                                   "[HHM04] Fig. 6: averaged velocities lose angular momentum",
+                                   fmt::format("[HHM04] Fig. 6: {} particles",
+                                               runs.front().statistics.particles),
                                    {panel}));
 }
 

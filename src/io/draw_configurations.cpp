@@ -12,7 +12,7 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double side = 340.0, bar = 90.0, top = 50.0;  // of a frame, of the colour bar, the title
+constexpr double side = 340.0, bar = 112.0, top = 50.0;  // of a frame, of the colour bar, the title
 
 /// What all frames have in common.
 struct Extent {
@@ -73,8 +73,8 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         "set multiplot title \"{}\" font ',15' offset 0,-0.2\n"
         "set cbrange [{:g}:{:g}]\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
         "unset tics\nunset key\nset border lc rgb '#bbbbbb'\nset style fill solid 1 noborder\n",
-        escaped(title), e.low, e.high, -1.1 * e.reach, 1.1 * e.reach, -1.02 * e.reach,
-        1.18 * e.reach);  // titles on top
+        escaped(title), e.low, e.high, -1.13 * e.reach, 1.13 * e.reach, -1.03 * e.reach,
+        1.23 * e.reach);  // titles on top
     int block = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const auto& panel = panels[k];
@@ -93,14 +93,15 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         script += fmt::format(
             "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
             "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
-            "set label 1 \"{}\" at graph 0.5,0.957 center font ',12'\n",
+            "set label 1 \"{}\" at graph 0.5,0.962 center font ',12'\n",
             left + 6 / width, left + (side - 6) / width, bottom + 6 / height,
             bottom + (side - 6) / height, escaped(panel.title));
         script += k == 0
                       ? fmt::format(
                             "set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
-                            "set cbtics font ',11'\nset cblabel \"{}\" font ',12'\n",
-                            1.0 - (bar - 8) / width, 0.25, 16 / width, 0.5, escaped(colour_label))
+                            "set cbtics font ',11' tc rgb 'black'\nset cblabel \"{}\" font ',12' "
+                            "tc rgb 'black'\n",
+                            1.0 - (bar - 12) / width, 0.25, 16 / width, 0.5, escaped(colour_label))
                       : std::string("unset colorbox\n");
         script += fmt::format(
             "plot '{0}.dat' index {1} using 1:2:({2:.5g}):3 with circles fc palette{3}\n", name,

@@ -55,12 +55,12 @@ const std::string_view palette =
     "'#fde725')\n";
 
 const std::string_view line_styles =
-    "set style line 1 lw 2.5 lc rgb '#000000' pt 7 ps 0.5\n"
-    "set style line 2 lw 2.5 lc rgb '#d55e00' pt 7 ps 0.5\n"
-    "set style line 3 lw 2.5 lc rgb '#0072b2' pt 7 ps 0.5\n"
-    "set style line 4 lw 2.5 lc rgb '#009e73' dt 2 pt 7 ps 0.5\n"
-    "set style line 5 lw 2.5 lc rgb '#cc79a7' pt 7 ps 0.5\n"
-    "set style line 6 lw 2.5 lc rgb '#e69f00' pt 7 ps 0.5\n";
+    "set style line 1 lw 2.5 lc rgb '#000000' pt 7 ps 0.7\n"
+    "set style line 2 lw 2.5 lc rgb '#d55e00' pt 7 ps 0.7\n"
+    "set style line 3 lw 2.5 lc rgb '#0072b2' pt 7 ps 0.7\n"
+    "set style line 4 lw 2.5 lc rgb '#009e73' dt 2 pt 7 ps 0.7\n"
+    "set style line 5 lw 2.5 lc rgb '#cc79a7' pt 7 ps 0.7\n"
+    "set style line 6 lw 2.5 lc rgb '#e69f00' pt 7 ps 0.7\n";
 
 bool draw(const RunFolder& folder, std::string_view name, const std::string& script,
           const std::string& data) {
