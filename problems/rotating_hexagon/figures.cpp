@@ -60,10 +60,9 @@ void draw_momentum(Session& session, const std::vector<Hexagon>& hexagons,
     for (std::size_t k = 0; k < runs.size(); ++k)
         panel.curves.push_back({hexagons[k].title, runs[k].history.column("t"),
                                 runs[k].history.column("angular_momentum")});
-    session.note_drawn(draw_curves(session.plots_folder(), "figure_6",
-                                   fmt::format("[HHM04] Fig. 6: {} particles",
-                                               runs.front().statistics.particles),
-                                   {panel}));
+    session.note_drawn(draw_curves(
+        session.plots_folder(), "figure_6",
+        fmt::format("[HHM04] Fig. 6: {} particles", runs.front().statistics.particles), {panel}));
 }
 
 double lost_after(const History& h, double t) {
