@@ -48,9 +48,12 @@ int drive(Integrator& integrator, const Schedule& schedule, const Observers& obs
                 if (schedule.t_end - stop < slack) stop = schedule.t_end;
             }
             const double t = integrator.step(stop);
-            if (output_due.reached(t, slack)) output(t);
+            const bool row = output_due.reached(t, slack);
+            if (row) output(t);
             if (snapshot_due.reached(t, slack)) snapshot(t);
             if (observers.step) observers.step(t);
+            if (row && observers.enough && observers.enough(t)) break;
+            if (row && observers.revise && observers.revise(t)) integrator.reset(t);
         }
     } catch (const GuardStop&) {
         output(integrator.t());

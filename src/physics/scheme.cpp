@@ -15,25 +15,33 @@ void Scheme::validate(int dim) const {
         throw InputError(
             "density: chain_rule differs from continuity only when particles move with an averaged "
             "velocity; add --transport average or monaghan, or use --density continuity");
-    if (angular_momentum == AngularMomentum::torque_pair && dim != 2)
+    if (angular_momentum != AngularMomentum::free && dim != 2)
         throw InputError(
-            fmt::format("angular-momentum: torque_pair is a plane law (one rotation axis), this "
+            fmt::format("angular-momentum: {} is a plane law (one rotation axis), this "
                         "problem has {} dimension{}; use --angular-momentum free",
-                        dim, dim == 1 ? "" : "s"));
+                        to_string(angular_momentum), dim, dim == 1 ? "" : "s"));
+    if (!(viscosity >= 0.0) || !std::isfinite(viscosity))
+        throw InputError(fmt::format(
+            "viscosity: {} must be 0 (none) or a positive number; try --viscosity 1", viscosity));
 }
 
 Promises Scheme::promises(int dim) const {
     Promises p;
-    if (angular_momentum == AngularMomentum::torque_pair || dim == 1)
+    // Gauss' principle lets L go wherever it is singular.
+    if (angular_momentum == AngularMomentum::torque_pair ||
+        angular_momentum == AngularMomentum::torque_particle || dim == 1)
         p.angular_momentum = Promise::integrator_error;
     return p;
 }
 
 std::string Scheme::describe() const {
+    std::string more;
+    if (balance == Balance::global) more += " over all bodies";
+    if (viscosity > 0.0) more += fmt::format(", viscosity {}", viscosity);
     return fmt::format(
-        "density {}, transport {}, {} mean density, angular momentum {}, {} weight of range {}",
+        "density {}, transport {}, {} mean density, angular momentum {}{}, {} weight of range {}",
         to_string(density), to_string(transport), to_string(mean_density),
-        to_string(angular_momentum), to_string(kernel), range);
+        to_string(angular_momentum), more, to_string(kernel), range);
 }
 
 std::string_view to_string(Density d) {
@@ -65,8 +73,22 @@ std::string_view to_string(MeanDensityKind m) {
 }
 
 std::string_view to_string(AngularMomentum a) {
-    return a == AngularMomentum::free ? "free" : "torque_pair";
+    switch (a) {
+        case AngularMomentum::free:
+            return "free";
+        case AngularMomentum::gauss:
+            return "gauss";
+        case AngularMomentum::torque_particle:
+            return "torque_particle";
+        case AngularMomentum::torque_pair:
+            break;
+    }
+    return "torque_pair";
 }
+
+std::string_view to_string(Balance b) { return b == Balance::body ? "body" : "global"; }
+
+std::string_view to_string(GaussSingular g) { return g == GaussSingular::skip ? "skip" : "stop"; }
 
 std::string_view to_string(Kernel) { return "lucy"; }
 

@@ -57,8 +57,9 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
-    static const std::vector<std::string> names{"density", "transport", "mean-density",
-                                                "angular-momentum"};
+    static const std::vector<std::string> names{"density",          "transport", "mean-density",
+                                                "angular-momentum", "balance",   "gauss-singular",
+                                                "viscosity"};
     return names;
 }
 
@@ -78,10 +79,38 @@ void Problem::use_scheme(const Scheme& standard) {
     options_.choice<MeanDensityKind>("mean-density", scheme_.mean_density,
                                      {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
                                      "rho_ij of a pair");
-    options_.choice<AngularMomentum>("angular-momentum", scheme_.angular_momentum,
-                                     {AngularMomentum::free, AngularMomentum::torque_pair},
-                                     "leave it free, or balance pair torques");
+    options_.choice<AngularMomentum>(
+        "angular-momentum", scheme_.angular_momentum,
+        {AngularMomentum::free, AngularMomentum::gauss, AngularMomentum::torque_particle,
+         AngularMomentum::torque_pair},
+        "leave it free, constrain it by Gauss' principle, or balance "
+        "torques of particles or pairs");
+    options_.choice<Balance>("balance", scheme_.balance, {Balance::body, Balance::global},
+                             "what keeps its angular momentum: every body, or all together");
+    options_.choice<GaussSingular>("gauss-singular", scheme_.gauss_singular,
+                                   {GaussSingular::skip, GaussSingular::stop},
+                                   "where Gauss' denominator vanishes: go on without, or stop");
+    options_.number("viscosity", scheme_.viscosity, "alpha of von Neumann's viscosity; 0: none",
+                    non_negative());
     options_.group("Problem");
+}
+
+/// Scheme options without effect: refused where given (no option may silently do nothing), else left
+/// out of case.toml.
+std::vector<std::string> Problem::idle_scheme_options() {
+    options_.command_line_wins({"angular-momentum"}, {"balance", "gauss-singular"});
+    std::vector<std::string> idle;
+    const auto add = [&](const char* option, const char* needs) {
+        if (options_.given(option))
+            throw InputError(
+                fmt::format("{}: has no meaning with --angular-momentum {}; it needs {}", option,
+                            to_string(scheme_.angular_momentum), needs));
+        idle.emplace_back(option);
+    };
+    if (scheme_.angular_momentum == AngularMomentum::free)
+        add("balance", "gauss, torque_particle or torque_pair");
+    if (scheme_.angular_momentum != AngularMomentum::gauss) add("gauss-singular", "gauss");
+    return idle;
 }
 
 /// The integrator that the options mean; an option without effect is refused.
@@ -127,9 +156,11 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     try {
         if (!options_.parse(argc, argv)) return 0;
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
+        const auto idle = idle_scheme_options();
         const IntegratorOptions integrator = resolve_integrator();
         set_threads(common_.threads);
         Session session(*this, integrator, command);
+        session.leave_out_of_case(idle);
         try {
             body(session);
         } catch (const DryRunDone&) {

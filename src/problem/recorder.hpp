@@ -7,17 +7,22 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace spam {
 
 /// Rows of invariants.csv, in memory and on disk.
 template <int Dim>
 class Recorder {
   public:
-    Recorder(const Model<Dim>& model, const Plan<Dim>& plan, const RunFolder& folder)
+    /// `folder`: null for rows in memory only.
+    Recorder(const Model<Dim>& model, const Plan<Dim>& plan, const RunFolder* folder)
         : model_(model),
           plan_(plan),
-          history_(names(model, plan)),
-          csv_(folder / "invariants.csv", history_.names()) {}
+          bodies_(model.particles().bodies()),
+          history_(names()) {
+        if (folder != nullptr) csv_.emplace(*folder / "invariants.csv", history_.names());
+    }
 
     void add(double t, double dt, std::span<const double> y) {
         const auto now = measure_invariants(model_, y);
@@ -26,10 +31,13 @@ class Recorder {
         for (int p = 0; p < Invariants<Dim>::planes; ++p) row.push_back(now.angular_momentum[p]);
         row.insert(row.end(), {now.kinetic, now.internal, now.energy});
         if constexpr (Dim == 2)
-            if (model_.particles().bodies() > 1)
-                for (const double L : angular_momentum_of_bodies(model_, y)) row.push_back(L);
+            if (bodies_ > 1) {
+                auto L = angular_momentum_of_bodies(model_, y);
+                L.resize(static_cast<std::size_t>(bodies_));  // the columns of the start
+                row.insert(row.end(), L.begin(), L.end());
+            }
         for (const auto& column : plan_.columns) row.push_back(column.measure(model_, y));
-        csv_.add(row);
+        if (csv_) csv_->add(row);
         history_.add(std::move(row));
         const auto scales = measure_scales(model_, y);
         momentum_scale_ = std::max(momentum_scale_, scales.momentum);
@@ -43,7 +51,7 @@ class Recorder {
     }
 
   private:
-    static std::vector<std::string> names(const Model<Dim>& model, const Plan<Dim>& plan) {
+    std::vector<std::string> names() const {
         std::vector<std::string> result{"t", "dt", "mass"};
         const std::vector<std::string> axes{"x", "y", "z"};
         for (std::size_t a = 0; a < Dim; ++a) result.push_back("momentum_" + axes[a]);
@@ -51,17 +59,18 @@ class Recorder {
         if (Dim == 3)
             for (const auto& axis : axes) result.push_back("angular_momentum_" + axis);
         result.insert(result.end(), {"kinetic", "internal", "energy"});
-        if (Dim == 2 && model.particles().bodies() > 1)
-            for (int b = 1; b <= model.particles().bodies(); ++b)
+        if (Dim == 2 && bodies_ > 1)
+            for (int b = 1; b <= bodies_; ++b)
                 result.push_back(fmt::format("angular_momentum_body_{}", b));
-        for (const auto& column : plan.columns) result.push_back(column.name);
+        for (const auto& column : plan_.columns) result.push_back(column.name);
         return result;
     }
 
     const Model<Dim>& model_;
     const Plan<Dim>& plan_;
+    std::int32_t bodies_;
     History history_;
-    CsvWriter csv_;
+    std::optional<CsvWriter> csv_;
     double momentum_scale_ = 0.0, angular_momentum_scale_ = 0.0;
 };
 

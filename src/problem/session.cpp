@@ -59,12 +59,6 @@ void Session::check_promises(const RunRecord& record, const std::string& prefix)
     }
 }
 
-double Session::promise_limit() const {
-    return integrator_.adaptive()
-               ? std::max(1e-12, 1e3 * std::max(integrator_.rtol, integrator_.atol))
-               : 1e-6;
-}
-
 void Session::note_drawn(bool drawn) {
     if (drawn || warned_about_plots_) return;
     warned_about_plots_ = true;

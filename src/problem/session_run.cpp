@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dry_run.hpp"
-#include "recorder.hpp"
+#include "run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/interrupt.hpp>
@@ -16,41 +16,6 @@
 
 namespace spam {
 namespace {
-
-/// "_x", "_xy": which component of a field, nothing for scalars.
-template <int Dim>
-std::string component_name(Field field, std::size_t component) {
-    const std::size_t components = FieldLayout<Dim>::components(field);
-    if (components == 1 && Dim > 1) return {};
-    const std::string axes = "xyz";
-    if (field != Field::stress) return {'_', axes[component]};
-    for (int a = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b)
-            if (static_cast<std::size_t>(symmetric_index(Dim, a, b)) == component)
-                return {'_', axes[static_cast<std::size_t>(a)], axes[static_cast<std::size_t>(b)]};
-    return {};
-}
-
-template <int Dim>
-Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
-    Ode ode;
-    ode.rates = [&](double t, std::span<const double> y, std::span<double> y_dot) {
-        model.rates(t, y, y_dot);
-        pair_interactions += model.pairs();
-    };
-    ode.failure = [&model] { return model.failure(); };
-    ode.entry_name = [&model](std::size_t k) {
-        const auto entry = model.layout().entry(k);
-        return fmt::format("{}{} of particle {}", field_name(entry.field),
-                           component_name<Dim>(entry.field, entry.component),
-                           model.particles().id[entry.particle]);
-    };
-    ode.absolute_tolerance.resize(model.layout().size());
-    for (const auto& block : model.layout().blocks())
-        std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
-                    block.components * model.layout().particles(), atol * block.scale);
-    return ode;
-}
 
 /// "about 3 min" from seconds.
 std::string duration(double seconds) {
@@ -173,85 +138,55 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
 
 template <int Dim>
 RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
-    Model<Dim>& model = one.model;
     const Plan<Dim>& plan = one.plan;
-    RunRecord record;
-    record.label = one.label;
-    record.statistics.problem = problem_.name_;
-    record.statistics.particles = model.particles().size();
+    Run<Dim> run(one, integrator_, &folder);
+    run.record().statistics.problem = problem_.name_;
+    SnapshotSeries<Dim> snapshots(folder, one.model);
 
-    const SundialsContext context;
-    Vector y(one.y0.size(), context);
-    std::copy(one.y0.begin(), one.y0.end(), y.span().begin());
-    const Ode ode = as_ode(model, integrator_.atol, record.statistics.pair_interactions);
-    const auto integrator = make_integrator(integrator_, ode, y, 0.0, context);
-    Recorder<Dim> recorder(model, plan, folder);
-    SnapshotSeries<Dim> snapshots(folder, model);
-
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    Observers observers;
-    observers.output = [&](double t) {
-        recorder.add(t, integrator->statistics().last_step, y.span());
-    };
-    observers.snapshot = [&](double t) {
-        snapshots.add(t, y.span());
-        if (plan.on_snapshot) plan.on_snapshot(t, model, y.span());
-    };
-    observers.step = [&](double t) {
+    typename Run<Dim>::Watchers watchers;
+    watchers.snapshot = [&](double t) { snapshots.add(t, run.y()); };
+    watchers.step = [&](double t) {
         const double fraction = t / plan.t_end;
         if (!terminal_.progress_due(fraction)) return;
         std::string drifts;
-        for (const Drift& drift : recorder.drifts(promise_limit()))
+        for (const Drift& drift : run.drifts())
             if (drift.name == "energy" || drift.name == "angular momentum")
                 drifts +=
                     fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
-        const auto& s = integrator->statistics();
+        const auto& s = run.statistics();
         terminal_.progress(
-            fraction, fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}",
-                                  100.0 * fraction, t, duration(seconds() * (1.0 / fraction - 1.0)),
-                                  drifts, s.last_step, s.rejected_steps));
+            fraction,
+            fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}", 100.0 * fraction,
+                        t, duration(run.seconds() * (1.0 / fraction - 1.0)), drifts, s.last_step,
+                        s.rejected_steps));
     };
-    const auto complete_statistics = [&] {
-        const auto& s = integrator->statistics();
-        record.statistics.t_end = integrator->t();
-        record.statistics.steps = s.steps;
-        record.statistics.rejected_steps = s.rejected_steps;
-        record.statistics.rhs_evaluations = s.rhs_evaluations;
-        record.statistics.wall_seconds = seconds();
+    watchers.remark = [&](double t, const Remark& remark) {
+        terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));
     };
     terminal_.begin_progress();
+    RunRecord& record = run.record();
     try {
-        const int signal =
-            drive(*integrator, {plan.t_end, plan.output_every, plan.snapshot_every}, observers);
-        record.complete = signal == 0;
-        if (signal != 0) record.statistics.stopped = fmt::format("signal {}", signal);
-    } catch (const GuardStop& stop) {
-        record.statistics.stopped = stop.what();
-        if (guard_reason_.empty()) guard_reason_ = stop.what();
-    } catch (const OutputError& error) {
-        record.statistics.stopped = error.what();
-        complete_statistics();
+        const std::string reason = run.drive(watchers);
+        if (guard_reason_.empty()) guard_reason_ = reason;
+    } catch (const OutputError&) {
         try {  // there may be room for this much
             write_statistics(folder, record.statistics);
         } catch (const OutputError&) {
         }
         throw;
     }
-    complete_statistics();
     terminal_.end_progress();
     if (!record.complete) terminal_.say(fmt::format("stopped     {}", record.statistics.stopped));
+    if (!record.remarks.empty())
+        terminal_.say(fmt::format("events      {} in events.csv, the first at t = {:.6g}: {}",
+                                  record.remarks.size(), record.remarks.front().first,
+                                  record.remarks.front().second.what));
     write_statistics(folder, record.statistics);
     statistics_.push_back(record.statistics);
-    record.history = recorder.history();
-    record.drifts = recorder.drifts(promise_limit());
-    record.y.assign(y.span().begin(), y.span().end());
     if (plots())
         draw_invariants(folder.inside("plots"), record.history,
                         words(problem_.name_ + (one.label.empty() ? "" : ": " + one.label)), *this);
-    return record;
+    return std::move(record);
 }
 
 template RunRecord Session::run(Model<1>&, std::vector<double>, Plan<1>);

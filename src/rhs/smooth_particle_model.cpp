@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
+#include "gauss_forces.hpp"
 #include "packed_particles.hpp"
 #include "sweeps.hpp"
+#include "torque_factors.hpp"
+#include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
+#include <spam/kernel/lucy.hpp>
+#include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/record.hpp>
-#include <spam/physics/torque_balance.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace spam {
 namespace {
@@ -66,12 +72,62 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
     valid_range(scheme.range, this->particles().spacing);
     const std::size_t n = this->particles().size();
     if (sweeps_->density != nullptr) summed_density_.resize(n);
-    torque_factor_.assign(static_cast<std::size_t>(this->particles().bodies()), 1.0);
-    if (scheme_.angular_momentum == AngularMomentum::torque_pair) {
-        positive_torque_.resize(n);
-        negative_torque_.resize(n);
-        body_sums_.resize(torque_factor_.size());
+    const AngularMomentum law = scheme.angular_momentum;
+    if (law == AngularMomentum::gauss) {
+        if (box.periodic())
+            throw InputError(
+                "angular-momentum: gauss turns bodies about their centres, which a periodic box "
+                "does "
+                "not have; use torque_pair, or a box without periods");
+        gauss_ = std::make_unique<GaussForces>();
+    } else if (law != AngularMomentum::free) {
+        torques_ = std::make_unique<TorqueFactors>(n, law);
     }
+    viscosity_ = viscosity();
+    set_bodies(this->particles().body);
+}
+
+template <int Dim>
+void SmoothParticleModel<Dim>::set_bodies(std::vector<std::int32_t> bodies) {
+    Model<Dim>::set_bodies(std::move(bodies));
+    group_ = this->particles().body;
+    if (scheme_.balance == Balance::global) group_.assign(group_.size(), 0);
+    group_count_ = 1;
+    for (const std::int32_t g : group_)
+        group_count_ = std::max(group_count_, static_cast<std::size_t>(g) + 1);
+}
+
+template <int Dim>
+Groups SmoothParticleModel<Dim>::groups() const {
+    return {this->particles().mass, group_, group_count_};
+}
+
+/// The sound speed is that of the body at rest, at its mean density.
+template <int Dim>
+ViscosityConstants SmoothParticleModel<Dim>::viscosity() const {
+    if (!(scheme_.viscosity > 0.0)) return {};
+    const PairList<Dim> list(this->particles().reference_position, scheme_.range, this->box());
+    double rho = 0.0;
+    const Lucy<Dim> weight(scheme_.range);
+    const auto& x = this->particles().reference_position;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        for (const std::uint32_t j : list.neighbours(i)) {
+            double r2 = 0.0;
+            for (int a = 0; a < Dim; ++a) {
+                const double s = this->box().nearest_image(
+                    a, this->box().wrap(a, x(a, static_cast<Eigen::Index>(i))) -
+                           this->box().wrap(a, x(a, j)));
+                r2 += s * s;
+            }
+            rho += this->particles().mass[j] * weight.value(std::sqrt(r2));
+        }
+    const auto c = material_.sound_speed(rho / static_cast<double>(list.size()));
+    if (!c)
+        throw InputError(fmt::format(
+            "viscosity: {} needs a sound speed, and the material ({}) has none; give it a "
+            "sound_speed(density), or leave --viscosity out",
+            scheme_.viscosity, material_.describe()));
+    return {scheme_.viscosity, *c, 0.5 * scheme_.range};
 }
 
 /// The order that the physics forces: pairs - density if summed - A - everything that needs one
@@ -81,24 +137,30 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
     this->failure_.clear();
     if (!load(y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
-    const SweepInput<Dim> in = packed_->input();
+    SweepInput<Dim> in = packed_->input();
+    in.viscosity = viscosity_;
     SweepOutput<Dim> out;
     out.x_dot = rate.position().data();
     out.v_dot = rate.velocity().data();
     out.e_dot = rate.energy().data();
-    out.positive_torque = positive_torque_.data();
-    out.negative_torque = negative_torque_.data();
+    if (torques_) {
+        out.positive_torque = torques_->positive();
+        out.negative_torque = torques_->negative();
+    }
     if (rate.has(Field::density)) out.rho_dot = rate.density().data();
     const StressRates<Dim> stress_rates{material_, {this->layout(), y}, rate};
     out.context = &stress_rates;
     out.stress_rates = StressRates<Dim>::call;
     sweeps_->first(in, out);
-    if (sweeps_->second == nullptr) return;
 
-    const std::span<const double> u(out.x_dot, this->particles().size() * Dim);
-    if (scheme_.angular_momentum == AngularMomentum::torque_pair) balance_torques(y, u);
-    load_transport(u);
-    sweeps_->second(in, out);
+    const ConstState<Dim> state(this->layout(), y);
+    const double* const v = state.velocity().data();
+    if (torques_) torques_->balance(groups(), out.x_dot, v);
+    if (sweeps_->second != nullptr) {
+        load_transport({out.x_dot, this->particles().size() * Dim});
+        sweeps_->second(in, out);
+    }
+    if (gauss_) gauss_->constrain(groups(), state.position().data(), out.x_dot, v, out.v_dot);
 }
 
 template <int Dim>
@@ -146,25 +208,6 @@ bool SmoothParticleModel<Dim>::fail_density(std::span<const double> rho, std::sp
     return false;
 }
 
-/// R of every body from its own sums, taken in the order of the particles.
-template <int Dim>
-void SmoothParticleModel<Dim>::balance_torques(std::span<const double> y,
-                                               std::span<const double> u) {
-    if constexpr (Dim == 2) {
-        const auto& particles = this->particles();
-        const double* const v = ConstState<Dim>(this->layout(), y).velocity().data();
-        std::fill(body_sums_.begin(), body_sums_.end(), BodySums{});
-        for (std::size_t i = 0; i < particles.size(); ++i) {
-            BodySums& body = body_sums_[static_cast<std::size_t>(particles.body[i])];
-            body.P += 0.5 * positive_torque_[i];
-            body.M += 0.5 * negative_torque_[i];
-            body.X += particles.mass[i] * (u[2 * i] * v[2 * i + 1] - u[2 * i + 1] * v[2 * i]);
-        }
-        for (std::size_t b = 0; b < body_sums_.size(); ++b)
-            torque_factor_[b] = torque_balance(body_sums_[b].P, body_sums_[b].M, body_sums_[b].X);
-    }
-}
-
 /// What the second sweep reads beyond the first.
 template <int Dim>
 void SmoothParticleModel<Dim>::load_transport(std::span<const double> u) {
@@ -174,10 +217,29 @@ void SmoothParticleModel<Dim>::load_transport(std::span<const double> u) {
         const std::size_t i = order[slot];
         double* number = packed_->record(slot) + TransportRecord<Dim>::first;
         for (std::size_t a = 0; a < d; ++a) *number++ = u[i * d + a];
-        const double R = torque_factor_[static_cast<std::size_t>(this->particles().body[i])];
-        *number++ = R;
-        *number++ = 1.0 / R;
+        const TorqueFactors::Factors s =
+            torques_ ? torques_->of(i, group_[i]) : TorqueFactors::Factors{1.0, 1.0};
+        *number++ = s.negative;
+        *number++ = s.positive;
     });
+}
+
+template <int Dim>
+std::span<const double> SmoothParticleModel<Dim>::torque_factors() const {
+    return torques_ ? torques_->R() : std::span<const double>{};
+}
+
+/// At the start it counts as singular: a body that rotates rigidly has no need of the constraint.
+template <int Dim>
+std::vector<Remark> SmoothParticleModel<Dim>::watch(double t, std::span<const double> y) {
+    if (!gauss_) return {};
+    watched_rates_.resize(y.size());
+    rates(t, y, watched_rates_);
+    const bool works = !gauss_->singular();
+    if (works == std::exchange(gauss_works_, works)) return {};
+    if (works) return {{"gauss constraint works", gauss_->health()}};
+    return {{"gauss constraint singular", gauss_->health(),
+             scheme_.gauss_singular == GaussSingular::stop}};
 }
 
 template <int Dim>

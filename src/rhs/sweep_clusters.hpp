@@ -14,17 +14,27 @@ inline namespace SPAM_LANES {
 template <int W, int Dim, class R, class... Passes, class Weight, class Store>
 [[gnu::flatten, gnu::noinline]] void sweep_runs(const SweepInput<Dim>& in, std::size_t begin,
                                                 std::size_t end, const Weight& weight,
-                                                const Store& store_sums) {
+                                                const Store& store_sums,
+                                                const std::tuple<Passes...>& passes) {
     const std::uint8_t* const direct = in.list.direct;
     for (std::size_t next = begin; begin < end; begin = next) {
         while (++next < end && direct[next] == direct[begin]) continue;
         if (direct[begin] == 0)
             sweep_block<W, Dim, R, Passes...>(in.list, begin, next, weight, *in.box, in.records,
-                                              store_sums);
+                                              store_sums, passes);
         else
             sweep_block<W, Dim, R, Passes...>(in.list, begin, next, weight, OpenSpace(), in.records,
-                                              store_sums);
+                                              store_sums, passes);
     }
+}
+
+/// With its constants where it has any.
+template <class Pass, int Dim>
+Pass pass_of(const SweepInput<Dim>& in) {
+    if constexpr (requires { Pass::with(in.viscosity); })
+        return Pass::with(in.viscosity);
+    else
+        return {};
 }
 
 /// sweep_block() with Lucy's weight function, looking for nearest images only where there are any.
@@ -32,11 +42,12 @@ template <int W, int Dim, class R, class... Passes, class Store>
 void sweep_clusters(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
                     const Store& store_sums) {
     const Lucy<Dim> weight(in.range);
+    const std::tuple<Passes...> passes{pass_of<Passes>(in)...};
     if (in.list.direct != nullptr)
-        sweep_runs<W, Dim, R, Passes...>(in, begin, end, weight, store_sums);
+        sweep_runs<W, Dim, R, Passes...>(in, begin, end, weight, store_sums, passes);
     else
         sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, OpenSpace(), in.records,
-                                          store_sums);
+                                          store_sums, passes);
 }
 
 template <int Dim, class T>

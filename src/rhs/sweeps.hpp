@@ -7,6 +7,7 @@
 #include <spam/neighbors/box.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/physics/scheme.hpp>
+#include <spam/physics/viscosity.hpp>
 
 namespace spam {
 
@@ -17,6 +18,7 @@ struct SweepInput {
     Records records;  ///< TransportRecord where there is a second sweep, else Record
     double range;     ///< of the weight function
     const Box<Dim>* box;
+    ViscosityConstants viscosity{};
 };
 
 /// ... and write, by number of particle. What is null is not wanted.

@@ -6,6 +6,7 @@
 #include <spam/physics/torque_balance.hpp>
 #include <spam/physics/transport.hpp>
 #include <spam/physics/velocity_gradient.hpp>
+#include <spam/physics/viscosity.hpp>
 
 namespace spam {
 namespace {
@@ -71,12 +72,16 @@ void second(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
 /// Run-time choices of the scheme turned into the sweeps compiled for them.
 template <int Dim>
 struct Choices {
+    static bool balances(const Scheme& scheme) {
+        return scheme.angular_momentum == AngularMomentum::torque_pair ||
+               scheme.angular_momentum == AngularMomentum::torque_particle;
+    }
     template <class Mean, class Transport>
     static Sweep<Dim> first_of(const Scheme& scheme) {
         if constexpr (Dim == 2)
-            if (scheme.angular_momentum == AngularMomentum::torque_pair)
-                return first<Dim, Mean, Transport, TorqueSums>;
-        return first<Dim, Mean, Transport, StressForce<Dim>>;
+            if (balances(scheme)) return first<Dim, Mean, Transport, TorqueSums>;
+        return scheme.viscosity > 0.0 ? first<Dim, Mean, Transport, ViscousStressForce<Dim, Mean>>
+                                      : first<Dim, Mean, Transport, StressForce<Dim>>;
     }
     template <class Mean>
     static Sweep<Dim> first_of(const Scheme& scheme) {
@@ -90,13 +95,24 @@ struct Choices {
         }
         return first_of<Mean, MonaghanTransport<Dim, Mean>>(scheme);
     }
+    template <class Force>
+    static Sweep<Dim> balanced(const Scheme& scheme) {
+        return scheme.density == Density::chain_rule
+                   ? second<Dim, ChainRuleContinuity, Balanced<Force>>
+                   : second<Dim, Balanced<Force>>;
+    }
+    template <class Mean>
     static Sweep<Dim> second_of(const Scheme& scheme) {
-        const bool chain_rule = scheme.density == Density::chain_rule;
         if constexpr (Dim == 2)
-            if (scheme.angular_momentum == AngularMomentum::torque_pair)
-                return chain_rule ? second<Dim, ChainRuleContinuity, BalancedStressForce>
-                                  : second<Dim, BalancedStressForce>;
-        return chain_rule ? second<Dim, ChainRuleContinuity> : nullptr;
+            if (balances(scheme))
+                return scheme.viscosity > 0.0 ? balanced<ViscousStressForce<Dim, Mean>>(scheme)
+                                              : balanced<StressForce<Dim>>(scheme);
+        return scheme.density == Density::chain_rule ? second<Dim, ChainRuleContinuity> : nullptr;
+    }
+    template <class Mean>
+    static void choose(const Scheme& scheme, Sweeps<Dim>& sweeps) {
+        sweeps.first = first_of<Mean>(scheme);
+        sweeps.second = second_of<Mean>(scheme);
     }
 };
 
@@ -105,11 +121,10 @@ struct Choices {
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> sweeps_of(const Scheme& scheme) {
     Sweeps<Dim> sweeps{W};
-    using C = Choices<Dim>;
-    sweeps.first = scheme.mean_density == MeanDensityKind::arithmetic
-                       ? C::template first_of<ArithmeticMean>(scheme)
-                       : C::template first_of<GeometricMean>(scheme);
-    sweeps.second = C::second_of(scheme);
+    if (scheme.mean_density == MeanDensityKind::arithmetic)
+        Choices<Dim>::template choose<ArithmeticMean>(scheme, sweeps);
+    else
+        Choices<Dim>::template choose<GeometricMean>(scheme, sweeps);
     if (scheme.density == Density::summed) sweeps.density = density_sweep<W, Dim, Record<Dim>>;
     return sweeps;
 }

@@ -2,8 +2,10 @@
 // F_ij = -F_ji bit for bit, and the balance of pair torques.
 #include <spam/kernel/lucy.hpp>
 #include <spam/neighbors/box.hpp>
+#include <spam/physics/mean_density.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/physics/torque_balance.hpp>
+#include <spam/physics/viscosity.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -53,6 +55,9 @@ const auto stress = [](const auto& pair, const auto& i, const auto& j) {
 const auto balanced = [](const auto& pair, const auto& i, const auto& j) {
     return scale_torque(pair, i, j, stress_force(pair, i, j));
 };
+const auto viscous = [](const auto& pair, const auto& i, const auto& j) {
+    return ViscousStressForce<2, ArithmeticMean>{{0.4, 1.1, 1.3}}.force(pair, i, j);
+};
 // sigma/rho^2 of one particle only: momentum would drift.
 const auto one_sided = [](const auto& pair, const auto& i, const auto&) {
     return i.A * pair.grad_w;
@@ -64,7 +69,27 @@ BOOST_AUTO_TEST_CASE(forces_are_antisymmetric_bit_for_bit) {
     BOOST_TEST(asymmetric_pairs<2>(stress) == 0);
     BOOST_TEST(asymmetric_pairs<3>(stress) == 0);
     BOOST_TEST(asymmetric_pairs<2>(balanced) == 0);
+    BOOST_TEST(asymmetric_pairs<2>(viscous) == 0);
     BOOST_TEST(asymmetric_pairs<2>(one_sided) > 9000);
+}
+
+BOOST_AUTO_TEST_CASE(viscosity_is_central_and_only_resists_approach) {
+    std::mt19937_64 random(32);
+    int approaching = 0;
+    for (int k = 0; k < 1000; ++k) {
+        const auto i = random_record<2>(random), j = random_record<2>(random);
+        const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(Box<2>(), i.x, j.x), i, j);
+        const auto extra = viscous(pair, i, j) - stress_force(pair, i, j);
+        BOOST_TEST(std::abs(cross(extra, pair.r_ji)) < 1e-15);
+        if (dot(pair.v_ji, pair.r_ji) < 0.0) {
+            ++approaching;
+            BOOST_TEST(dot(extra, pair.r_ji) < 0.0);  // i is pushed away from j
+            BOOST_TEST(dot(extra, pair.v_ji) > 0.0);  // it heats
+        } else {
+            BOOST_TEST(dot(extra, extra) == 0.0);
+        }
+    }
+    BOOST_TEST(approaching > 400);
 }
 
 BOOST_AUTO_TEST_CASE(one_particles_factor_alone_is_not_antisymmetric) {

@@ -12,6 +12,7 @@
 #include <spam/physics/torque_balance.hpp>
 #include <spam/physics/transport.hpp>
 #include <spam/physics/velocity_gradient.hpp>
+#include <spam/physics/viscosity.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -51,6 +52,15 @@ struct Cloud {
     }
 };
 
+/// A pass, with constants where it holds any.
+template <class Pass>
+Pass one() {
+    if constexpr (requires { Pass::with(ViscosityConstants{}); })
+        return Pass::with(ViscosityConstants{0.4, 1.1, 1.3});
+    else
+        return {};
+}
+
 /// Sums are structs of numbers only.
 template <class Sums>
 std::vector<double> flat(const Sums& sums) {
@@ -69,7 +79,7 @@ std::vector<std::vector<double>> pair_by_pair(const Cloud<Dim>& cloud, double h)
         typename Pass::template Sums<double> sums;
         for (const auto j : neighbours[i]) {
             const auto ri = cloud.record(i), rj = cloud.record(j);
-            Pass::add(
+            one<Pass>().add(
                 make_pair<Dim, double>(Lucy<Dim>(h), separation(OpenSpace(), ri.x, rj.x), ri, rj),
                 ri, rj, sums);
         }
@@ -97,7 +107,8 @@ std::vector<std::vector<double>> swept(const Cloud<Dim>& cloud, double h) {
                 for (std::size_t k = 0; k < values.size() / W; ++k)
                     results[i].push_back(values[k * W + static_cast<std::size_t>(l)]);
             });
-        });
+        },
+        std::tuple<Pass>{one<Pass>()});
     return results;
 }
 
@@ -140,9 +151,12 @@ void every_pass() {
     every_width<Dim, MonaghanTransport<Dim, ArithmeticMean>>("<v>_Monaghan");
     every_width<Dim, MonaghanTransport<Dim, GeometricMean>>("<v>_Monaghan, geometric");
     every_width<Dim, StressForce<Dim>>("stress force");
+    every_width<Dim, ViscousStressForce<Dim, ArithmeticMean>>("viscous stress force");
+    every_width<Dim, ViscousStressForce<Dim, GeometricMean>>("viscous stress force, geometric");
     if constexpr (Dim == 2) {
         every_width<Dim, TorqueSums>("torque sums");
         every_width<Dim, BalancedStressForce>("balanced stress force");
+        every_width<Dim, Balanced<ViscousStressForce<2, ArithmeticMean>>>("balanced viscous force");
     }
 }
 

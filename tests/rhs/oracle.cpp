@@ -28,7 +28,28 @@ void compare(int cells) {
     }
 }
 
+/// How far rates are from those of a law that is wrong on purpose.
+double distance_from(Mutation mutation, const Scheme& scheme) {
+    SmoothParticleModel<2> model(jittered_particles<2>(8, 11), solid, scheme);
+    OracleModel<2> wrong(model.particles(), solid, scheme, mutation);
+    auto y = random_state(model, 12);
+    // Turning, so that there is an angular momentum to keep.
+    const State<2> state(model.layout(), y);
+    for (Eigen::Index i = 0; i < state.position().cols(); ++i)
+        state.velocity().col(i) += Point<2>(-state.position()(1, i), state.position()(0, i));
+    return relative_difference(rates_of(model, y), rates_of(wrong, y));
+}
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(the_comparison_sees_what_the_schemes_differ_in) {
+    const Scheme viscous{.viscosity = 0.3, .range = 2.6};
+    BOOST_TEST(distance_from(Mutation::none, viscous) < 1e-12);
+    BOOST_TEST(distance_from(Mutation::viscous_recession, viscous) > 1e-3);
+    const Scheme gauss{.angular_momentum = AngularMomentum::gauss, .range = 2.6};
+    BOOST_TEST(distance_from(Mutation::none, gauss) < 1e-12);
+    BOOST_TEST(distance_from(Mutation::printed_multipliers, gauss) > 1e-3);
+}
 
 BOOST_AUTO_TEST_CASE(one_dimension) { compare<1>(25); }
 BOOST_AUTO_TEST_CASE(two_dimensions) { compare<2>(8); }

@@ -19,9 +19,11 @@ using namespace spam::test;
 namespace {
 
 const ElasticSolid solid{0.7, 0.4};
-const Scheme everything{
-    Density::chain_rule,          Transport::monaghan, MeanDensityKind::arithmetic,
-    AngularMomentum::torque_pair, Kernel::lucy,        3.0};
+const Scheme everything{.density = Density::chain_rule,
+                        .transport = Transport::monaghan,
+                        .angular_momentum = AngularMomentum::torque_pair,
+                        .viscosity = 0.3,
+                        .range = 3.0};
 
 template <int Dim>
 std::vector<double> moved(const Model<Dim>& model, std::vector<double> y, double distance,

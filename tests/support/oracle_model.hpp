@@ -21,6 +21,8 @@ enum class Mutation {
     anisotropic,          ///< shear modulus that knows the axes
     reversed_spin,        ///< rotation of the stress with the wrong sign
     half_list,            ///< pairs of i with later j only
+    viscous_recession,    ///< viscosity that also holds back what separates
+    printed_multipliers,  ///< Gauss' beta without its minus sign, as printed
     absolute_position     ///< a force that knows where the origin is
 };
 
@@ -62,6 +64,7 @@ class OracleModel final : public Model<Dim> {
             store_stress(rate, i, stress_rate(G, stress_[at(i)]));
         }
         forces(rate);
+        if (scheme_.angular_momentum == AngularMomentum::gauss) gauss(rate);
     }
 
     double internal_energy(std::span<const double>) const override { return 0.0; }
@@ -104,6 +107,7 @@ class OracleModel final : public Model<Dim> {
         const M A =
             stress_[at(i)] / std::pow(rho_[at(i)], 2) + stress_[at(j)] / std::pow(rho_[at(j)], 2);
         V f = A * gradient(i, j);
+        if (scheme_.viscosity > 0.0) f -= viscosity(i, j) * gradient(i, j);
         if (mutation_ == Mutation::absolute_position) f *= 1.0 + 0.01 * x_[at(i)][0] * x_[at(j)][0];
         return f;
     }
@@ -115,6 +119,7 @@ class OracleModel final : public Model<Dim> {
     void load(std::span<const double> y) {
         const ConstState<Dim> state(this->layout(), y);
         n_ = static_cast<int>(this->particles().size());
+        if (c_L_ == 0.0) c_L_ = sound_speed();
         x_.assign(at(n_), V::Zero());
         v_ = u_ = x_;
         rho_.assign(at(n_), 0.0);
@@ -164,27 +169,73 @@ class OracleModel final : public Model<Dim> {
             for (int b = a; b < Dim; ++b) rate.stress()(symmetric_index(Dim, a, b), i) = s(a, b);
     }
 
-    /// R of every body, [HHM04] VIII with physics X = sum m u x v.
+    /// c_L at the mean summed density of the reference configuration.
+    double sound_speed() const {
+        const auto& X = this->particles().reference_position;
+        double rho = 0.0;
+        for (int k = 0; k < n_; ++k)
+            for (int l = 0; l < n_; ++l) rho += m(l) * weight((X.col(k) - X.col(l)).norm()) / n_;
+        return std::sqrt((law_.lambda + 2.0 * law_.eta) / rho);
+    }
+    double viscosity(int i, int j) const {  // Pi_ij
+        const double c = c_L_, l = scheme_.range / 2.0;
+        const V r = x_[at(i)] - x_[at(j)], v = v_[at(i)] - v_[at(j)];
+        if (r.dot(v) >= 0.0 && mutation_ != Mutation::viscous_recession) return 0.0;
+        const double mu = l * r.dot(v) / (r.squaredNorm() + 0.01 * l * l);
+        return scheme_.viscosity * (-c * mu + 2.0 * mu * mu) / mean(i, j);
+    }
+
+    bool in(int i, int group) const {
+        return scheme_.balance == Balance::global || this->particles().body[at(i)] == group;
+    }
+    int groups() const {
+        return scheme_.balance == Balance::global ? 1 : this->particles().bodies();
+    }
+
+    double torque(int i) const {
+        double T = 0.0;
+        for (int j = 0; j < n_; ++j)
+            T += 0.5 * m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
+        return T;
+    }
+
+    /// R of every group, [HHM04] VIII with physics X = sum m u x v.
     std::vector<double> factors() const {
         std::vector<double> R;
-        for (int body = 0; body < this->particles().bodies(); ++body) {
+        for (int group = 0; group < groups(); ++group) {
             double P = 0.0, Q = 0.0, X = 0.0;
             for (int i = 0; i < n_; ++i) {
-                if (this->particles().body[at(i)] != body) continue;
+                if (!in(i, group)) continue;
                 if (mutation_ != Mutation::without_X) X += m(i) * cross(u_[at(i)], v_[at(i)]);
-                for (int j = 0; j < n_; ++j) {
-                    const double T = 0.5 * m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
-                    (T > 0.0 ? P : Q) += std::abs(T);
-                }
+                const double T_i = torque(i);
+                if (scheme_.angular_momentum == AngularMomentum::torque_particle)
+                    (T_i > 0.0 ? P : Q) += std::abs(T_i);
+                else
+                    for (int j = 0; j < n_; ++j) {
+                        const double T =
+                            0.5 * m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
+                        (T > 0.0 ? P : Q) += std::abs(T);
+                    }
             }
             R.push_back((X + std::sqrt(X * X + 4.0 * P * Q)) / (2.0 * Q));
         }
         return R;
     }
 
+    /// s_i of every particle (torque_particle); by the sign of T_ij (torque_pair).
+    double factor(int i, double T_ij, const std::vector<double>& R,
+                  const std::vector<double>& T) const {
+        const int group = scheme_.balance == Balance::global ? 0 : this->particles().body[at(i)];
+        const bool particle = scheme_.angular_momentum == AngularMomentum::torque_particle;
+        return (particle ? T[at(i)] : T_ij) < 0.0 ? R[at(group)] : 1.0 / R[at(group)];
+    }
+
     void forces(const State<Dim>& rate) const {
-        const bool balance = scheme_.angular_momentum == AngularMomentum::torque_pair;
+        const bool balance = scheme_.angular_momentum == AngularMomentum::torque_pair ||
+                             scheme_.angular_momentum == AngularMomentum::torque_particle;
         const auto R = balance ? factors() : std::vector<double>{};
+        std::vector<double> torques;
+        for (int i = 0; i < n_ && balance; ++i) torques.push_back(torque(i));
         for (int i = 0; i < n_; ++i) {
             V v_dot = V::Zero();
             double e_dot = 0.0;
@@ -196,8 +247,8 @@ class OracleModel final : public Model<Dim> {
                     if (balance) {
                         const V r = x_[at(i)] - x_[at(j)];
                         const double T = cross(r, f);
-                        const double Ri = R[at(this->particles().body[at(i)])];
-                        const double s = T < 0.0 ? Ri : 1.0 / Ri;
+                        const double s =
+                            (factor(i, T, R, torques) + factor(j, T, R, torques)) / 2.0;
                         f += (s - 1.0) * T / r.squaredNorm() * V(-r[1], r[0]);
                     }
                 v_dot += m(j) * f;
@@ -210,10 +261,49 @@ class OracleModel final : public Model<Dim> {
         }
     }
 
+    /// [HHM04] VII with the multipliers derived again.
+    void gauss(const State<Dim>& rate) const {
+        for (int group = 0; group < groups(); ++group) {
+            double mass = 0.0, I = 0.0, L = 0.0, K = 0.0, L_dot = 0.0;
+            V X = V::Zero(), U = V::Zero();
+            for (int i = 0; i < n_; ++i)
+                if (in(i, group)) {
+                    mass += m(i);
+                    X += m(i) * x_[at(i)];
+                    U += m(i) * v_[at(i)];
+                }
+            X /= mass;
+            U /= mass;
+            for (int i = 0; i < n_; ++i)
+                if (in(i, group)) {
+                    const V r = x_[at(i)] - X, v = v_[at(i)] - U;
+                    I += m(i) * r.squaredNorm();
+                    L += m(i) * cross(r, v);
+                    K += m(i) * v.squaredNorm() / 2.0;
+                    L_dot +=
+                        m(i) * (cross(u_[at(i)], v_[at(i)]) + cross(r, V(rate.velocity().col(i))));
+                }
+            double beta = -L_dot / (I - L * L / (2.0 * K));
+            if (mutation_ == Mutation::printed_multipliers) beta = -beta;
+            const double alpha = beta * L / (2.0 * K);
+            if (std::abs(alpha) > std::abs(L) / I) continue;
+            for (int i = 0; i < n_; ++i)
+                if (in(i, group)) {
+                    V F = -alpha * (v_[at(i)] - U);
+                    if constexpr (Dim == 2) {
+                        const V r = x_[at(i)] - X;
+                        F += beta * V(-r[1], r[0]);
+                    }
+                    rate.velocity().col(i) += F;
+                }
+        }
+    }
+
     ElasticSolid law_;
     Scheme scheme_;
     Mutation mutation_;
     int n_ = 0;
+    double c_L_ = 0.0;
     std::vector<V> x_, v_, u_;
     std::vector<double> rho_;
     std::vector<M> stress_;

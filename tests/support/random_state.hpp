@@ -75,11 +75,20 @@ std::vector<Scheme> all_schemes() {
     for (const auto density : {Density::continuity, Density::summed, Density::chain_rule})
         for (const auto transport : {Transport::plain, Transport::average, Transport::monaghan})
             for (const auto mean : {MeanDensityKind::arithmetic, MeanDensityKind::geometric})
-                for (const auto L : {AngularMomentum::free, AngularMomentum::torque_pair}) {
-                    if (L == AngularMomentum::torque_pair && Dim != 2) continue;
-                    if (density == Density::chain_rule && transport == Transport::plain) continue;
-                    schemes.push_back({density, transport, mean, L, Kernel::lucy, 2.6});
-                }
+                for (const auto L :
+                     {AngularMomentum::free, AngularMomentum::gauss,
+                      AngularMomentum::torque_particle, AngularMomentum::torque_pair})
+                    for (const double viscosity : {0.0, 0.3}) {
+                        if (L != AngularMomentum::free && Dim != 2) continue;
+                        if (density == Density::chain_rule && transport == Transport::plain)
+                            continue;
+                        schemes.push_back({.density = density,
+                                           .transport = transport,
+                                           .mean_density = mean,
+                                           .angular_momentum = L,
+                                           .viscosity = viscosity,
+                                           .range = 2.6});
+                    }
     return schemes;
 }
 

@@ -17,6 +17,10 @@ struct Observers {
     std::function<void(double t)> output;
     std::function<void(double t)> snapshot;
     std::function<void(double t)> step;  ///< after every step: progress
+    /// After every output: whether y was changed, or the rates, so that the integrator begins anew.
+    std::function<bool(double t)> revise;
+    /// After every output: whether the run has shown what it was for and ends here.
+    std::function<bool(double t)> enough;
 };
 
 /// Times k * every, each due once: exactly hit by integrators that land on stops, at the first step
@@ -33,7 +37,7 @@ class DueTimes {
     std::size_t k_ = 1;
 };
 
-/// Integrates to schedule.t_end, calling observers at t = start, when due, and at the end.
+/// Integrates to schedule.t_end, or until there is enough, calling observers at t = start, when due, and at the end.
 /// Returns the signal that interrupted the run (see InterruptWatch), 0 if it went to the end.
 /// GuardStop passes through.
 /// In every case the final accepted state has been given to `output` and `snapshot` exactly once.

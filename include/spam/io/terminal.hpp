@@ -29,6 +29,8 @@ class Terminal {
 
     /// One line (or several, separated by '\n').
     void say(std::string_view text);
+    /// To the log only.
+    void log(std::string_view text);
     /// To standard error, also when quiet, and to the log.
     void warn(std::string_view text);
 
@@ -43,7 +45,6 @@ class Terminal {
     void end_progress();
 
   private:
-    void log(std::string_view text);
     std::size_t width() const;
 
     bool quiet_;

@@ -25,6 +25,9 @@ struct ElasticSolid {
         return {modulus, modulus};
     }
 
+    /// c_L
+    double sound_speed(double density) const { return std::sqrt((lambda + 2.0 * eta) / density); }
+
     std::string describe() const {
         return fmt::format("elastic solid, lambda = {:.6g}, eta = {:.6g}", lambda, eta);
     }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -27,12 +28,16 @@ class Material {
     }
     std::string describe() const { return loop_->describe(); }
 
+    /// Longitudinal, where the law has a sound_speed(density).
+    std::optional<double> sound_speed(double density) const { return loop_->sound_speed(density); }
+
   private:
     struct Loop {
         virtual ~Loop() = default;
         virtual void run(std::span<const std::uint32_t>, std::span<const Mat<Dim>>,
                          const ConstState<Dim>&, const State<Dim>&) const = 0;
         virtual std::string describe() const = 0;
+        virtual std::optional<double> sound_speed(double density) const = 0;
     };
 
     template <class Law>
@@ -57,6 +62,10 @@ class Material {
             }
         }
         std::string describe() const override { return law.describe(); }
+        std::optional<double> sound_speed(double density) const override {
+            if constexpr (requires { law.sound_speed(density); }) return law.sound_speed(density);
+            return {};
+        }
         Law law;
     };
 

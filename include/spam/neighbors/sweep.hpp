@@ -25,7 +25,7 @@ constexpr bool is_light() {
 /// type with
 ///     template <class T> struct Sums;
 ///     template <class T, class Record> static void add(pair, i, j, Sums<T>&);
-/// and, where it does so little that a square root would be waited for,
+/// (not static where the pass holds constants, which come with `passes`) and, where it does so little that a square root would be waited for,
 ///     static constexpr bool light = true;
 /// R: the record the passes need (record.hpp). W must be the list's width, the records'
 /// stride the list's.
@@ -34,7 +34,8 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
 [[gnu::always_inline]] inline void sweep_block(const ClusterView& list, std::size_t first,
                                                std::size_t last, const Weight& weight,
                                                const Space& space, const Records& records,
-                                               const Store& store) {
+                                               const Store& store,
+                                               const std::tuple<Passes...>& passes = {}) {
     using T = LanesOf<W>;
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;
@@ -69,7 +70,8 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
             const auto next_apart = distance_to(next);
             j.visit([&](T& number, int k) { number = T(other[k]); });
             const auto pair = make_pair<Dim, T>(weight, apart, i, j);
-            std::apply([&](auto&... s) { (Passes::add(pair, i, j, s), ...); }, sums);
+            std::apply([&](auto&... s) { (std::get<Passes>(passes).add(pair, i, j, s), ...); },
+                       sums);
             other = next;
             apart = next_apart;
         }
@@ -92,9 +94,9 @@ void for_each_block(const ClusterView& list, const Body& body) {
 /// A sweep over all clusters.
 template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
 void sweep(const ClusterView& list, const Weight& weight, const Space& space,
-           const Records& records, const Store& store) {
+           const Records& records, const Store& store, const std::tuple<Passes...>& passes = {}) {
     for_each_block<W>(list, [&](std::size_t first, std::size_t last) {
-        sweep_block<W, Dim, R, Passes...>(list, first, last, weight, space, records, store);
+        sweep_block<W, Dim, R, Passes...>(list, first, last, weight, space, records, store, passes);
     });
 }
 

@@ -9,7 +9,9 @@ namespace spam {
 enum class Density { continuity, summed, chain_rule };
 enum class Transport { plain, average, monaghan };
 enum class MeanDensityKind { arithmetic, geometric };
-enum class AngularMomentum { free, torque_pair };
+enum class AngularMomentum { free, gauss, torque_particle, torque_pair };
+enum class Balance { body, global };      ///< what keeps an angular momentum of its own
+enum class GaussSingular { skip, stop };  ///< where Gauss' principle has no solution
 enum class Kernel { lucy };
 
 /// How well an invariant is kept by the equations themselves.
@@ -34,6 +36,9 @@ struct Scheme {
     Transport transport = Transport::plain;
     MeanDensityKind mean_density = MeanDensityKind::arithmetic;
     AngularMomentum angular_momentum = AngularMomentum::free;
+    Balance balance = Balance::body;
+    GaussSingular gauss_singular = GaussSingular::skip;
+    double viscosity = 0.0;  ///< von Neumann's artificial viscosity: alpha; 0 without
     Kernel kernel = Kernel::lucy;
     double range = 3.0;
 
@@ -53,6 +58,8 @@ std::string_view to_string(Density);
 std::string_view to_string(Transport);
 std::string_view to_string(MeanDensityKind);
 std::string_view to_string(AngularMomentum);
+std::string_view to_string(Balance);
+std::string_view to_string(GaussSingular);
 std::string_view to_string(Kernel);
 std::string_view to_string(Promise);
 

@@ -7,11 +7,14 @@
 #include <span>
 #include <vector>
 
-/// Pair-torque scaling, [HHM04] VIII, made exact: in the plane the pair torques
+/// Torque scaling, [HHM04] VIII, made exact: in the plane the pair torques
 ///     T_ij = x_ij F_y - y_ij F_x
-/// of each body are multiplied by R where negative and by 1/R where positive, with R such that the
-/// body's angular momentum about the origin is constant. Bodies: connected parts, each with its own
-/// R. With u = <v> the term X depends on the frame (sum m u differs from sum m v), so that scheme
+/// of each body are multiplied by s_ij, with one R for the body such that its angular momentum about
+/// the origin is constant:
+///     torque_pair      s_ij = R where T_ij < 0, 1/R where T_ij > 0
+///     torque_particle  s_ij = (s_i + s_j)/2, s_i = R or 1/R by the sign of T_i = 1/2 sum_j T_ij; it
+///                      jumps where a T_i changes sign
+/// Bodies: connected parts, each with its own R. With u = <v> the term X depends on the frame (sum m u differs from sum m v), so that scheme
 /// is not Galilean covariant; with v or <v>_Monaghan X vanishes and it is.
 namespace spam {
 
@@ -40,9 +43,9 @@ inline double torque_balance(double P, double M, double X) {
     return X >= 0.0 ? (X + root) / (2.0 * M) : 2.0 * P / (root - X);
 }
 
-/// Multiplies the tangential part of f_ij by s: f_ij += (s - 1) (T_ij/r^2) (-y_ij, x_ij), with s =
-/// R or 1/R by the sign of T_ij; for a pair of two bodies in contact the mean of theirs, so that
-/// f_ij = -f_ji and linear momentum stays exact.
+/// Multiplies the tangential part of f_ij by s: f_ij += (s - 1) (T_ij/r^2) (-y_ij, x_ij), with s the
+/// mean of both particles' factors for the sign of T_ij, so that f_ij = -f_ji and linear momentum
+/// stays exact. torque_particle gives a particle the same factor for both signs.
 template <class T, class Record>
 Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
                        const Vec<2, T>& f_ij) {
@@ -57,15 +60,24 @@ Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
     return {{f_ij[0] + k * pair.r_ji[1], f_ij[1] - k * pair.r_ji[0]}};
 }
 
-/// The stress force with balanced pair torques; its power enters the energy like any force's.
-struct BalancedStressForce {
+/// A force with balanced pair torques; its power enters the energy like any force's.
+template <class Force>
+struct Balanced {
     template <class T>
     using Sums = ForceSums<2, T>;
 
+    Force force{};
+    template <class Constants>
+    static Balanced with(const Constants& constants) requires requires {
+        Force::with(constants);
+    }
+    { return {Force::with(constants)}; }
+
     template <class T, class Record>
-    static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
+    void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        sums.add(j.m, scale_torque(pair, i, j, force.force(pair, i, j)), pair.v_ji);
     }
 };
+using BalancedStressForce = Balanced<StressForce<2>>;
 
 }  // namespace spam

@@ -26,6 +26,11 @@ struct Plan {
     std::vector<Column<Dim>> columns{};
     /// Called with every snapshot; may be empty.
     std::function<void(double t, const Model<Dim>& model, std::span<const double> y)> on_snapshot{};
+    /// After every row: may change the state or the model's bodies, and returns whether it did. May be
+    /// empty.
+    std::function<bool(double t, Model<Dim>& model, std::span<double> y)> revise{};
+    /// After every row: whether the run has shown what it was for. It then ends, complete. May be empty.
+    std::function<bool(const History& history)> enough{};
 };
 
 /// One run to do: a model, where it starts, and a name for its folder when there are several.
@@ -43,8 +48,9 @@ struct RunRecord {
     History history{{}};
     RunStatistics statistics;
     std::vector<Drift> drifts;
-    std::vector<double> y;  ///< the last accepted state
-    bool complete = false;  ///< reached t_end
+    std::vector<std::pair<double, Remark>> remarks;  ///< by time
+    std::vector<double> y;                           ///< the last accepted state
+    bool complete = false;                           ///< reached t_end, or enough
 };
 
 /// Shape error against the reference configuration, column `shape_error`.

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace spam {
 
@@ -40,6 +41,7 @@ class Problem {
 
   private:
     friend class Session;
+    std::vector<std::string> idle_scheme_options();
     IntegratorOptions resolve_integrator();
 
     std::string name_, summary_;

@@ -58,7 +58,6 @@ class Session {
     template <int Dim>
     RunRecord run_one(Case<Dim>& one, const RunFolder& folder);
     void report(const RunRecord& record);
-    double promise_limit() const;
 
     Problem& problem_;
     IntegratorOptions integrator_;

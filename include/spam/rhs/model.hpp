@@ -10,6 +10,13 @@
 
 namespace spam {
 
+/// Something worth knowing that happened between two steps, for events.csv and the log.
+struct Remark {
+    std::string what;
+    double value;
+    bool stop = false;  ///< the run must not go on
+};
+
 /// A mechanical system as an ordinary differential equation dy/dt = f(t, y): what integrators,
 /// observers and snapshots need to know of it. One virtual call per right-hand side, none per pair.
 template <int Dim>
@@ -37,6 +44,16 @@ class Model {
 
     virtual Promises promises() const = 0;
     virtual std::string describe() const = 0;  ///< one line for banner and dry run
+
+    /// Looks at an accepted state; called after every step, in order. May remember, must not change the
+    /// rates.
+    virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
+
+    /// Gives every particle its body anew, 0, 1, ... as connected_parts() does. The integrator must be
+    /// reset where rates depend on it.
+    virtual void set_bodies(std::vector<std::int32_t> bodies) {
+        particles_.body = std::move(bodies);
+    }
 
     /// Pairs (undirected) that the latest right-hand side summed over.
     virtual std::size_t pairs() const = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/sums.hpp>
 #include <spam/material/material.hpp>
+#include <spam/physics/viscosity.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <memory>
@@ -15,16 +15,19 @@ template <int Dim>
 class PackedParticles;
 enum class ListUse;
 struct PackedFields;
+struct Groups;
+class TorqueFactors;
+class GaussForces;
 
 /// A solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
-/// decides whether density is part of y, what velocity moves the particles, and whether pair
-/// torques are balanced.
+/// decides whether density is part of y, what velocity moves the particles, and what keeps the
+/// angular momentum.
 template <int Dim>
 class SmoothParticleModel final : public Model<Dim> {
   public:
     /// `material`: any stress law (stress_law.hpp). Throws InputError when the scheme makes no
-    /// sense here (Scheme::validate) the range does not reach a neighbour,
-    /// or a periodic box is not wider than twice the range.
+    /// sense here (Scheme::validate), the range does not reach a neighbour, a periodic box is not wider
+    /// than twice the range, or the law tells no sound speed and the scheme has viscosity.
     SmoothParticleModel(Particles<Dim> particles, const Material<Dim>& material,
                         const Scheme& scheme, const Box<Dim>& box = {});
 
@@ -39,8 +42,14 @@ class SmoothParticleModel final : public Model<Dim> {
     double reach() const override { return scheme_.range; }
 
     const Scheme& scheme() const { return scheme_; }
-    /// R of each body in the latest rates(); 1 where torques are left free.
-    std::span<const double> torque_factors() const { return torque_factor_; }
+    /// R of each body (of all with Balance::global) in the latest rates(); empty where torques are
+    /// left free.
+    std::span<const double> torque_factors() const;
+
+    /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
+    /// denominator (physics/gauss_constraint.hpp).
+    std::vector<Remark> watch(double t, std::span<const double> y) override;
+    void set_bodies(std::vector<std::int32_t> bodies) override;
     std::size_t list_builds() const;
 
   private:
@@ -48,20 +57,22 @@ class SmoothParticleModel final : public Model<Dim> {
     PackedFields fields(std::span<const double> y) const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     bool fail_density(std::span<const double> rho, std::span<double> y_dot);
-    void balance_torques(std::span<const double> y, std::span<const double> u);
     void load_transport(std::span<const double> u);
+    ViscosityConstants viscosity() const;
+    Groups groups() const;
 
     Material<Dim> material_;
     Scheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
+    ViscosityConstants viscosity_;
     std::vector<double> summed_density_;
-    std::vector<double> positive_torque_, negative_torque_;  ///< per particle, TorqueSums
-    struct BodySums {
-        CompensatedSum P, M, X;  ///< torque_balance()
-    };
-    std::vector<BodySums> body_sums_;
-    std::vector<double> torque_factor_;  ///< per body
+    std::vector<std::int32_t> group_;  ///< per particle, what keeps its angular momentum
+    std::size_t group_count_ = 1;
+    std::unique_ptr<TorqueFactors> torques_;
+    std::unique_ptr<GaussForces> gauss_;
+    bool gauss_works_ = false;           ///< at the latest accepted state
+    std::vector<double> watched_rates_;  ///< there
 };
 
 extern template class SmoothParticleModel<1>;

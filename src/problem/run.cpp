@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run.hpp"
+
+#include <spam/core/error.hpp>
+#include <spam/problem/run_in_memory.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace spam {
+namespace {
+
+/// "_x", "_xy": which component of a field, nothing for scalars.
+template <int Dim>
+std::string component_name(Field field, std::size_t component) {
+    const std::size_t components = FieldLayout<Dim>::components(field);
+    if (components == 1 && Dim > 1) return {};
+    const std::string axes = "xyz";
+    if (field != Field::stress) return {'_', axes[component]};
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b)
+            if (static_cast<std::size_t>(symmetric_index(Dim, a, b)) == component)
+                return {'_', axes[static_cast<std::size_t>(a)], axes[static_cast<std::size_t>(b)]};
+    return {};
+}
+
+}  // namespace
+
+template <int Dim>
+Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
+    Ode ode;
+    ode.rates = [&](double t, std::span<const double> y, std::span<double> y_dot) {
+        model.rates(t, y, y_dot);
+        pair_interactions += model.pairs();
+    };
+    ode.failure = [&model] { return model.failure(); };
+    ode.entry_name = [&model](std::size_t k) {
+        const auto entry = model.layout().entry(k);
+        return fmt::format("{}{} of particle {}", field_name(entry.field),
+                           component_name<Dim>(entry.field, entry.component),
+                           model.particles().id[entry.particle]);
+    };
+    ode.absolute_tolerance.resize(model.layout().size());
+    for (const auto& block : model.layout().blocks())
+        std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
+                    block.components * model.layout().particles(), atol * block.scale);
+    return ode;
+}
+
+double promise_limit(const IntegratorOptions& options) {
+    return options.adaptive() ? std::max(1e-12, 1e3 * std::max(options.rtol, options.atol)) : 1e-6;
+}
+
+template <int Dim>
+Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
+    : one_(one),
+      promise_limit_(promise_limit(options)),
+      y_(one.y0.size(), context_),
+      recorder_(one.model, one.plan, folder),
+      start_(std::chrono::steady_clock::now()) {
+    std::copy(one.y0.begin(), one.y0.end(), y_.span().begin());
+    record_.label = one.label;
+    record_.statistics.particles = one.model.particles().size();
+    ode_ = as_ode(one.model, options.atol, record_.statistics.pair_interactions);
+    integrator_ = make_integrator(options, ode_, y_, 0.0, context_);
+    if (folder != nullptr) events_ = *folder / "events.csv";
+}
+
+template <int Dim>
+double Run<Dim>::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+/// The file comes into being with the first event.
+template <int Dim>
+void Run<Dim>::remember(double t, const Remark& remark) {
+    if (events_) {
+        std::ofstream out(*events_, std::ios::app);
+        if (record_.remarks.empty()) out << "t,event,value\n";
+        out << fmt::format("{:.17g},{},{:.17g}\n", t, remark.what, remark.value);
+        if (!out.flush())
+            throw OutputError(fmt::format("cannot write '{}' (disk full?)", events_->string()));
+    }
+    record_.remarks.emplace_back(t, remark);
+}
+
+template <int Dim>
+void Run<Dim>::watch(double t, const Watchers& watchers) {
+    for (const Remark& remark : one_.model.watch(t, y_.span())) {
+        remember(t, remark);
+        if (watchers.remark) watchers.remark(t, remark);
+        if (remark.stop)
+            throw GuardStop(fmt::format("{} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
+    }
+}
+
+template <int Dim>
+void Run<Dim>::complete() {
+    RunStatistics& s = record_.statistics;
+    s.t_end = integrator_->t();
+    s.steps = statistics().steps;
+    s.rejected_steps = statistics().rejected_steps;
+    s.rhs_evaluations = statistics().rhs_evaluations;
+    s.wall_seconds = seconds();
+    record_.history = recorder_.history();
+    record_.drifts = drifts();
+    record_.y.assign(y_.span().begin(), y_.span().end());
+}
+
+template <int Dim>
+std::string Run<Dim>::drive(const Watchers& watchers) {
+    const Plan<Dim>& plan = one_.plan;
+    Observers observers;
+    observers.output = [&](double t) { recorder_.add(t, statistics().last_step, y_.span()); };
+    observers.snapshot = [&](double t) {
+        if (watchers.snapshot) watchers.snapshot(t);
+        if (plan.on_snapshot) plan.on_snapshot(t, one_.model, y_.span());
+    };
+    observers.step = [&](double t) {
+        watch(t, watchers);
+        if (watchers.step) watchers.step(t);
+    };
+    if (plan.revise)
+        observers.revise = [&](double t) { return plan.revise(t, one_.model, y_.span()); };
+    if (plan.enough) observers.enough = [&](double) { return plan.enough(recorder_.history()); };
+
+    std::string reason;
+    try {
+        const int signal = spam::drive(
+            *integrator_, {plan.t_end, plan.output_every, plan.snapshot_every}, observers);
+        record_.complete = signal == 0;
+        if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
+    } catch (const GuardStop& stop) {
+        reason = record_.statistics.stopped = stop.what();
+    } catch (const OutputError& error) {
+        record_.statistics.stopped = error.what();
+        complete();
+        throw;
+    }
+    complete();
+    return reason;
+}
+
+template <int Dim>
+RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
+    Run<Dim> run(one, integrator, nullptr);
+    run.drive({});
+    return std::move(run.record());
+}
+
+template class Run<1>;
+template class Run<2>;
+template class Run<3>;
+template Ode as_ode(Model<1>&, double, std::size_t&);
+template Ode as_ode(Model<2>&, double, std::size_t&);
+template Ode as_ode(Model<3>&, double, std::size_t&);
+template RunRecord run_in_memory(Case<1>, const IntegratorOptions&);
+template RunRecord run_in_memory(Case<2>, const IntegratorOptions&);
+template RunRecord run_in_memory(Case<3>, const IntegratorOptions&);
+
+}  // namespace spam

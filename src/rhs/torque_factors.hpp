@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/sums.hpp>
+#include <spam/physics/scheme.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace spam {
+
+/// Particles of one kind: their masses, and the group (a body, or all) that keeps its angular
+/// momentum.
+struct Groups {
+    std::span<const double> mass;
+    std::span<const std::int32_t> group;
+    std::size_t count;
+};
+
+/// The factors of torque scaling (physics/torque_balance.hpp), from the torques of the first sweep.
+class TorqueFactors {
+  public:
+    TorqueFactors(std::size_t particles, AngularMomentum law)
+        : law_(law),
+          positive_(particles),
+          negative_(particles) {}
+
+    double* positive() { return positive_.data(); }  ///< N, TorqueSums: the first sweep's
+    double* negative() { return negative_.data(); }
+
+    /// R of every group from its own sums, taken in the order of the particles. u, v: 2 x N.
+    void balance(const Groups& groups, const double* u, const double* v);
+
+    /// What particle i brings to s_ij of its pairs.
+    struct Factors {
+        double negative, positive;
+    };
+    Factors of(std::size_t i, std::int32_t group) const {
+        const double R = R_[static_cast<std::size_t>(group)];
+        if (law_ == AngularMomentum::torque_pair) return {R, 1.0 / R};
+        const double s = positive_[i] < negative_[i] ? R : 1.0 / R;
+        return {s, s};
+    }
+    std::span<const double> R() const { return R_; }
+
+  private:
+    struct Sums {
+        CompensatedSum P, M, X;  ///< torque_balance()
+    };
+    AngularMomentum law_;
+    std::vector<double> positive_, negative_;
+    std::vector<Sums> sums_;
+    std::vector<double> R_;
+};
+
+}  // namespace spam
