@@ -38,6 +38,8 @@ std::string title_of(ModelKind kind, const Scheme& scheme) {
     if (scheme.density == Density::summed) title += ", summed density";
     if (scheme.density == Density::chain_rule) title += ", chain rule";
     if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
+    if (scheme.angular_momentum == AngularMomentum::torque_particle) title += ", particle torque";
+    if (scheme.angular_momentum == AngularMomentum::gauss) title += ", Gauss";
     return title;
 }
 

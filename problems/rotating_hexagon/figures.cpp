@@ -95,7 +95,8 @@ std::vector<Hexagon> hexagons_of_figure(const Parameters& p, const Scheme& stand
     constexpr auto continuity = Density::continuity, chain_rule = Density::chain_rule;
     constexpr auto plain = Transport::plain, average = Transport::average,
                    monaghan = Transport::monaghan;
-    constexpr auto free = AngularMomentum::free, pair = AngularMomentum::torque_pair;
+    constexpr auto free = AngularMomentum::free, pair = AngularMomentum::torque_pair,
+                   particle = AngularMomentum::torque_particle;
     const int figure = static_cast<int>(*p.figure);
     if (figure == 4) {
         add("md", md, continuity, plain, free);
@@ -104,6 +105,8 @@ std::vector<Hexagon> hexagons_of_figure(const Parameters& p, const Scheme& stand
     } else if (figure == 7) {
         add("average_torque_pair", spam, continuity, average, pair);
         add("monaghan_torque_pair", spam, continuity, monaghan, pair);
+        add("average_torque_particle", spam, continuity, average, particle);
+        add("monaghan_torque_particle", spam, continuity, monaghan, particle);
     } else {
         add("average", spam, continuity, average, free);
         add("monaghan", spam, continuity, monaghan, free);

@@ -86,4 +86,9 @@ std::string DampedModel::describe() const {
                        gamma_);
 }
 
+void DampedModel::set_bodies(std::vector<std::int32_t> bodies) {
+    model_->set_bodies(bodies);
+    Model<2>::set_bodies(std::move(bodies));
+}
+
 }  // namespace spam

@@ -29,7 +29,10 @@ BOOST_AUTO_TEST_CASE(each_figure_has_the_panels_of_the_paper) {
         {"4", {3, {"md", "summed", "continuity"}}},
         {"5", {8, {"average", "monaghan", "average_chain_rule", "monaghan_chain_rule"}}},
         {"6", {1, {"average", "monaghan"}}},
-        {"7", {4, {"average_torque_pair", "monaghan_torque_pair"}}}};
+        {"7",
+         {4,
+          {"average_torque_pair", "monaghan_torque_pair", "average_torque_particle",
+           "monaghan_torque_particle"}}}};
     for (const auto& [figure, expected] : figures) BOOST_TEST_CONTEXT("figure " << figure) {
             const Scratch folder;
             const Outcome outcome = hexagon(folder, {"--figure", figure});

@@ -22,6 +22,10 @@ class DampedModel final : public Model<2> {
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override;
     std::string describe() const override;
+    std::vector<Remark> watch(double t, std::span<const double> y) override {
+        return model_->watch(t, y);
+    }
+    void set_bodies(std::vector<std::int32_t> bodies) override;
     std::size_t pairs() const override { return model_->pairs(); }
     double reach() const override { return model_->reach(); }
 
