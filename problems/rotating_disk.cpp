@@ -196,7 +196,7 @@ void check(Session& session, const Body& body, const RunRecord& run, double omeg
             }
             session.check(found);
         }
-    if (!md)
+    if (!md && run.complete)
         session.check({"spam_shear_rim_per_radian",
                        run.history.last("shear_rim") / (omega * run.statistics.t_end),
                        {},
