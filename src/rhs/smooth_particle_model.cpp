@@ -217,16 +217,15 @@ void SmoothParticleModel<Dim>::load_transport(std::span<const double> u) {
         const std::size_t i = order[slot];
         double* number = packed_->record(slot) + TransportRecord<Dim>::first;
         for (std::size_t a = 0; a < d; ++a) *number++ = u[i * d + a];
-        const TorqueFactors::Factors s =
-            torques_ ? torques_->of(i, group_[i]) : TorqueFactors::Factors{1.0, 1.0};
+        const TorqueScale s = torques_ ? torques_->of(i, group_[i]) : TorqueScale{};
         *number++ = s.negative;
         *number++ = s.positive;
     });
 }
 
 template <int Dim>
-std::span<const double> SmoothParticleModel<Dim>::torque_factors() const {
-    return torques_ ? torques_->R() : std::span<const double>{};
+std::span<const TorqueScale> SmoothParticleModel<Dim>::torque_scales() const {
+    return torques_ ? torques_->scales() : std::span<const TorqueScale>{};
 }
 
 /// At the start it counts as singular: a body that rotates rigidly has no need of the constraint.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "torque_factors.hpp"
 
-#include <spam/physics/torque_balance.hpp>
-
 #include <algorithm>
 
 namespace spam {
 
 void TorqueFactors::balance(const Groups& groups, const double* u, const double* v) {
     sums_.assign(groups.count, Sums{});
-    R_.resize(groups.count);
+    scales_.resize(groups.count);
     for (std::size_t i = 0; i < groups.mass.size(); ++i) {
         Sums& sums = sums_[static_cast<std::size_t>(groups.group[i])];
         double positive = 0.5 * positive_[i], negative = 0.5 * negative_[i];
@@ -23,7 +21,7 @@ void TorqueFactors::balance(const Groups& groups, const double* u, const double*
         sums.X += groups.mass[i] * (u[2 * i] * v[2 * i + 1] - u[2 * i + 1] * v[2 * i]);
     }
     for (std::size_t g = 0; g < groups.count; ++g)
-        R_[g] = torque_balance(sums_[g].P, sums_[g].M, sums_[g].X);
+        scales_[g] = torque_balance(sums_[g].P, sums_[g].M, sums_[g].X);
 }
 
 }  // namespace spam

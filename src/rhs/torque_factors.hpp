@@ -3,6 +3,7 @@
 
 #include <spam/core/sums.hpp>
 #include <spam/physics/scheme.hpp>
+#include <spam/physics/torque_balance.hpp>
 
 #include <cstdint>
 #include <span>
@@ -29,20 +30,17 @@ class TorqueFactors {
     double* positive() { return positive_.data(); }  ///< N, TorqueSums: the first sweep's
     double* negative() { return negative_.data(); }
 
-    /// R of every group from its own sums, taken in the order of the particles. u, v: 2 x N.
+    /// The scale of every group from its own sums, taken in the order of the particles. u, v: 2 x N.
     void balance(const Groups& groups, const double* u, const double* v);
 
     /// What particle i brings to s_ij of its pairs.
-    struct Factors {
-        double negative, positive;
-    };
-    Factors of(std::size_t i, std::int32_t group) const {
-        const double R = R_[static_cast<std::size_t>(group)];
-        if (law_ == AngularMomentum::torque_pair) return {R, 1.0 / R};
-        const double s = positive_[i] < negative_[i] ? R : 1.0 / R;
+    TorqueScale of(std::size_t i, std::int32_t group) const {
+        const TorqueScale scale = scales_[static_cast<std::size_t>(group)];
+        if (law_ == AngularMomentum::torque_pair) return scale;
+        const double s = positive_[i] < negative_[i] ? scale.negative : scale.positive;
         return {s, s};
     }
-    std::span<const double> R() const { return R_; }
+    std::span<const TorqueScale> scales() const { return scales_; }
 
   private:
     struct Sums {
@@ -51,7 +49,7 @@ class TorqueFactors {
     AngularMomentum law_;
     std::vector<double> positive_, negative_;
     std::vector<Sums> sums_;
-    std::vector<double> R_;
+    std::vector<TorqueScale> scales_;
 };
 
 }  // namespace spam

@@ -119,13 +119,21 @@ BOOST_AUTO_TEST_CASE(balance_solves_its_equation) {
     for (const double X : {0.0, 1e-12, 0.3, -0.3, 5.0, -5.0, 1e3, -1e3})
         for (const double P : {1e-20, 0.1, 2.0})
             for (const double M : {1e-20, 0.1, 2.0}) {
-                const double R = torque_balance(P, M, X);
-                BOOST_TEST(R > 0.0);
-                const double size = P / R + M * R + std::abs(X);
-                BOOST_TEST(std::abs(P / R - M * R + X) < 1e-14 * size);
+                const TorqueScale s = torque_balance(P, M, X);
+                BOOST_TEST(s.negative > 0.0);
+                BOOST_TEST(std::abs(s.negative * s.positive - 1.0) < 1e-15);
+                const double size = P * s.positive + M * s.negative + std::abs(X);
+                BOOST_TEST(std::abs(P * s.positive - M * s.negative + X) < 1e-14 * size);
             }
-    BOOST_TEST(torque_balance(0.0, 1.0, 0.0) == 1.0);  // nothing to balance with
-    BOOST_TEST(torque_balance(0.0, 0.0, 0.0) == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(torques_of_one_sign_are_scaled_away) {
+    BOOST_TEST(torque_balance(0.0, 1.0, 0.0).negative == 0.0);
+    BOOST_TEST(torque_balance(1.0, 0.0, 0.0).positive == 0.0);
+    BOOST_TEST(torque_balance(1.0, 1e-20, 0.0).positive < 1e-9);  // and so is what is nearly so
+    BOOST_TEST(torque_balance(2.0, 0.0, -0.5).positive == 0.25);  // or so as to cancel X
+    BOOST_TEST(torque_balance(0.0, 2.0, 0.5).negative == 0.25);
+    BOOST_TEST(torque_balance(0.0, 0.0, 0.0).positive == 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(a_particle_does_not_act_on_itself) {

@@ -34,13 +34,22 @@ struct TorqueSums {
     }
 };
 
-/// Root R > 0 of P/R - M R + X = 0: positive torques P, minus the negative ones M, and
-/// X = sum m u x v (zero unless the transport velocity is <v>). Where P or M vanishes there is
-/// nothing to balance with, and R = 1.
-inline double torque_balance(double P, double M, double X) {
-    if (!(P > 0.0) || !(M > 0.0)) return 1.0;
+/// What negative torques are multiplied by, and positive ones.
+struct TorqueScale {
+    double negative = 1.0, positive = 1.0;
+};
+
+/// R and 1/R, with R > 0 the root of P/R - M R + X = 0: positive torques P, minus the negative ones M,
+/// and X = sum m u x v (zero unless the transport velocity is <v>). Where all torques have one sign
+/// that is the limit: they are scaled to cancel X, or away, as in a fragment of two particles. Where
+/// there are none it is 1.
+inline TorqueScale torque_balance(double P, double M, double X) {
+    if (!(P > 0.0) && !(M > 0.0)) return {};
+    if (!(M > 0.0)) return {1.0, X < 0.0 ? -X / P : 0.0};
+    if (!(P > 0.0)) return {X > 0.0 ? X / M : 0.0, 1.0};
     const double root = std::sqrt(X * X + 4.0 * P * M);
-    return X >= 0.0 ? (X + root) / (2.0 * M) : 2.0 * P / (root - X);
+    const double R = X >= 0.0 ? (X + root) / (2.0 * M) : 2.0 * P / (root - X);
+    return {R, 1.0 / R};
 }
 
 /// Multiplies the tangential part of f_ij by s: f_ij += (s - 1) (T_ij/r^2) (-y_ij, x_ij), with s the

@@ -17,6 +17,7 @@ enum class ListUse;
 struct PackedFields;
 struct Groups;
 class TorqueFactors;
+struct TorqueScale;
 class GaussForces;
 
 /// A solid of smooth particles, [HHM04] II: y = (x, v, [rho], sigma, e). The scheme
@@ -42,9 +43,9 @@ class SmoothParticleModel final : public Model<Dim> {
     double reach() const override { return scheme_.range; }
 
     const Scheme& scheme() const { return scheme_; }
-    /// R of each body (of all with Balance::global) in the latest rates(); empty where torques are
-    /// left free.
-    std::span<const double> torque_factors() const;
+    /// R and 1/R of each body (of all with Balance::global) in the latest rates(); empty where torques
+    /// are left free.
+    std::span<const TorqueScale> torque_scales() const;
 
     /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
     /// denominator (physics/gauss_constraint.hpp).

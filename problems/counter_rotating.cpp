@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: two hexagons that turn against each other, and who keeps its angular momentum; 5 s
+//
+// Two counter-rotating hexagons, [HHM04] VII and IX.
+//
+//        . o o o .        . o o o .
+//       o o o o o o      o o o o o o        the right one is the mirror image of the left one
+//      o o o o o o o    o o o o o o o
+//       o o o o o o      o o o o o o        gap > 2 h: they never meet
+//        ' o o o '        ' o o o '
+//         -> omega        <- omega
+//
+// No matter how badly each keeps its angular momentum, their sum vanishes: a constraint on the sum has
+// nothing to do. Only a constraint for each body,
+//     P_b/R_b - M_b R_b + X_b = 0     for b = 1, 2
+// keeps both. Run twice: torques balanced for each body, and for all together.
+#include <spam/problem/sight.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+using std::numbers::pi;
+
+struct Hexagons {
+    std::string title;
+    SmoothParticleModel<2> model;
+    Sight sight;
+};
+
+/// The second hexagon is the mirror image of the first in the y axis.
+Points<2> two_hexagons(int size, double gap) {
+    const Points<2> one = triangular_hexagon(size);
+    Points<2> both(2, 2 * one.cols());
+    both << one, one;
+    const double shift = size + 0.5 * gap;
+    both.row(0).head(one.cols()).array() -= shift;
+    both.row(0).tail(one.cols()) = -both.row(0).head(one.cols());
+    return both;
+}
+
+/// omega about the centre of the left one, -omega about that of the right one.
+VelocityField<2> against_each_other(double omega, double shift) {
+    return [=](const Point<2>& x) {
+        const double side = x.x() < 0.0 ? -1.0 : 1.0, w = -side * omega;
+        return Point<2>(-w * x.y(), w * (x.x() - side * shift));
+    };
+}
+
+double drift(const History& h, const char* column) {
+    return h.largest_change(column) / std::abs(h.first(column));
+}
+
+void draw(Session& session, const std::vector<std::unique_ptr<Hexagons>>& pairs,
+          const std::vector<RunRecord>& runs, double turn) {
+    std::vector<ConfigurationPanel> panels;
+    std::vector<CurvePanel> curves;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        panels.push_back(pairs[k]->sight.panel(pairs[k]->title, pairs[k]->model.particles()));
+        panels.back().outlines.clear();  // of two bodies there is no single one
+        const History& h = runs[k].history;
+        auto t = h.column("t");
+        for (double& x : t) x /= turn;
+        CurvePanel panel{pairs[k]->title, "turns", "L(t) / |L(0)| of each body", false, {}};
+        for (const char* name : {"angular_momentum_body_1", "angular_momentum_body_2"}) {
+            auto L = h.column(name);
+            const double scale = std::abs(L.front());
+            for (double& x : L) x /= scale;
+            panel.curves.push_back(
+                {name == std::string("angular_momentum_body_1") ? "left" : "right", t, L});
+        }
+        curves.push_back(panel);
+    }
+    session.note_drawn(
+        draw_configurations(session.plots_folder(), "configurations",
+                            fmt::format("Counter-rotating hexagons after {:.3g} turns",
+                                        runs.front().statistics.t_end / turn),
+                            panels, panels.size(), "speed"));
+    session.note_drawn(
+        draw_curves(session.plots_folder(), "curves", "Counter-rotating hexagons", curves));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("counter_rotating",
+                    "two hexagons that rotate against each other, [HHM04] VII, IX");
+    int size = 8;
+    double speed = 0.1, turns = 1.0;
+    problem.options().integer("size", size, "corners are n spacings from the centre",
+                              between(1, 1000));
+    problem.options().number("speed", speed, "speed of the corners", positive());
+    problem.options().number("turns", turns, "nominal turns to run", positive());
+    problem.use_scheme(
+        {.transport = Transport::monaghan, .angular_momentum = AngularMomentum::torque_pair});
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.given("t-end") && session.given("turns"))
+            throw InputError(
+                "turns: --turns sets the end of the run and so does --t-end; leave one out");
+        if (session.scheme().angular_momentum == AngularMomentum::free)
+            throw InputError(
+                "angular-momentum: free balances nothing, for one body or for all; use gauss, "
+                "torque_particle or torque_pair");
+        if (session.common().smoke) {
+            if (!session.given("size")) size = 3;
+            if (!session.given("turns")) turns = 0.1;
+        }
+        if (!session.given("t-end"))
+            session.leave_out_of_case({"t-end"});
+        else
+            session.leave_out_of_case({"turns"});
+        const double omega = speed / size, turn = 2.0 * pi / omega;
+        const double gap = 2.0 * session.scheme().range + 2.0;
+
+        // With --balance one case, else both.
+        std::vector<Balance> balances{Balance::body, Balance::global};
+        if (session.given("balance"))
+            balances = {session.scheme().balance};
+        else
+            session.leave_out_of_case({"balance"});
+
+        std::vector<std::unique_ptr<Hexagons>> pairs;
+        std::vector<Case<2>> cases;
+        for (const Balance balance : balances) {
+            Scheme scheme = session.scheme();
+            scheme.balance = balance;
+            pairs.push_back(std::unique_ptr<Hexagons>(new Hexagons{
+                balance == Balance::body ? "balance of each body" : "balance of all together",
+                {make_particles<2>(two_hexagons(size, gap), 1.0),
+                 ElasticSolid::triangular_lattice(), scheme},
+                {}}));
+            Hexagons& pair = *pairs.back();
+            Plan<2> plan;
+            plan.t_end = session.common().t_end.value_or(turns * turn);
+            plan.columns = {closest_pair_column<2>()};
+            pair.sight.wanted = plan.t_end;
+            plan.on_snapshot = [&pair](double t, const Model<2>& model, std::span<const double> y) {
+                pair.sight.look(t, model, y);
+            };
+            auto y0 = initial_state<2>(pair.model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
+                                       against_each_other(omega, size + 0.5 * gap));
+            cases.push_back({pair.model, std::move(y0), std::move(plan),
+                             balances.size() > 1 ? std::string(to_string(balance)) : ""});
+        }
+        const auto runs = session.run_all(std::move(cases));
+
+        // what was found
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const History& h = runs[k].history;
+            const Scheme& scheme = pairs[k]->model.scheme();
+            const bool kept = scheme.balance == Balance::body &&
+                              scheme.angular_momentum != AngularMomentum::gauss;
+            const std::string prefix = balances.size() > 1 && k > 0 ? "global_" : "";
+            for (const int body : {1, 2}) {
+                const double change =
+                    drift(h, body == 1 ? "angular_momentum_body_1" : "angular_momentum_body_2");
+                const std::string name =
+                    fmt::format("{}angular_momentum_drift_body_{}", prefix, body);
+                if (kept)
+                    session.check({name, change, 0.0,
+                                   scheme.angular_momentum == AngularMomentum::torque_pair &&
+                                           scheme.transport != Transport::plain
+                                       ? 1e-10
+                                       : 1e-8,
+                                   "[HHM04] IX: a balance for each body"});
+                else
+                    session.check({name, change, {}, 0.0, "measured"});
+            }
+            session.check({prefix + "angular_momentum_sum",
+                           h.largest_change("angular_momentum") /
+                               std::abs(h.first("angular_momentum_body_1")),
+                           0.0, 1e-10,
+                           "mirror images: the sum vanishes whatever each of them loses"});
+            session.check_promises(runs[k], prefix);
+        }
+        if (runs.size() == 2 && runs[1].complete && !session.common().smoke)
+            session.check({"global_balance_loses",
+                           drift(runs[1].history, "angular_momentum_body_1"), 0.5, 0.49,
+                           "[HHM04] IX: the global sum constrains nothing"});
+        if (session.plots()) draw(session, pairs, runs, turn);
+    });
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: a bar hit by a projectile breaks into pieces, each with a balance of its own; 20 s
+//
+// A bar is hit by a projectile, [HHM04] IX: the case that "local conservation of angular momentum is
+// necessary" for.
+//
+//          | o o |
+//          | o o |
+//    ooo   | o o |         bar: columns x rows of triangular lattice, at rest
+//   ooooo ->| o o |         projectile: a hexagon, at `speed`, `offset` above the middle
+//    ooo   | o o |
+//          | o o |         both elastic, the same material
+//
+// Bodies are connected parts within the range of the weight function: they do not act on each other.
+// They are found anew at every row of invariants.csv; projectile and bar become one when they meet,
+// and pieces that part have their own torque balance from then on. bodies.csv accounts for mass,
+// momentum, energy and every body's angular momentum through every change.
+#include <spam/diagnostics/body_ledger.hpp>
+#include <spam/io/csv.hpp>
+#include <spam/neighbors/connected_parts.hpp>
+#include <spam/problem/sight.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace spam;
+
+struct Parameters {
+    int columns = 8, rows = 60;
+    int projectile = 5;
+    double speed = 1.0, offset = 8.0;
+};
+
+/// The bar centred on the origin, the projectile left of it, out of reach; how many are the bar's.
+Points<2> bar_and_projectile(const Parameters& p, double range) {
+    Points<2> bar = triangular_block(p.columns, p.rows);
+    bar.colwise() -= bar.rowwise().mean().eval();
+    Points<2> ball = triangular_hexagon(p.projectile);
+    ball.row(0).array() += bar.row(0).minCoeff() - p.projectile - 3.0 * range;
+    ball.row(1).array() += p.offset;
+    Points<2> all(2, bar.cols() + ball.cols());
+    all << bar, ball;
+    return all;
+}
+
+/// Pieces worth the name: connected within 1.5 spacings, of at least `least` particles, by size.
+std::vector<std::size_t> pieces(const Model<2>& model, std::span<const double> y,
+                                std::size_t least) {
+    const Points<2> x = ConstState<2>(model.layout(), y).position();
+    std::vector<std::size_t> sizes;
+    for (const auto body : connected_parts<2>(x, 1.5 * model.particles().spacing, model.box())) {
+        sizes.resize(std::max(sizes.size(), static_cast<std::size_t>(body) + 1), 0);
+        ++sizes[static_cast<std::size_t>(body)];
+    }
+    std::erase_if(sizes, [least](std::size_t n) { return n < least; });
+    std::sort(sizes.rbegin(), sizes.rend());
+    return sizes;
+}
+
+void write_ledger(const RunFolder& folder, const BodyLedger& ledger) {
+    CsvWriter csv(folder / "bodies.csv",
+                  {"change", "t", "body", "parents", "particles", "mass", "momentum_x",
+                   "momentum_y", "angular_momentum", "energy"});
+    std::size_t change = 0;
+    for (const auto& entry : ledger.entries()) {
+        for (std::size_t b = 0; b < entry.bodies.size(); ++b) {
+            const BodyTotals& body = entry.bodies[b];
+            csv.add(std::vector<double>{
+                static_cast<double>(change), entry.t, static_cast<double>(b + 1),
+                static_cast<double>(entry.parents[b].size()), static_cast<double>(body.particles),
+                body.mass, body.momentum.x(), body.momentum.y(), body.angular_momentum,
+                body.energy});
+        }
+        ++change;
+    }
+}
+
+/// Relative to the angular momentum and the momentum that came with the projectile.
+void check_account(Session& session, const BodyLedger& ledger, const Scheme& scheme,
+                   const RunRecord& run) {
+    const BodyTotals& projectile = *std::max_element(
+        ledger.entries().front().bodies.begin(), ledger.entries().front().bodies.end(),
+        [](const auto& a, const auto& b) { return a.momentum.norm() < b.momentum.norm(); });
+    const double L = std::max(std::abs(projectile.angular_momentum), projectile.momentum.norm());
+    double L_change = 0.0, p_change = 0.0, left_out = 0.0;
+    for (const auto& entry : ledger.entries()) {
+        const BodyTotals& sum = entry.sum_change;
+        L_change = std::max(L_change, entry.largest_L_change / L);
+        p_change = std::max(p_change, entry.largest_momentum_change / projectile.momentum.norm());
+        left_out = std::max({left_out, std::abs(sum.mass) / projectile.mass,
+                             sum.momentum.norm() / projectile.momentum.norm(),
+                             std::abs(sum.angular_momentum) / L,
+                             std::abs(sum.energy) / run.history.first("energy")});
+    }
+    const bool pair = scheme.angular_momentum == AngularMomentum::torque_pair;
+    const bool kept = pair || scheme.angular_momentum == AngularMomentum::torque_particle;
+    session.check({"changes_of_bodies",
+                   static_cast<double>(ledger.entries().size() - 2),
+                   {},
+                   0.0,
+                   "joined or parted"});
+    session.check({"left_out_at_changes", left_out, 0.0, 1e-12,
+                   "mass, momentum, angular momentum and energy of all bodies, after and before"});
+    session.check({"momentum_change_of_bodies", p_change, 0.0, 1e-12, "while they were bodies"});
+    session.check({"angular_momentum_change_of_bodies", L_change,
+                   kept ? std::optional(0.0) : std::nullopt, pair ? 1e-9 : 1e-5,
+                   "[HHM04] IX: each body's own balance"});
+}
+
+bool is_standard(const Session& session, const Parameters& p) {
+    const Parameters usual;
+    return p.columns == usual.columns && p.rows == usual.rows && p.projectile == usual.projectile &&
+           p.speed == usual.speed && p.offset == usual.offset &&
+           session.scheme() == Scheme{.transport = Transport::monaghan,
+                                      .angular_momentum = AngularMomentum::torque_pair,
+                                      .viscosity = 1.0} &&
+           !session.given("t-end");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("fragmenting_bar", "a bar broken by a projectile, [HHM04] IX", 0.05);
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("columns", p.columns, "particles across the bar", between(2, 200));
+    options.integer("rows", p.rows, "particles along the bar", between(4, 2000));
+    options.integer("projectile", p.projectile, "n of the hexagon that hits it", between(1, 100));
+    options.number("speed", p.speed, "of the projectile; sound moves at 1.06", positive());
+    options.number("offset", p.offset, "where it hits, above the middle of the bar", any_number());
+    problem.use_scheme({.transport = Transport::monaghan,
+                        .angular_momentum = AngularMomentum::torque_pair,
+                        .viscosity = 1.0});
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke) {
+            if (!session.given("columns")) p.columns = 4;
+            if (!session.given("rows")) p.rows = 16;
+            if (!session.given("projectile")) p.projectile = 2;
+            if (!session.given("offset")) p.offset = 2.0;
+        }
+        SmoothParticleModel<2> model(
+            make_particles<2>(bar_and_projectile(p, session.scheme().range), 1.0),
+            ElasticSolid::triangular_lattice(), session.scheme());
+        const auto moving = static_cast<std::int64_t>(p.columns) * p.rows;
+        auto y0 = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
+                                   [](const Point<2>&) { return Point<2>(0.0, 0.0); });
+        const State<2> start(model.layout(), y0);
+        for (std::size_t i = 0; i < model.particles().size(); ++i)
+            if (model.particles().id[i] >= moving)
+                start.velocity()(0, static_cast<Eigen::Index>(i)) = p.speed;
+
+        BodyLedger ledger;
+        const double row_interval = session.common().output_every.value_or(0.5);
+        ledger.look(0.0, model, y0, row_interval);
+        Plan<2> plan;
+        plan.t_end = session.common().t_end.value_or(session.common().smoke ? 20.0 : 200.0);
+        plan.output_every = row_interval;
+        plan.columns = {closest_pair_column<2>(),
+                        {"bodies",
+                         [](const Model<2>& m, std::span<const double>) {
+                             return static_cast<double>(m.particles().bodies());
+                         }},
+                        {"pieces", [](const Model<2>& m, std::span<const double> y) {
+                             return static_cast<double>(pieces(m, y, 5).size());
+                         }}};
+        plan.revise = [&ledger, row_interval](double t, Model<2>& m, std::span<double> y) {
+            return ledger.look(t, m, y, row_interval);
+        };
+        std::vector<Sight> sights;
+        for (const double part : {0.0, 0.15, 0.5, 1.0}) sights.push_back({part * plan.t_end});
+        plan.on_snapshot = [&sights](double t, const Model<2>& m, std::span<const double> y) {
+            for (Sight& sight : sights) sight.look(t, m, y);
+        };
+        const auto run = session.run(model, std::move(y0), std::move(plan));
+
+        ledger.close(run.statistics.t_end, model, run.y);
+        write_ledger(session.folder(), ledger);
+        check_account(session, ledger, model.scheme(), run);
+        session.check_promises(run);
+        session.check({"bodies",
+                       static_cast<double>(model.particles().bodies()),
+                       {},
+                       0.0,
+                       "do not act on each other"});
+        const bool standard = run.complete && !session.common().smoke && is_standard(session, p);
+        session.check({"pieces", run.history.last("pieces"),
+                       standard ? std::optional(5.0) : std::nullopt, 2.0,
+                       "connected within 1.5 spacings, five particles or more"});
+        if (session.plots()) {
+            std::vector<ConfigurationPanel> panels;
+            for (const Sight& sight : sights) {
+                panels.push_back(
+                    sight.panel(fmt::format("t = {:.3g}", sight.t), model.particles()));
+                panels.back().outlines.clear();
+            }
+            session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
+                                                   "A bar hit by a projectile", panels,
+                                                   panels.size(), "speed"));
+        }
+    });
+}
