@@ -18,40 +18,16 @@
 //
 // The reference is molecular dynamics of the same particles joined by harmonic springs.
 // Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
-#include <spam/io/csv.hpp>
-#include <spam/problem/sight.hpp>
-#include <spam/spam.hpp>
+// With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
+#include "rotating_hexagon/hexagon.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+namespace rotating_hexagon {
 namespace {
-
-using namespace spam;
-using std::numbers::pi;
-
-enum class ModelKind { spam, md };
-std::string_view to_string(ModelKind kind) { return kind == ModelKind::spam ? "spam" : "md"; }
-
-struct Parameters {
-    int size = 8;        // n: corners are n spacings from the centre
-    double speed = 0.1;  // of the corners
-    std::optional<double> turns;
-    ModelKind model = ModelKind::spam;
-
-    double omega() const { return speed / size; }
-    double turn() const { return 2.0 * pi / omega(); }  // nominal: the hexagon's own turn is slower
-};
-
-struct Hexagon {
-    std::string label;
-    std::string title;
-    std::unique_ptr<Model<2>> model;
-    std::vector<Sight> sights{};
-};
 
 /// What distinguishes a case in a picture.
 std::string title_of(ModelKind kind, const Scheme& scheme) {
@@ -63,8 +39,12 @@ std::string title_of(ModelKind kind, const Scheme& scheme) {
     if (scheme.density == Density::chain_rule) title += ", chain rule";
     if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
     if (scheme.closest_approach > 0.0) title += fmt::format(", R = {:g}", scheme.closest_approach);
+    if (scheme.angular_momentum == AngularMomentum::torque_particle) title += ", particle torque";
+    if (scheme.angular_momentum == AngularMomentum::gauss) title += ", Gauss";
     return title;
 }
+
+}  // namespace
 
 Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
                      const std::string& label) {
@@ -80,6 +60,8 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
                                                      ElasticSolid::triangular_lattice(), scheme)};
 }
 
+namespace {
+
 /// What a reader of the paper compares first.
 std::vector<Hexagon> comparison(const Parameters& p, Scheme scheme) {
     std::vector<Hexagon> all;
@@ -92,10 +74,23 @@ std::vector<Hexagon> comparison(const Parameters& p, Scheme scheme) {
     return all;
 }
 
+/// Options that a figure of the paper leaves no choice of.
+std::vector<std::string> settled_by_figure() {
+    auto names = Problem::scheme_option_names();
+    names.insert(names.end(), {"model", "turns", "t-end"});
+    return names;
+}
+
 void refuse_contradictions(const Options& options, const Parameters& p) {
     if (options.given("t-end") && options.given("turns"))
         throw InputError(
             "turns: --turns sets the end of the run and so does --t-end; leave one out");
+    if (p.figure) {
+        const std::string settled = options.first_given(settled_by_figure());
+        if (!settled.empty())
+            throw InputError(
+                fmt::format("{}: --figure {:g} settles it; leave one out", settled, *p.figure));
+    }
     if (p.model == ModelKind::spam) return;
     auto names = Problem::scheme_option_names();
     names.insert(names.end(), {"kernel", "range"});
@@ -189,66 +184,11 @@ void report_measured(Session& session, const RunRecord& run, bool ratio_claimed,
     measured("closest_pair", h.smallest("closest_pair"));
 }
 
-// ---- pictures ----
-
-void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hexagons,
-          const std::vector<RunRecord>& runs) {
-    const auto folder = session.plots_folder();
-    std::vector<ConfigurationPanel> panels;
-    for (std::size_t s = 0; s < hexagons.front().sights.size(); ++s)
-        for (std::size_t k = 0; k < runs.size(); ++k) {
-            const Sight& sight = hexagons[k].sights[s];
-            const std::string angle = sight.wanted == p.turn() / 3.0
-                                          ? std::string("2π/3")
-                                          : fmt::format("{:.3g} turn", sight.t / p.turn());
-            panels.push_back(sight.panel(fmt::format("{}, {}", hexagons[k].title, angle),
-                                         hexagons[k].model->particles()));
-        }
-    session.note_drawn(draw_configurations(
-        folder, "configurations",
-        fmt::format("Rotating elastic hexagon, {} particles", runs.front().statistics.particles),
-        panels, runs.size() > 1 ? runs.size() : panels.size(), "speed"));
-
-    CurvePanel momentum{"angular momentum", "turns", "L(t) / L(0)", false, {}};
-    CurvePanel energy{"energy", "turns", "|E(t) - E(0)| / E(0)", true, {}};
-    CurvePanel shape{"shape", "turns", "shape error / spacing", true, {}};
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-        const History& h = runs[k].history;
-        auto turns = h.column("t"), ratio = h.column("angular_momentum"),
-             drift = h.column("energy");
-        for (double& t : turns) t /= p.turn();
-        for (double& L : ratio) L /= h.first("angular_momentum");
-        for (double& E : drift) E = (E - h.first("energy")) / h.first("energy");
-        momentum.curves.push_back({hexagons[k].title, turns, ratio});
-        energy.curves.push_back({hexagons[k].title, turns, drift});
-        shape.curves.push_back({hexagons[k].title, turns, h.column("shape_error")});
-    }
-    session.note_drawn(
-        draw_curves(folder, "curves", "Rotating elastic hexagon", {momentum, energy, shape}));
-}
-
-/// The curves of the comparison side by side, for one's own plots.
-void write_comparison(const RunFolder& folder, const std::vector<RunRecord>& runs) {
-    std::vector<std::string> names{"t"};
-    for (const auto& run : runs)
-        for (const char* what : {"angular_momentum_ratio", "energy_drift", "shape_error"})
-            names.push_back(fmt::format("{}_{}", run.label, what));
-    CsvWriter csv(folder / "comparison.csv", names);
-    for (const double t : runs.front().history.column("t")) {
-        std::vector<double> row{t};
-        for (const auto& run : runs) {
-            const History& h = run.history;
-            row.push_back(h.at(t, "angular_momentum") / h.first("angular_momentum"));
-            row.push_back((h.at(t, "energy") - h.first("energy")) / h.first("energy"));
-            row.push_back(h.at(t, "shape_error"));
-        }
-        csv.add(row);
-    }
-}
-
 }  // namespace
+}  // namespace rotating_hexagon
 
 int main(int argc, char** argv) {
+    using namespace rotating_hexagon;
     Problem problem("rotating_hexagon",
                     "a rotating elastic hexagon of smooth particles, [HHM04] VI-VIII");
     Parameters p;
@@ -260,15 +200,21 @@ int main(int argc, char** argv) {
     options.number("turns", p.turns, "nominal turns to run (1)", positive());
     options.choice<ModelKind>("model", p.model, {ModelKind::spam, ModelKind::md},
                               "smooth particles, or molecular dynamics with springs");
+    options.number(
+        "figure", p.figure,
+        "draw a figure of [HHM04]: 4 (three methods), 5 (averaged velocities), 6 (L(t)), "
+        "7 (L kept)",
+        {[](double f) { return f == 4.0 || f == 5.0 || f == 6.0 || f == 7.0; }, "4, 5, 6 or 7"});
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {
         options.command_line_wins({"t-end"}, {"turns"});
         options.command_line_wins({"turns"}, {"t-end"});
         refuse_contradictions(options, p);
+        if (p.figure) p.turns = turns_of_figure(static_cast<int>(*p.figure));
         if (session.common().smoke) {
             if (!session.given("size")) p.size = 3;
-            if (!session.given("turns") && !session.given("t-end")) p.turns = 0.1;
+            if (!p.turns && !session.given("t-end")) p.turns = 0.1;
         }
         if (!p.turns && !session.given("t-end")) p.turns = 1.0;
         if (p.turns) session.leave_out_of_case({"t-end"});
@@ -277,7 +223,10 @@ int main(int argc, char** argv) {
         scheme_options.emplace_back("model");
         const bool single = !options.first_given(scheme_options).empty();
         std::vector<Hexagon> hexagons;
-        if (single) {
+        if (p.figure) {
+            session.leave_out_of_case(settled_by_figure());
+            hexagons = hexagons_of_figure(p, session.scheme());
+        } else if (single) {
             const bool md = p.model == ModelKind::md;
             hexagons.push_back(make_hexagon(p, p.model, session.scheme(), ""));
             if (md) {
@@ -320,7 +269,9 @@ int main(int argc, char** argv) {
                 session.check_promises(runs[k], prefix);
             report_measured(session, runs[k], standard && !L_kept, prefix);
         }
+        if (p.figure) check_figure(session, p, runs);
         if (!single) write_comparison(session.folder(), runs);
-        if (session.plots()) draw(session, p, hexagons, runs);
+        if (session.plots())
+            p.figure ? draw_figure(session, p, hexagons, runs) : draw(session, p, hexagons, runs);
     });
 }

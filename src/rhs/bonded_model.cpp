@@ -68,6 +68,21 @@ double BondedModel<Dim>::internal_energy(std::span<const double> y) const {
 }
 
 template <int Dim>
+std::vector<SymTensor<Dim>> BondedModel<Dim>::stress(std::span<const double> y,
+                                                     double volume) const {
+    const auto x = ConstState<Dim>(this->layout(), y).position();
+    std::vector<SymTensor<Dim>> all(this->particles().size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
+            const Point<Dim> r_ij = bond(x, i, partner_[k]);
+            const double r = r_ij.norm(), tension = -spring_.force(r) / (2.0 * volume * r);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = a; b < Dim; ++b) all[i](a, b) += tension * r_ij[a] * r_ij[b];
+        }
+    return all;
+}
+
+template <int Dim>
 Promises BondedModel<Dim>::promises() const {
     Promises p;
     p.angular_momentum = Promise::integrator_error;

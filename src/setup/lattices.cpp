@@ -21,6 +21,16 @@ Points<2> triangular_hexagon(int n, double spacing) {
     return points;
 }
 
+Points<2> triangular_disk(double radius, double spacing) {
+    // The hexagon around it: its sides are sqrt(3/4) of its corners' distance away.
+    const Points<2> hexagon =
+        triangular_hexagon(static_cast<int>(radius / spacing / std::sqrt(0.75)) + 1, spacing);
+    std::vector<Eigen::Index> inside;
+    for (Eigen::Index k = 0; k < hexagon.cols(); ++k)
+        if (hexagon.col(k).norm() <= radius * (1.0 + 1e-12)) inside.push_back(k);
+    return hexagon(Eigen::all, inside);
+}
+
 Points<2> triangular_block(int columns, int rows, double spacing) {
     Points<2> points(2, static_cast<Eigen::Index>(columns) * rows);
     Eigen::Index k = 0;

@@ -185,6 +185,7 @@ class Child {
     Outcome outcome_;
 };
 
+#ifdef SPAM_PROBLEMS  // spam_problem_test() says where they are
 /// A problem executable of this build with its arguments.
 inline std::vector<std::string> problem(const std::string& name,
                                         const std::vector<std::string>& arguments) {
@@ -192,6 +193,7 @@ inline std::vector<std::string> problem(const std::string& name,
     command.insert(command.end(), arguments.begin(), arguments.end());
     return command;
 }
+#endif
 
 inline Outcome run(const std::vector<std::string>& command, const Launch& launch = {}) {
     return Child(command, launch).finish();

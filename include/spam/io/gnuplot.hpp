@@ -10,10 +10,18 @@
 
 namespace spam {
 
-/// One curve: rows of (x, y); empty cells are left out.
+/// Pictures through gnuplot: <folder>/<name>.gp and <name>.dat are always written, <name>.png is
+/// drawn when gnuplot is installed. All return false when it could not be drawn and throw
+/// OutputError when script or data cannot be written.
+
+enum class Mark { line, points };
+
+/// One curve, or one cloud of points: rows of (x, y); what is not finite is left out.
 struct Curve {
     std::string title;
     std::vector<double> x, y;
+    Mark mark = Mark::line;
+    int style = 0;  ///< colour 1 to 6; 0: its place among the curves
 };
 
 /// One frame of a row of curves.
@@ -24,6 +32,9 @@ struct CurvePanel {
     std::vector<Curve> curves;
 };
 
+bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
+                 const std::vector<CurvePanel>& panels);
+
 /// One frame of a grid of configurations: particles coloured by a value, and outlines.
 struct ConfigurationPanel {
     std::string title;
@@ -32,15 +43,47 @@ struct ConfigurationPanel {
     std::vector<Points<2>> outlines;  ///< closed polygons
 };
 
-/// Pictures through gnuplot: <folder>/<name>.gp and <name>.dat are always written, <name>.png is
-/// drawn when gnuplot is installed. Returns false when it could not be drawn.
-/// Throws OutputError when script or data cannot be written.
-bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
-                 const std::vector<CurvePanel>& panels);
-
 /// `columns` frames in a row, all with the same scale and the same colour range.
 bool draw_configurations(const RunFolder& folder, std::string_view name, std::string_view title,
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
                          std::string_view colour_label);
+
+/// One horizontal bar. What is not finite has no bar, only its text.
+struct Bar {
+    std::string name;  ///< beside the axis
+    double value;
+    std::string text{};  ///< at the end of the bar; empty: the value, three digits
+    int style = 1;       ///< colour 1 to 6
+};
+
+struct BarChart {
+    std::string value_label;
+    bool log_value = false;  ///< values must be above 0; others have no bar
+    std::vector<Bar> bars;   ///< from top to bottom
+};
+
+bool draw_bars(const RunFolder& folder, std::string_view name, std::string_view title,
+               const BarChart& chart);
+
+/// One choice of several that a table's rows (or columns) run through.
+struct HeatAxis {
+    std::string name;
+    std::vector<std::string> values;
+};
+
+/// A table of cases: rows run through all combinations of the row axes (the first varies slowest),
+/// columns likewise. Cells are coloured by value and hold a text; a value that is not finite (or on
+/// a logarithmic scale not above 0) leaves its cell grey.
+struct HeatMap {
+    std::vector<HeatAxis> rows, columns;
+    std::vector<double> value;      ///< rows x columns, row by row
+    std::vector<std::string> text;  ///< likewise, or empty: the values, three digits
+    std::string value_label;
+    bool log_value = false;
+};
+
+/// Precondition: as many values (and texts, if any) as cells.
+bool draw_heat_map(const RunFolder& folder, std::string_view name, std::string_view title,
+                   const HeatMap& map);
 
 }  // namespace spam

@@ -19,6 +19,9 @@ class BondedModel final : public Model<Dim> {
 
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
     double internal_energy(std::span<const double> y) const override;
+    /// Stress of every particle from its own bonds (virial), tension-positive:
+    /// sigma_i = -1/(2 V) sum_j r_ij (x) F_ij, V the volume of a particle.
+    std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const;
     Promises promises() const override;
     std::string describe() const override;
     std::size_t pairs() const override { return partner_.size() / 2; }

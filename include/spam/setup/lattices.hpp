@@ -10,6 +10,10 @@ namespace spam {
 /// n spacings away (one on the +x axis): 2 x (1 + 3n + 3n^2). [HHM04] VIII. n >= 0.
 Points<2> triangular_hexagon(int n, double spacing = 1.0);
 
+/// All sites of the triangular lattice not farther than `radius` from the one at the origin.
+/// radius >= 0.
+Points<2> triangular_disk(double radius, double spacing = 1.0);
+
 /// Rows of triangular lattice: 2 x (columns rows), first particle at the origin; odd rows are
 /// shifted by half a spacing. Periodic in columns * spacing and (rows even) rows * sqrt(3/4)
 /// spacing.

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: steady stress of a rotating elastic disk against elasticity, [HHM04] VI; 2 s
+//
+// The stationary stress of a rotating elastic body, [HHM04] VI.
+//
+//          . o o .         A disk (or a hexagon) of triangular lattice turns with angular velocity
+//        o o o o o o       omega and stretches until its stress holds the centrifugal force:
+//       o o o x o o o
+//        o o o o o o           d sigma_rr/dr + (sigma_rr - sigma_tt)/r + rho omega^2 r = 0
+//          . o o .
+//
+// For lambda = eta and a disk of radius R, free at its rim, linear elasticity says
+//
+//     u_r      = (rho r omega^2/eta) (5 R^2 - 2 r^2)/48        (printed otherwise, rotating_disk.hpp)
+//     sigma_rr = (5 rho omega^2/12) (R^2 - r^2)
+//     sigma_tt = (5 rho omega^2/12) (R^2 - 3 r^2/5)
+//
+// The body starts unstrained in rigid rotation, so that nothing of this is put in. It would vibrate
+// for long; a friction of all that is not rigid motion takes the vibration away and leaves rotation
+// and angular momentum alone (damped_model.hpp). R: of a disk of the same area.
+//
+// Molecular dynamics (its stress is the virial of the bonds) comes to rest there within a per cent.
+// Smooth particles come near it in two sound traversals, and never to rest: at the rim, where half of
+// the neighbours are missing, the sums take part of the rotation for a strain, which winds up a shear
+// sigma_rt in proportion to the angle turned.
+#include <spam/diagnostics/rotating_disk.hpp>
+#include <spam/io/csv.hpp>
+#include <spam/io/gnuplot.hpp>
+#include <spam/rhs/damped_model.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+
+enum class Shape { disk, hexagon };
+enum class Which { both, md, spam };
+std::string_view to_string(Shape shape) { return shape == Shape::disk ? "disk" : "hexagon"; }
+std::string_view to_string(Which which) {
+    return which == Which::both ? "both" : which == Which::md ? "md" : "spam";
+}
+
+const double rho = std::sqrt(4.0 / 3.0);   // stress-free; mass and spacing are 1
+const double eta = std::sqrt(3.0 / 16.0);  // = lambda
+const double c_L = std::sqrt(3.0 * eta / rho);
+
+struct Parameters {
+    double radius = 12.0;  // of the outermost particles
+    double speed = 0.1;    // at that radius
+    std::optional<double> damping;
+    Shape shape = Shape::disk;
+    Which model = Which::both;
+
+    double omega() const { return speed / radius; }
+    double traversal() const { return 2.0 * radius / c_L; }  // of the body, by sound
+};
+
+/// A body, its elasticity, and where its rim begins: a range of smooth particles away from its edge.
+struct Body {
+    std::string label, title;
+    std::unique_ptr<DampedModel> model;
+    double R, rim;
+};
+
+Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
+    auto particles =
+        make_particles<2>(p.shape == Shape::disk ? triangular_disk(p.radius)
+                                                 : triangular_hexagon(static_cast<int>(p.radius)),
+                          1.0);
+    const double R = std::sqrt(static_cast<double>(particles.size()) / (rho * std::numbers::pi));
+    std::unique_ptr<Model<2>> model;
+    if (md)
+        model = std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
+    else
+        model = std::make_unique<SmoothParticleModel<2>>(
+            std::move(particles), ElasticSolid::triangular_lattice(), scheme);
+    return {md ? "md" : "spam", md ? "molecular dynamics" : "SPAM",
+            std::make_unique<DampedModel>(std::move(model), *p.damping), R, R - scheme.range};
+}
+
+/// From the centre; any direction at the centre itself.
+Point<2> direction(const Point<2>& r) {
+    return r.norm() > 0.0 ? Point<2>(r.normalized()) : Point<2>::UnitX();
+}
+
+/// Stress in the directions along and across the radius, at the particles' undeformed distances.
+struct PolarStress {
+    std::vector<double> r, radial, hoop, shear;
+};
+/// Elasticity of a body that turns as fast as this one does by now.
+RotatingDisk elasticity(const Body& body, std::span<const double> y) {
+    const ConstState<2> state(body.model->layout(), y);
+    const auto x = state.position(), v = state.velocity();
+    const Points<2> from_centre = x.colwise() - Point<2>(x.rowwise().mean());
+    const double L =
+        (from_centre.row(0).cwiseProduct(v.row(1)) - from_centre.row(1).cwiseProduct(v.row(0)))
+            .sum();
+    return {rho, eta, L / from_centre.squaredNorm(), body.R};
+}
+
+struct Component {
+    const char* name;
+    std::vector<double> PolarStress::*measured;
+    double (RotatingDisk::*exact)(double r) const;
+};
+constexpr Component components[] = {{"radial", &PolarStress::radial, &RotatingDisk::radial_stress},
+                                    {"hoop", &PolarStress::hoop, &RotatingDisk::hoop_stress},
+                                    {"shear", &PolarStress::shear, &RotatingDisk::shear_stress}};
+
+/// 3 x N: xx, yy, xy.
+Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y) {
+    const auto* bonded = dynamic_cast<const BondedModel<2>*>(&model);
+    if (bonded == nullptr) return ConstState<2>(model.layout(), y).stress();
+    const auto virial = bonded->stress(y, 1.0 / rho);
+    Points<3> all(3, static_cast<Eigen::Index>(virial.size()));
+    for (Eigen::Index i = 0; i < all.cols(); ++i)
+        all.col(i) = Point<3>::Map(virial[static_cast<std::size_t>(i)].c.data());
+    return all;
+}
+
+PolarStress polar_stress(const DampedModel& model, std::span<const double> y) {
+    const Points<3> stress = cartesian_stress(model.undamped(), y);
+    const Points<2> x = ConstState<2>(model.layout(), y).position();
+    const Point<2> centre = x.rowwise().mean();
+    PolarStress all;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        const Point<2> n = direction(x.col(i) - centre);
+        const double xx = stress(0, i), yy = stress(1, i), xy = stress(2, i);
+        all.r.push_back(model.particles().reference_position.col(i).norm());
+        all.radial.push_back(xx * n.x() * n.x() + yy * n.y() * n.y() + 2.0 * xy * n.x() * n.y());
+        all.hoop.push_back(xx * n.y() * n.y() + yy * n.x() * n.x() - 2.0 * xy * n.x() * n.y());
+        all.shear.push_back((yy - xx) * n.x() * n.y() + xy * (n.x() * n.x() - n.y() * n.y()));
+    }
+    return all;
+}
+
+/// Root mean square deviation from elasticity of the particles of the rim or of those inside,
+/// divided by the stress at the centre.
+double deviation(const Body& body, std::span<const double> y, const Component& component,
+                 bool of_rim) {
+    const auto stress = polar_stress(*body.model, y);
+    const auto exact = elasticity(body, y);
+    const auto& measured = stress.*component.measured;
+    double sum = 0.0, n = 0.0;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if ((stress.r[i] >= body.rim) != of_rim) continue;
+        const double off = measured[i] - (exact.*component.exact)(stress.r[i]);
+        sum += off * off;
+        n += 1.0;
+    }
+    return std::sqrt(sum / n) / exact.centre_stress();
+}
+
+/// radial_inner, radial_rim, hoop_inner, ...
+std::vector<Column<2>> deviation_columns(const Body& body) {
+    std::vector<Column<2>> columns;
+    for (const Component& component : components)
+        for (const bool rim : {false, true})
+            columns.push_back({fmt::format("{}_{}", component.name, rim ? "rim" : "inner"),
+                               [&body, component, rim](const Model<2>&, std::span<const double> y) {
+                                   return deviation(body, y, component, rim);
+                               }});
+    return columns;
+}
+
+/// The case whose numbers are known.
+bool is_standard(const Session& session, const Parameters& p) {
+    auto options = Problem::scheme_option_names();
+    options.insert(options.end(),
+                   {"damping", "range", "t-end", "dt", "rtol", "atol", "integrator"});
+    for (const auto& option : options)
+        if (session.given(option)) return false;
+    return p.shape == Shape::disk && p.radius == 12.0 && p.speed == 0.1;
+}
+
+void check(Session& session, const Body& body, const RunRecord& run, double omega, bool standard) {
+    const bool md = body.label == "md";
+    for (const Component& component : components)
+        for (const std::string where : {"inner", "rim"}) {
+            const auto column = fmt::format("{}_{}", component.name, where);
+            Check found{fmt::format("{}_{}", body.label, column),
+                        run.history.last(column),
+                        {},
+                        0.0,
+                        "measured"};
+            // The rim, and the shear of smooth particles, are what discrete bodies do otherwise.
+            if (standard && where == "inner" && (md || column != "shear_inner")) {
+                found.expected = 0.0;
+                found.tolerance = md ? 0.03 : 0.12;
+                found.source = "[HHM04] VI: the stresses of the disk";
+            }
+            session.check(found);
+        }
+    if (!md && run.complete)
+        session.check({"spam_shear_rim_per_radian",
+                       run.history.last("shear_rim") / (omega * run.statistics.t_end),
+                       {},
+                       0.0,
+                       "measured: rotation taken for strain"});
+    session.check_promises(run, body.label + "_");
+}
+
+// ---- pictures ----
+
+Curve exact_curve(const RotatingDisk& exact, const Component& component) {
+    Curve curve{"elasticity", {}, {}, Mark::line, 1};
+    for (int k = 0; k <= 60; ++k) {
+        curve.x.push_back(k / 60.0);
+        curve.y.push_back((exact.*component.exact)(k / 60.0 * exact.R) / exact.centre_stress());
+    }
+    return curve;
+}
+
+std::vector<double> over(std::vector<double> values, double unit) {
+    for (double& value : values) value /= unit;
+    return values;
+}
+
+/// Stress against radius, and the bodies coloured by it; in units of R and of the stress at the
+/// centre.
+void draw(Session& session, const std::vector<Body>& bodies, const std::vector<RunRecord>& runs) {
+    const RotatingDisk exact = elasticity(bodies.front(), runs.front().y);
+    const double unit = exact.centre_stress();
+    std::vector<CurvePanel> curves;
+    std::vector<ConfigurationPanel> configurations;
+    for (const Component& component : components) {
+        CurvePanel panel{
+            fmt::format("{} stress", component.name), "r / R", "stress / σ₀", false, {}};
+        for (std::size_t k = runs.size(); k-- > 0;) {  // the narrower cloud on top
+            const auto s = polar_stress(*bodies[k].model, runs[k].y);
+            panel.curves.push_back({bodies[k].title, over(s.r, exact.R),
+                                    over(s.*component.measured, unit), Mark::points,
+                                    bodies[k].label == "md" ? 3 : 2});
+        }
+        panel.curves.push_back(exact_curve(exact, component));
+        curves.push_back(panel);
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const auto s = polar_stress(*bodies[k].model, runs[k].y);
+            configurations.push_back(
+                {fmt::format("{}, {} stress", bodies[k].title, component.name),
+                 ConstState<2>(bodies[k].model->layout(), runs[k].y).position(),
+                 over(s.*component.measured, unit),
+                 {}});
+        }
+    }
+    const auto title =
+        fmt::format("Rotating elastic body, {} particles, after {:.2f} rad",
+                    runs.front().statistics.particles, exact.omega * runs.front().statistics.t_end);
+    const auto folder = session.plots_folder();
+    session.note_drawn(draw_curves(folder, "stress", title, curves));
+    session.note_drawn(draw_configurations(folder, "configurations", title, configurations,
+                                           runs.size(), "stress / σ₀"));
+}
+
+/// Every particle: distance and stress.
+void write_stress(const RunFolder& folder, const Body& body, const RunRecord& run) {
+    CsvWriter csv(folder / fmt::format("stress_{}.csv", body.label),
+                  {"r", "radial", "hoop", "shear", "radial_exact", "hoop_exact"});
+    const auto s = polar_stress(*body.model, run.y);
+    const auto exact = elasticity(body, run.y);
+    for (std::size_t i = 0; i < s.r.size(); ++i)
+        csv.add(std::vector<double>{s.r[i], s.radial[i], s.hoop[i], s.shear[i],
+                                    exact.radial_stress(s.r[i]), exact.hoop_stress(s.r[i])});
+}
+
+void refuse_contradictions(const Options& options, const Parameters& p) {
+    if (p.shape == Shape::hexagon && p.radius != std::floor(p.radius))
+        throw InputError(fmt::format(
+            "radius: {} must be a whole number of spacings for --shape hexagon", p.radius));
+    if (p.model != Which::md) return;
+    const std::string name = options.first_given(Problem::scheme_option_names());
+    if (!name.empty())
+        throw InputError(fmt::format(
+            "{}: has no meaning for --model md (springs between initial neighbours); leave it out",
+            name));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("rotating_disk", "steady stress of a rotating elastic disk, [HHM04] VI");
+    Parameters p;
+    auto& options = problem.options();
+    options.choice<Shape>("shape", p.shape, {Shape::disk, Shape::hexagon},
+                          "a disk, or a hexagon with its corners at the radius");
+    options.number("radius", p.radius, "distance of the outermost particles from the centre",
+                   between(6, 1000));
+    options.number("speed", p.speed, "speed at that distance", positive());
+    options.number("damping", p.damping, "friction of what is not rigid motion (3 c_L/radius)",
+                   non_negative());
+    options.choice<Which>("model", p.model, {Which::both, Which::md, Which::spam},
+                          "smooth particles, molecular dynamics with springs, or both");
+    Scheme standard;
+    standard.transport = Transport::monaghan;
+    standard.angular_momentum = AngularMomentum::torque_pair;
+    problem.use_scheme(standard);
+
+    return problem.main(argc, argv, [&](Session& session) {
+        refuse_contradictions(options, p);
+        if (session.common().smoke && !session.given("radius")) p.radius = 7.0;
+        if (p.model == Which::md) session.leave_out_of_case(Problem::scheme_option_names());
+        if (!p.damping) p.damping = 3.0 * c_L / p.radius;
+
+        std::vector<Body> bodies;
+        for (const Which which : {Which::md, Which::spam})
+            if (p.model == which || p.model == Which::both)
+                bodies.push_back(make_body(p, session.scheme(), which == Which::md));
+        std::vector<Case<2>> cases;
+        for (Body& body : bodies) {
+            auto y0 = initial_state<2>(*body.model, rho, eta, rigid_rotation(p.omega()));
+            Plan<2> plan;
+            plan.t_end = 2.0 * p.traversal();
+            plan.columns = deviation_columns(body);
+            cases.push_back({*body.model, std::move(y0), std::move(plan), body.label});
+        }
+        const auto runs = session.run_all(std::move(cases));
+
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            check(session, bodies[k], runs[k], p.omega(),
+                  runs[k].complete && is_standard(session, p));
+            write_stress(session.folder(), bodies[k], runs[k]);
+        }
+        if (session.plots()) draw(session, bodies, runs);
+    });
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Figures 4 to 7 of [HHM04], with the letters of their captions:
+//
+//     Fig. 4  after 2pi/3    a MD, b summed density, c continuity density
+//     Fig. 5  2pi/3  a <v>              e <v>_Monaghan    continuity
+//             2pi    b                  f
+//             2pi/3  c                  g                 chain rule
+//             2pi    d                  h
+//     Fig. 6  L(t) of a, b and of e, f of Fig. 5
+//     Fig. 7  after 2pi      a <v>      c <v>_Monaghan    torques of pairs balanced
+//                            b          d                 torques of particles balanced
+#include "hexagon.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace rotating_hexagon {
+namespace {
+
+/// One panel: which hexagon, when, and what is written above it.
+struct Panel {
+    std::size_t hexagon;
+    double turns;
+    std::string title;
+};
+
+struct Layout {
+    std::size_t columns;
+    std::vector<Panel> panels;
+};
+
+Layout layout_of(int figure) {
+    constexpr double third = 1.0 / 3.0;
+    if (figure == 4)
+        return {3,
+                {{0, third, "(a) molecular dynamics, 2π/3"},
+                 {1, third, "(b) SPAM, summed density, 2π/3"},
+                 {2, third, "(c) SPAM, continuity, 2π/3"}}};
+    if (figure == 5)
+        return {2,
+                {{0, third, "(a) ⟨v⟩, continuity, 2π/3"},
+                 {1, third, "(e) ⟨v⟩ Monaghan, continuity, 2π/3"},
+                 {0, 1.0, "(b) ⟨v⟩, continuity, 2π"},
+                 {1, 1.0, "(f) ⟨v⟩ Monaghan, continuity, 2π"},
+                 {2, third, "(c) ⟨v⟩, chain rule, 2π/3"},
+                 {3, third, "(g) ⟨v⟩ Monaghan, chain rule, 2π/3"},
+                 {2, 1.0, "(d) ⟨v⟩, chain rule, 2π"},
+                 {3, 1.0, "(h) ⟨v⟩ Monaghan, chain rule, 2π"}}};
+    return {2,
+            {{0, 1.0, "(a) ⟨v⟩, pair torques"},
+             {1, 1.0, "(c) ⟨v⟩ Monaghan, pair torques"},
+             {2, 1.0, "(b) ⟨v⟩, particle torques"},
+             {3, 1.0, "(d) ⟨v⟩ Monaghan, particle torques"}}};
+}
+
+void draw_momentum(Session& session, const std::vector<Hexagon>& hexagons,
+                   const std::vector<RunRecord>& runs) {
+    CurvePanel panel{"continuity density", "t", "angular momentum L", false, {}};
+    for (std::size_t k = 0; k < runs.size(); ++k)
+        panel.curves.push_back({hexagons[k].title, runs[k].history.column("t"),
+                                runs[k].history.column("angular_momentum")});
+    session.note_drawn(draw_curves(
+        session.plots_folder(), "figure_6",
+        fmt::format("[HHM04] Fig. 6: {} particles", runs.front().statistics.particles), {panel}));
+}
+
+double lost_after(const History& h, double t) {
+    return 1.0 - h.at(t, "angular_momentum") / h.first("angular_momentum");
+}
+
+/// The second of two is better: its shape error is the smaller one.
+void check_better(Session& session, const RunRecord& worse, const RunRecord& better,
+                  const char* source) {
+    session.check({fmt::format("shape_error_of_{}_by_{}", better.label, worse.label),
+                   better.history.last("shape_error") / worse.history.last("shape_error"), 0.5, 0.5,
+                   source});
+}
+
+}  // namespace
+
+double turns_of_figure(int figure) { return figure == 4 ? 1.0 / 3.0 : 1.0; }
+
+std::vector<Hexagon> hexagons_of_figure(const Parameters& p, const Scheme& standard) {
+    std::vector<Hexagon> all;
+    const auto add = [&](const char* label, ModelKind kind, Density density, Transport transport,
+                         AngularMomentum momentum) {
+        Scheme scheme = standard;
+        scheme.density = density;
+        scheme.transport = transport;
+        scheme.angular_momentum = momentum;
+        all.push_back(make_hexagon(p, kind, scheme, label));
+    };
+    constexpr auto spam = ModelKind::spam, md = ModelKind::md;
+    constexpr auto continuity = Density::continuity, chain_rule = Density::chain_rule;
+    constexpr auto plain = Transport::plain, average = Transport::average,
+                   monaghan = Transport::monaghan;
+    constexpr auto free = AngularMomentum::free, pair = AngularMomentum::torque_pair,
+                   particle = AngularMomentum::torque_particle;
+    const int figure = static_cast<int>(*p.figure);
+    if (figure == 4) {
+        add("md", md, continuity, plain, free);
+        add("summed", spam, Density::summed, plain, free);
+        add("continuity", spam, continuity, plain, free);
+    } else if (figure == 7) {
+        add("average_torque_pair", spam, continuity, average, pair);
+        add("monaghan_torque_pair", spam, continuity, monaghan, pair);
+        add("average_torque_particle", spam, continuity, average, particle);
+        add("monaghan_torque_particle", spam, continuity, monaghan, particle);
+    } else {
+        add("average", spam, continuity, average, free);
+        add("monaghan", spam, continuity, monaghan, free);
+    }
+    if (figure == 5) {
+        add("average_chain_rule", spam, chain_rule, average, free);
+        add("monaghan_chain_rule", spam, chain_rule, monaghan, free);
+    }
+    return all;
+}
+
+void check_figure(Session& session, const Parameters& p, const std::vector<RunRecord>& runs) {
+    for (const auto& run : runs)
+        if (!run.complete) return;
+    const int figure = static_cast<int>(*p.figure);
+    if (figure == 4) {
+        for (const std::size_t k : {1U, 2U})
+            for (const int degrees : {60, 120})
+                session.check(
+                    {fmt::format("{}_angular_momentum_lost_at_{}_degrees", runs[k].label, degrees),
+                     lost_after(runs[k].history, p.turn() * degrees / 360.0),
+                     {},
+                     0.0,
+                     degrees == 60 ? "measured; [HHM04] VI: 1 %" : "measured; [HHM04] VI: 5 %"});
+        check_better(session, runs[1], runs[2], "[HHM04] VI: the lattice persists better");
+    }
+    if (figure == 5 || figure == 7)
+        for (std::size_t k = 0; k + 1 < runs.size(); k += 2)
+            check_better(session, runs[k], runs[k + 1], "[HHM04] Fig. 5: enhanced stability");
+}
+
+void draw_figure(Session& session, const Parameters& p, const std::vector<Hexagon>& hexagons,
+                 const std::vector<RunRecord>& runs) {
+    const int figure = static_cast<int>(*p.figure);
+    if (figure == 6) return draw_momentum(session, hexagons, runs);
+    const Layout layout = layout_of(figure);
+    std::vector<ConfigurationPanel> panels;
+    for (const Panel& panel : layout.panels) {
+        if (panel.hexagon >= runs.size()) continue;  // interrupted
+        const Hexagon& hexagon = hexagons[panel.hexagon];
+        for (const Sight& sight : hexagon.sights)
+            if (std::abs(sight.wanted - panel.turns * p.turn()) < 1e-6 * p.turn())
+                panels.push_back(sight.panel(panel.title, hexagon.model->particles()));
+    }
+    session.note_drawn(draw_configurations(
+        session.plots_folder(), fmt::format("figure_{}", figure),
+        fmt::format("[HHM04] Fig. {}: {} particles", figure, runs.front().statistics.particles),
+        panels, layout.columns, "speed"));
+}
+
+}  // namespace rotating_hexagon

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hexagon.hpp"
+#include <spam/io/csv.hpp>
+
+#include <fmt/format.h>
+
+namespace rotating_hexagon {
+
+void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hexagons,
+          const std::vector<RunRecord>& runs) {
+    const auto folder = session.plots_folder();
+    std::vector<ConfigurationPanel> panels;
+    for (std::size_t s = 0; s < hexagons.front().sights.size(); ++s)
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const Sight& sight = hexagons[k].sights[s];
+            const std::string angle = sight.wanted == p.turn() / 3.0
+                                          ? std::string("2π/3")
+                                          : fmt::format("{:.3g} turn", sight.t / p.turn());
+            panels.push_back(sight.panel(fmt::format("{}, {}", hexagons[k].title, angle),
+                                         hexagons[k].model->particles()));
+        }
+    session.note_drawn(draw_configurations(
+        folder, "configurations",
+        fmt::format("Rotating elastic hexagon, {} particles", runs.front().statistics.particles),
+        panels, runs.size() > 1 ? runs.size() : panels.size(), "speed"));
+
+    CurvePanel momentum{"angular momentum", "turns", "L(t) / L(0)", false, {}};
+    CurvePanel energy{"energy", "turns", "|E(t) - E(0)| / E(0)", true, {}};
+    CurvePanel shape{"shape", "turns", "shape error / spacing", true, {}};
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const History& h = runs[k].history;
+        auto turns = h.column("t"), ratio = h.column("angular_momentum"),
+             drift = h.column("energy");
+        for (double& t : turns) t /= p.turn();
+        for (double& L : ratio) L /= h.first("angular_momentum");
+        for (double& E : drift) E = (E - h.first("energy")) / h.first("energy");
+        momentum.curves.push_back({hexagons[k].title, turns, ratio});
+        energy.curves.push_back({hexagons[k].title, turns, drift});
+        shape.curves.push_back({hexagons[k].title, turns, h.column("shape_error")});
+    }
+    session.note_drawn(
+        draw_curves(folder, "curves", "Rotating elastic hexagon", {momentum, energy, shape}));
+}
+
+void write_comparison(const RunFolder& folder, const std::vector<RunRecord>& runs) {
+    std::vector<std::string> names{"t"};
+    for (const auto& run : runs)
+        for (const char* what : {"angular_momentum_ratio", "energy_drift", "shape_error"})
+            names.push_back(fmt::format("{}_{}", run.label, what));
+    CsvWriter csv(folder / "comparison.csv", names);
+    for (const double t : runs.front().history.column("t")) {
+        std::vector<double> row{t};
+        for (const auto& run : runs) {
+            const History& h = run.history;
+            row.push_back(h.at(t, "angular_momentum") / h.first("angular_momentum"));
+            row.push_back((h.at(t, "energy") - h.first("energy")) / h.first("energy"));
+            row.push_back(h.at(t, "shape_error"));
+        }
+        csv.add(row);
+    }
+}
+
+}  // namespace rotating_hexagon

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnuplot_script.hpp"
+#include <spam/io/gnuplot.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spam {
+namespace {
+
+using gnuplot::escaped;
+
+constexpr double frame_width = 620.0, height = 540.0;
+
+bool same_titles(const std::vector<CurvePanel>& panels) {
+    for (const CurvePanel& panel : panels) {
+        if (panel.curves.size() != panels.front().curves.size()) return false;
+        for (std::size_t k = 0; k < panel.curves.size(); ++k)
+            if (panel.curves[k].title != panels.front().curves[k].title) return false;
+    }
+    return panels.size() > 1;
+}
+
+/// Line style of curve k.
+int style_of(const CurvePanel& panel, std::size_t k) {
+    const int chosen = panel.curves[k].style;
+    return chosen > 0 ? chosen : static_cast<int>(k) % gnuplot::styles + 1;
+}
+
+/// One row under the whole picture: gnuplot's own key is no wider than its frame.
+std::string shared_key(const CurvePanel& panel) {
+    std::string key = "unset key\n";
+    const auto n = static_cast<double>(panel.curves.size());
+    for (std::size_t k = 0; k < panel.curves.size(); ++k) {
+        const double x = (static_cast<double>(k) + 0.12) / n;
+        const int style = style_of(panel, k);
+        if (panel.curves[k].mark == Mark::points)
+            key += fmt::format("set label {0} \"\" at screen {1:.4f},0.06 point ls {2} ps 1.2\n",
+                               panel.curves.size() + k + 1, x + 0.014, style);
+        else
+            key += fmt::format(
+                "set arrow {0} from screen {1:.4f},0.06 to screen {2:.4f},0.06 nohead ls {3}\n",
+                k + 1, x, x + 0.028, style);
+        key += fmt::format("set label {0} \"{1}\" at screen {2:.4f},0.06 left\n", k + 1,
+                           escaped(panel.curves[k].title), x + 0.036);
+    }
+    return key;
+}
+
+/// One curve as a block of the data file; a curve without points keeps its place in the key.
+std::string curve_block(const CurvePanel& panel, const Curve& curve) {
+    std::string block = fmt::format("# {}: {}\n", panel.title, curve.title);
+    bool any = false;
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+        const double y = panel.log_y ? std::abs(curve.y[k]) : curve.y[k];
+        if (!std::isfinite(y) || (panel.log_y && y == 0.0)) continue;
+        block += fmt::format("{:.10g} {:.10g}\n", curve.x[k], y);
+        any = true;
+    }
+    return block + (any ? "\n\n" : "NaN NaN\n\n\n");
+}
+
+/// Place, labels and scale of frame k.
+std::string frame(const CurvePanel& panel, std::size_t k, double width) {
+    const double left = frame_width * static_cast<double>(k);
+    return fmt::format(
+        "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
+        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n{}",
+        (left + 95) / width, (left + frame_width - 20) / width, escaped(panel.title),
+        escaped(panel.x_label), escaped(panel.y_label),
+        panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
+                    : "unset logscale y\nset format y '%g'\n");
+}
+
+}  // namespace
+
+bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
+                 const std::vector<CurvePanel>& panels) {
+    // One key for all frames where they show the same curves: under the middle of the picture.
+    const bool shared = same_titles(panels);
+    const double width = frame_width * static_cast<double>(panels.size());
+    std::string data, script = gnuplot::preamble(name, width, height);
+    script += gnuplot::line_styles;
+    script += fmt::format("set multiplot title \"{}\" font ',15'\n", escaped(title));
+    script +=
+        "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset border 3\nset tics nomirror\n"
+        "set autoscale xfix\nset tmargin at screen 0.83\nset bmargin at screen 0.24\n";
+    int block = 0;
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        const CurvePanel& panel = panels[k];
+        script += frame(panel, k, width);
+        script += shared ? (k == 0 ? shared_key(panel) : std::string("unset label\nunset arrow\n"))
+                         : fmt::format(
+                               "set key at screen {:.5f},0.055 center horizontal samplen 2 "
+                               "maxrows 2\n",
+                               (frame_width * static_cast<double>(k) + 347) / width);
+        std::string plots;
+        for (std::size_t c = 0; c < panel.curves.size(); ++c) {
+            const Curve& curve = panel.curves[c];
+            data += curve_block(panel, curve);
+            plots += fmt::format("{} '{}.dat' index {} with {} ls {} title \"{}\"",
+                                 plots.empty() ? "plot" : ",", name, block++,
+                                 curve.mark == Mark::points ? "points" : "lines",
+                                 style_of(panel, c), escaped(curve.title));
+        }
+        script += plots + "\n";
+    }
+    script += "unset multiplot\n";
+    return gnuplot::draw(folder, name, script, data);
+}
+
+}  // namespace spam

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnuplot_script.hpp"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace spam::gnuplot {
+namespace {
+
+/// Runs gnuplot on <name>.gp inside the folder; false when it is missing or fails.
+bool run(const RunFolder& folder, const std::string& script) {
+    std::string command = "cd -- \"$1\" && exec gnuplot \"$2\" >/dev/null 2>\"$2.err\"";
+    std::string shell = "sh", flag = "-c", self = "plot", path = folder.path().string(),
+                file = script;
+    char* argv[] = {shell.data(), flag.data(), command.data(), self.data(),
+                    path.data(),  file.data(), nullptr};
+    pid_t pid = 0;
+    if (posix_spawnp(&pid, "sh", nullptr, nullptr, argv, environ) != 0) return false;
+    int status = 0;
+    if (waitpid(pid, &status, 0) != pid) return false;
+    const bool drawn = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    std::error_code ignored;
+    if (drawn) std::filesystem::remove(folder / (script + ".err"), ignored);
+    return drawn;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '_' || c == '^' || c == '{' || c == '}' || c == '@' || c == '&' || c == '~')
+            out += "\\\\";
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+std::string preamble(std::string_view name, double width, double height) {
+    return fmt::format(
+        "# Draw again with: gnuplot {0}.gp\n"
+        "set terminal pngcairo size {1:.0f},{2:.0f} font 'Sans,13' background rgb 'white'\n"
+        "set output '{0}.png'\n"
+        "set encoding utf8\n",
+        name, width, height);
+}
+
+const std::string_view palette =
+    "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 "
+    "'#fde725')\n";
+
+const std::string_view line_styles =
+    "set style line 1 lw 2.5 lc rgb '#000000' pt 7 ps 0.7\n"
+    "set style line 2 lw 2.5 lc rgb '#d55e00' pt 7 ps 0.7\n"
+    "set style line 3 lw 2.5 lc rgb '#0072b2' pt 7 ps 0.7\n"
+    "set style line 4 lw 2.5 lc rgb '#009e73' dt 2 pt 7 ps 0.7\n"
+    "set style line 5 lw 2.5 lc rgb '#cc79a7' pt 7 ps 0.7\n"
+    "set style line 6 lw 2.5 lc rgb '#e69f00' pt 7 ps 0.7\n";
+
+bool draw(const RunFolder& folder, std::string_view name, const std::string& script,
+          const std::string& data) {
+    folder.write(fmt::format("{}.dat", name), data);
+    folder.write(fmt::format("{}.gp", name), script);
+    return run(folder, fmt::format("{}.gp", name));
+}
+
+}  // namespace spam::gnuplot

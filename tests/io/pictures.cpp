@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every kind of picture: gnuplot takes the script without a word and leaves a PNG of the size asked
+// for, whatever the values and titles are.
+#include "support/process.hpp"
+#include <spam/io/gnuplot.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+using namespace spam;
+using spam::test::contents_of;
+using spam::test::Scratch;
+
+namespace {
+
+const double missing = std::nan("");
+const std::string awkward = "a_b^c {d} \"e\" 'f' \\ @ & ~ ⟨v⟩ %g $x";
+
+bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
+
+std::size_t big_endian(const std::string& bytes, std::size_t at) {
+    std::size_t number = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        number = number * 256 + static_cast<unsigned char>(bytes[at + k]);
+    return number;
+}
+
+/// A picture at least this large, and nothing else left behind.
+void check_picture(const Scratch& folder, bool drawn, std::size_t width, std::size_t height) {
+    BOOST_TEST(std::filesystem::exists(folder / "plots/picture.gp"));
+    BOOST_TEST(std::filesystem::exists(folder / "plots/picture.dat"));
+    BOOST_TEST(drawn == have_gnuplot());
+    if (!have_gnuplot()) return;
+    BOOST_TEST(!std::filesystem::exists(folder / "plots/picture.gp.err"));
+    const std::string png = contents_of(folder / "plots/picture.png");
+    BOOST_REQUIRE(png.starts_with("\x89PNG\r\n\x1a\n"));
+    BOOST_TEST(big_endian(png, 16) >= width);
+    BOOST_TEST(big_endian(png, 20) >= height);
+    BOOST_TEST(png.size() > 2000u);
+}
+
+RunFolder plots(const Scratch& folder) { return {folder / "plots", false}; }
+
+BarChart chart(bool log) {
+    return {
+        "turns survived", log, {{"plain v", 0.4}, {awkward, 100.0, "> 100", 3}, {"x", missing}}};
+}
+
+HeatMap table(std::size_t values, bool log) {
+    HeatMap map{{{"core", {"no", "yes"}}, {"density", {"summed", "continuity"}}},
+                {{"transport", {"v", "⟨v⟩", awkward}}},
+                {},
+                {},
+                "turns",
+                log};
+    for (std::size_t k = 0; k < values; ++k) map.value.push_back(static_cast<double>(k) - 1.0);
+    return map;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(curves_and_points) {
+    const Scratch folder;
+    const CurvePanel panel{awkward,
+                           "r",
+                           "stress",
+                           false,
+                           {{"measured", {0, 1, 2}, {1, missing, 3}, Mark::points, 2},
+                            {"analytic", {0, 2}, {1, 3}, Mark::line, 2},
+                            {"empty", {}, {}}}};
+    CurvePanel log = panel;
+    log.log_y = true;
+    check_picture(folder, draw_curves(plots(folder), "picture", awkward, {panel, log}), 1240, 540);
+}
+
+BOOST_AUTO_TEST_CASE(frames_with_curves_of_their_own) {
+    const Scratch folder;
+    const CurvePanel one{"one", "x", "y", false, {{"a", {0, 1}, {1, 1}}}};
+    const CurvePanel two{"two", "x", "y", true, {{"b", {0, 1}, {0, -5}, Mark::points}}};
+    check_picture(folder, draw_curves(plots(folder), "picture", "t", {one, two}), 1240, 540);
+}
+
+BOOST_AUTO_TEST_CASE(configurations) {
+    const Scratch folder;
+    Points<2> square(2, 4);
+    square << -1, 1, 1, -1, -1, -1, 1, 1;
+    const ConfigurationPanel panel{awkward, square, {0, 1, 2, 3}, {square}};
+    const ConfigurationPanel still{"all alike", square, {0, 0, 0, 0}, {}};
+    const bool drawn =
+        draw_configurations(plots(folder), "picture", awkward, {panel, still, panel}, 2, "speed");
+    check_picture(folder, drawn, 680, 680);
+}
+
+BOOST_AUTO_TEST_CASE(bars) {
+    for (const bool log : {false, true}) {
+        const Scratch folder;
+        check_picture(folder, draw_bars(plots(folder), "picture", awkward, chart(log)), 700, 200);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bars_below_zero_and_none_at_all) {
+    const Scratch folder;
+    const BarChart negative{"change", false, {{"a", -3.0}, {"b", 2.0}}};
+    check_picture(folder, draw_bars(plots(folder), "picture", "t", negative), 700, 150);
+    const Scratch other;
+    const BarChart nothing{"change", true, {{"a", 0.0}, {"b", missing}}};
+    check_picture(other, draw_bars(plots(other), "picture", "t", nothing), 700, 150);
+}
+
+BOOST_AUTO_TEST_CASE(heat_maps) {
+    for (const bool log : {false, true}) {
+        const Scratch folder;
+        HeatMap map = table(12, log);
+        map.value[5] = missing;
+        if (log) map.text.assign(12, awkward);
+        check_picture(folder, draw_heat_map(plots(folder), "picture", awkward, map), 276, 176);
+    }
+    const Scratch folder;
+    HeatMap map = table(12, false);
+    map.value.assign(12, missing);
+    check_picture(folder, draw_heat_map(plots(folder), "picture", "nothing known", map), 276, 176);
+}
+
+/// What the other tests rely on: a script that is wrong (its file name ends a string) is noticed.
+BOOST_AUTO_TEST_CASE(a_wrong_script_is_no_picture) {
+    const Scratch folder;
+    const BarChart bars{"turns", false, {{"a", HUGE_VAL}, {"b", 1.0}}};
+    BOOST_TEST(draw_bars(plots(folder), "good", "t", bars) == have_gnuplot());
+    BOOST_TEST(!draw_bars(RunFolder(folder / "wrong", false), "it's", "t", bars));
+    BOOST_TEST(std::filesystem::file_size(folder / "wrong/it's.gp.err") > 0u);
+}

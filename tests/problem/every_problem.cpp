@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What holds for every problem executable, whatever it computes: the contract of its options, its
+// results and its exit status, run short.
+#include "problem/result_files.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+const Words problems = split(SPAM_PROBLEM_NAMES, ',');
+
+bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
+
+Outcome run_in(const Scratch& folder, const std::string& name, const Words& arguments) {
+    return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(240));
+}
+
+/// Every table of invariants below a result folder, by its place there.
+std::map<std::string, std::string> invariants(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "invariants.csv")
+            all[entry.path().lexically_relative(folder).string()] = contents_of(entry.path());
+    return all;
+}
+
+void check_checks(const nlohmann::json& results) {
+    std::size_t claimed = 0;
+    for (const auto& item : results) {
+        BOOST_TEST(item.at("value").is_number(), item.at("name") << " is no number");
+        BOOST_TEST(item.at("holds").get<bool>(), item.at("name") << " does not hold");
+        if (!item.at("expected").is_null()) ++claimed;
+    }
+    BOOST_TEST(claimed > 0u, "a problem that claims nothing cannot fail");
+}
+
+void check_pictures(const std::filesystem::path& out) {
+    std::size_t scripts = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+        BOOST_TEST((entry.path().extension() != ".err"), entry.path() << ": gnuplot complains");
+        if (entry.path().extension() != ".gp") continue;
+        ++scripts;
+        auto png = entry.path();
+        BOOST_TEST(
+            (!have_gnuplot() || std::filesystem::file_size(png.replace_extension(".png")) > 2000u));
+    }
+    BOOST_TEST(scripts > 0u);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(there_are_problems) { BOOST_TEST(problems.size() >= 3u); }
+
+BOOST_AUTO_TEST_CASE(a_smoke_run_holds_and_its_case_runs_again) {
+    for (const auto& name : problems) BOOST_TEST_CONTEXT(name) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, name, {"--smoke", "--out", "out"});
+            BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.out << outcome.err);
+            if (have_gnuplot()) BOOST_TEST(outcome.err == "");
+            check_checks(json_of(folder / "out/result.json"));
+            BOOST_TEST((json_of(folder / "out/statistics.json")["problem"] == name));
+            BOOST_TEST(contents_of(folder / "out/run.log").find(name) == 0u);
+            check_pictures(folder / "out");
+
+            const Outcome again =
+                run_in(folder, name, {"--config", "out/case.toml", "--out", "again", "--no-plots"});
+            BOOST_TEST(again.status == 0, again.out << again.err);
+            const auto first = invariants(folder / "out");
+            BOOST_TEST(!first.empty());
+            BOOST_TEST((first == invariants(folder / "again")), "case.toml is another case");
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_dry_run_says_what_it_would_do_and_does_nothing) {
+    for (const auto& name : problems) BOOST_TEST_CONTEXT(name) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, name, {"--dry-run"});
+            BOOST_TEST(outcome.status == 0);
+            for (const std::string words : {name.c_str(), "particles", "integrator", "dry run"})
+                BOOST_TEST(outcome.out.find(words) != std::string::npos, "no '" << words << "'");
+            BOOST_TEST(folder.listing().empty());
+        }
+}
+
+BOOST_AUTO_TEST_CASE(bad_options_are_refused_in_one_line) {
+    const std::vector<Words> bad{{"--nosuch", "1"},  {"--t-end", "-1"},
+                                 {"--dt", "zero"},   {"--integrator", "euler"},
+                                 {"--rtol", "1e-6"}, {"--transport", "fast"},
+                                 {"--range", "0.5"}, {"--threads", "0"},
+                                 {"--out", "file"},  {"word"}};
+    for (const auto& name : problems)
+        for (const auto& arguments : bad) BOOST_TEST_CONTEXT(name << " " << arguments.front()) {
+                const Scratch folder;
+                folder.write("file", "mine");
+                Words all{"--smoke", "--no-plots"};
+                all.insert(all.end(), arguments.begin(), arguments.end());
+                const Outcome outcome = run_in(folder, name, all);
+                BOOST_TEST(outcome.status == 2);
+                BOOST_TEST(outcome.out == "");
+                BOOST_TEST(outcome.err.starts_with(name + ": "));
+                BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+                BOOST_TEST(folder.listing().size() == 1u);
+            }
+}
+
+BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) {
+    struct Bad {
+        std::string name;
+        Words arguments, says;
+    };
+    const std::vector<Bad> all{
+        {"rotating_disk", {"--shape", "hexagon", "--radius", "7.5"}, {"radius", "7.5", "whole"}},
+        {"rotating_disk", {"--radius", "2"}, {"radius", "2", "between 6 and"}},
+        {"rotating_disk", {"--damping", "-1"}, {"damping", "-1"}},
+        {"rotating_disk", {"--shape", "ring"}, {"shape", "ring", "disk"}},
+        {"rotating_disk", {"--model", "md", "--transport", "plain"}, {"transport", "--model md"}},
+        {"sheared_square", {"--cells", "2"}, {"cells", "2", "between 6 and 2000"}},
+        {"sheared_square", {"--shear", "0.9"}, {"shear", "0.9", "0.5"}},
+        {"sheared_square", {"--shear", "0"}, {"shear", "0"}},
+    };
+    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.name << " " << bad.arguments.back()) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, bad.name, bad.arguments);
+            BOOST_TEST(outcome.status == 2);
+            for (const auto& word : bad.says)
+                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
+            BOOST_TEST(folder.listing().empty());
+        }
+}
+
+BOOST_AUTO_TEST_CASE(help_and_the_list_of_problems_know_it) {
+    for (const auto& name : problems) BOOST_TEST_CONTEXT(name) {
+            const Scratch folder;
+            const Outcome help = run_in(folder, name, {"--help"});
+            BOOST_TEST(help.status == 0);
+            BOOST_TEST(help.out.find("--smoke") != std::string::npos);
+            const std::string source =
+                contents_of(std::string(SPAM_SOURCE) + "/problems/" + name + ".cpp");
+            const auto at = source.find("// spam-list: ");
+            BOOST_REQUIRE(at < 200u);
+            const std::string line = source.substr(at, source.find('\n', at) - at);
+            BOOST_TEST(line.find("; ") != std::string::npos, line << " names no run time");
+        }
+}
