@@ -10,6 +10,8 @@ namespace spam {
 /// configuration.
 template <int Dim>
 struct DeformationGradient {
+    static constexpr bool light = true;  // sweep.hpp
+
     template <class T>
     struct Sums {
         Mat<Dim, T> A;

@@ -10,6 +10,8 @@ namespace spam {
 /// angular momentum is kept although the pair forces are not central.
 template <int Dim>
 struct ReferenceForce {
+    static constexpr bool light = true;  // sweep.hpp
+
     template <class T>
     struct Sums {
         Vec<Dim, T> force;

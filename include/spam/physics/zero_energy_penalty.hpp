@@ -26,6 +26,8 @@ struct UnseenStretch {
 ///     -sum_j k_ij d_ij   and   M_i = sum_j (k_ij/2) d_ij (x) X_ij.
 template <int Dim>
 struct ZeroEnergyPenalty {
+    static constexpr bool light = true;  // sweep.hpp
+
     template <class T>
     struct Sums {
         Vec<Dim, T> force;
@@ -43,6 +45,8 @@ struct ZeroEnergyPenalty {
 /// Half of the energies k_ij |d_ij|^2/2 of a particle's pairs, by kappa lambda V_i.
 template <int Dim>
 struct PenaltyEnergy {
+    static constexpr bool light = true;  // sweep.hpp
+
     template <class T>
     struct Sums {
         T energy{};
