@@ -75,6 +75,7 @@ if(NOT SPAM_LEVELS STREQUAL "generic" AND CMAKE_BUILD_TYPE STREQUAL "Release"
   endfunction()
   spam_instructions_test(rhs.instructions one_sweep 65)
   spam_instructions_test(rhs.instructions_two_sweeps two_sweeps 85)
+  spam_instructions_test(rhs.instructions_total_lagrangian total_lagrangian 145)  # three sweeps
   spam_instructions_test(rhs.instructions_gate one_sweep 50)  # it fails where there are too many
   set_tests_properties(rhs.instructions_gate PROPERTIES WILL_FAIL TRUE)
 endif()
