@@ -18,16 +18,19 @@
 namespace spam {
 namespace {
 
+/// Where in a record what begins.
 template <int Dim>
-constexpr auto stride = static_cast<std::size_t>(StressedRecord<Dim>::numbers);
+constexpr std::size_t stride = StressedRecord<Dim>::numbers;
 template <int Dim>
-constexpr auto F_at = static_cast<std::size_t>(StressedRecord<Dim>::F_at);
+constexpr std::size_t present_at = StressedRecord<Dim>::present_at;
 template <int Dim>
-constexpr auto B_at = static_cast<std::size_t>(StressedRecord<Dim>::B_at);
+constexpr std::size_t volume_at = StressedRecord<Dim>::volume_at;
 template <int Dim>
-constexpr std::size_t volume_at = 2 * Dim;
+constexpr std::size_t K_at = StressedRecord<Dim>::K_at;
 template <int Dim>
-constexpr std::size_t K_at = 2 * Dim + 1;
+constexpr std::size_t F_at = StressedRecord<Dim>::F_at;
+template <int Dim>
+constexpr std::size_t B_at = StressedRecord<Dim>::B_at;
 
 template <int Dim>
 using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
@@ -120,10 +123,10 @@ void TotalLagrangianModel<Dim>::pack_reference() {
     records_.assign(order.size() * stride<Dim>, 0.0);
     for (std::size_t slot = 0; slot < order.size(); ++slot) {
         double* const record = &records_[slot * stride<Dim>];
-        for (int a = 0; a < Dim; ++a) {
-            record[a] = this->box().wrap(a, this->particles().reference_position(a, order[slot]));
-            record[Dim + a] = record[a];
-            record[K_at<Dim> + static_cast<std::size_t>(a)] = 1.0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const double X = this->particles().reference_position.data()[Dim * order[slot] + a];
+            record[a] = record[present_at<Dim> + a] = this->box().wrap(static_cast<int>(a), X);
+            record[K_at<Dim> + a] = 1.0;
         }
         record[volume_at<Dim>] = this->particles().mass[order[slot]] / scheme_.density;
     }
@@ -165,7 +168,7 @@ void TotalLagrangianModel<Dim>::load(std::span<const double> y,
         double* const record = &records[slot * stride<Dim>];
         for (std::size_t a = 0; a < d; ++a) {
             const std::size_t k = order[slot] * d + a;
-            record[d + a] = x[k] - (X[k] - record[a]);
+            record[present_at<Dim> + a] = x[k] - (X[k] - record[a]);
         }
     });
 }

@@ -13,7 +13,8 @@ template <int Dim, class T = double>
 struct ReferenceRecord {
     template <class U>
     using With = ReferenceRecord<Dim, U>;
-    static constexpr int present_at = Dim, numbers = 2 * Dim + 1 + symmetric_size(Dim);
+    static constexpr int present_at = Dim, volume_at = 2 * Dim, K_at = volume_at + 1,
+                         numbers = K_at + symmetric_size(Dim);
 
     Vec<Dim, T> x;        ///< X, the reference position, wrapped into the box where it is periodic
     Vec<Dim, T> present;  ///< the position now, moved by as many periods as X was
