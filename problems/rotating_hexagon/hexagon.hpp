@@ -16,17 +16,26 @@ inline std::string_view to_string(ModelKind kind) {
     return kind == ModelKind::spam ? "spam" : "md";
 }
 
+enum class Formulation { updated, total_lagrangian };
+inline std::string_view to_string(Formulation formulation) {
+    return formulation == Formulation::updated ? "updated" : "total_lagrangian";
+}
+
 struct Parameters {
     int size = 8;        // n: corners are n spacings from the centre
     double speed = 0.1;  // of the corners
     std::optional<double> turns;
     std::optional<double> figure;  // of [HHM04], 4 to 7
     ModelKind model = ModelKind::spam;
+    Formulation formulation = Formulation::updated;
+    double penalty = 0.1;  // kappa of the total-Lagrangian scheme
 
     double omega() const { return speed / size; }
     double turn() const {  // nominal: the hexagon's own turn is slower
         return 2.0 * std::numbers::pi / omega();
     }
+    bool md() const { return model == ModelKind::md; }
+    bool lagrangian() const { return !md() && formulation == Formulation::total_lagrangian; }
 };
 
 struct Hexagon {

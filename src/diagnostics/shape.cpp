@@ -45,6 +45,14 @@ double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& b
     return std::sqrt(closest2);
 }
 
+double time_survived(const History& history) {
+    const auto t = history.column("t"), error = history.column("shape_error"),
+               pair = history.column("closest_pair");
+    std::size_t k = 0;
+    while (k + 1 < t.size() && error[k] < 0.5 && pair[k] > 0.3) ++k;
+    return t[k];
+}
+
 template double shape_error<1>(const Points<1>&, const Points<1>&, double);
 template double shape_error<2>(const Points<2>&, const Points<2>&, double);
 template double shape_error<3>(const Points<3>&, const Points<3>&, double);

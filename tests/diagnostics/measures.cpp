@@ -124,3 +124,18 @@ BOOST_AUTO_TEST_CASE(fits_recover_lines_and_orders) {
     const std::vector<double> steps{0.1, 0.05, 0.025}, errors{3e-4, 3e-4 / 16, 3e-4 / 256};
     BOOST_TEST(observed_order(steps, errors) == 4.0, boost::test_tools::tolerance(1e-12));
 }
+
+BOOST_AUTO_TEST_CASE(time_survived_until_the_shape_or_a_pair_is_lost) {
+    const auto survived = [](double error, double pair) {
+        History history({"t", "shape_error", "closest_pair"});
+        history.add({0.0, 0.0, 1.0});
+        history.add({2.0, 0.49, 0.31});
+        history.add({3.0, error, pair});
+        history.add({5.0, 0.1, 0.9});
+        return time_survived(history);
+    };
+    BOOST_TEST(survived(0.49, 0.31) == 5.0);
+    BOOST_TEST(survived(0.5, 0.31) == 3.0);
+    BOOST_TEST(survived(0.49, 0.3) == 3.0);
+    BOOST_TEST(survived(std::nan(""), 0.9) == 3.0);
+}

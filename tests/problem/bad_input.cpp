@@ -161,6 +161,13 @@ BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
         {{"--model", "md", "--angular-momentum", "torque_pair"},
          {"angular-momentum", "--model md"}},
         {{"--model", "md", "--range", "3"}, {"range", "--model md"}},
+        {{"--model", "md", "--penalty", "1"}, {"penalty", "--model md"}},
+        {{"--model", "md", "--formulation", "updated"}, {"formulation", "--model md"}},
+        {{"--penalty", "1"}, {"penalty", "--formulation updated"}},
+        {{"--formulation", "total_lagrangian", "--penalty", "-1"}, {"penalty", "-1"}},
+        {{"--formulation", "total_lagrangian", "--transport", "plain"},
+         {"transport", "--formulation total_lagrangian"}},
+        {{"--formulation", "total_lagrangian", "--range", "0.9"}, {"range", "0.9"}},
     });
 }
 

@@ -112,6 +112,22 @@ BOOST_AUTO_TEST_CASE(a_run_with_reflections_counts_them) {
     BOOST_TEST(contents_of(run / "run.log").find("reflected at 0.995") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_total_lagrangian_run_and_its_case_read_back) {
+    Run run({"--smoke", "--formulation", "total_lagrangian", "--penalty", "0.2"});
+    check_invariants(run / "invariants.csv");
+    check_statistics(json_of(run / "statistics.json"));
+    const auto results = json_of(run / "result.json");
+    check_results(results);
+    const auto survived = std::find_if(results.begin(), results.end(), [](const auto& item) {
+        return item["name"] == "turns_survived";
+    });
+    BOOST_TEST_REQUIRE((survived != results.end()));
+    BOOST_TEST((*survived)["value"].get<double>() == 0.1, boost::test_tools::tolerance(1e-12));
+    run.again("again", {"--config", "out/case.toml"});
+    BOOST_TEST(
+        (contents_of(run / "invariants.csv") == contents_of(run.folder / "again/invariants.csv")));
+}
+
 BOOST_AUTO_TEST_CASE(the_comparison) {
     const Run run({"--smoke"});
     const Words labels{"md", "plain", "monaghan", "monaghan_torque_pair"};

@@ -4,7 +4,9 @@
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/total_lagrangian_model.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -44,9 +46,8 @@ using namespace spam::test;
 
 namespace {
 
-long allocations_of_second_call(int cells, const Scheme& scheme, int threads) {
+long allocations_of_second_call(Model<2>& model, int threads) {
     set_threads(threads);
-    SmoothParticleModel<2> model(jittered_particles<2>(cells, 61), ElasticSolid{0.7, 0.4}, scheme);
     const auto y = random_state(model, 62);
     std::vector<double> y_dot(y.size());
     model.rates(0.0, y, y_dot);
@@ -57,12 +58,29 @@ long allocations_of_second_call(int cells, const Scheme& scheme, int threads) {
     return count;
 }
 
+long allocations_of_second_call(int cells, const Scheme& scheme, int threads) {
+    SmoothParticleModel<2> model(jittered_particles<2>(cells, 61), ElasticSolid{0.7, 0.4}, scheme);
+    return allocations_of_second_call(model, threads);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_second_right_hand_side_allocates_nothing) {
     for (const Scheme& scheme : all_schemes<2>()) {
         BOOST_TEST(allocations_of_second_call(8, scheme, 1) == 0, scheme.describe());
         BOOST_TEST(allocations_of_second_call(40, scheme, 2) == 0, scheme.describe());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(nor_does_that_of_a_total_lagrangian_solid) {
+    for (const double penalty : {0.0, 0.1}) {
+        const TotalLagrangianScheme scheme{1.2, 3.0, penalty};
+        TotalLagrangianModel<2> few(jittered_particles<2>(8, 61), StVenantKirchhoff{0.7, 0.4},
+                                    scheme);
+        BOOST_TEST(allocations_of_second_call(few, 1) == 0);
+        TotalLagrangianModel<2> many(jittered_particles<2>(40, 61), StVenantKirchhoff{0.7, 0.4},
+                                     scheme);
+        BOOST_TEST(allocations_of_second_call(many, 2) == 0);
     }
 }
 

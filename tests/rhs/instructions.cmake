@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DVALGRIND=... -DPROGRAM=... -DSCHEME=one_sweep|two_sweeps -DMOST=65 -P instructions.cmake
+# cmake -DVALGRIND=... -DPROGRAM=... -DSCHEME=one_sweep|two_sweeps|total_lagrangian -DMOST=65
+#       -P instructions.cmake
 # Instructions of a right-hand side per undirected pair within the range, counted by callgrind for
 # x86-64-v3: everything between two calls, packing and the stress law included.
 set(ENV{SPAM_ISA} v3)

@@ -14,6 +14,11 @@ struct Mat {
     constexpr const T& operator()(int a, int b) const {
         return c[static_cast<std::size_t>(a * Dim + b)];
     }
+    constexpr Mat& operator+=(const Mat& o) {
+        for (std::size_t k = 0; k < c.size(); ++k) c[k] += o.c[k];
+        return *this;
+    }
+    friend constexpr Mat operator+(Mat a, const Mat& b) { return a += b; }
     friend constexpr Mat operator*(const T& s, Mat a) {
         for (auto& x : a.c) x *= s;
         return a;
@@ -57,6 +62,36 @@ struct SymTensor {
         return a;
     }
 };
+
+/// (A S)_ab = A_ac S_cb
+template <int Dim, class T>
+constexpr Mat<Dim, T> operator*(const Mat<Dim, T>& m, const SymTensor<Dim, T>& s) {
+    Mat<Dim, T> r;
+    for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) {
+            r(a, b) = m(a, 0) * s(0, b);
+            for (int c = 1; c < Dim; ++c) r(a, b) += m(a, c) * s(c, b);
+        }
+    return r;
+}
+
+/// (A . v)_a = A_ab v_b
+template <int Dim, class T>
+constexpr Vec<Dim, T> operator*(const Mat<Dim, T>& m, const Vec<Dim, T>& v) {
+    Vec<Dim, T> r;
+    for (int a = 0; a < Dim; ++a) {
+        r[a] = m(a, 0) * v[0];
+        for (int b = 1; b < Dim; ++b) r[a] += m(a, b) * v[b];
+    }
+    return r;
+}
+
+/// A_ab += u_a v_b
+template <int Dim, class T>
+constexpr void add_outer(Mat<Dim, T>& m, const Vec<Dim, T>& u, const Vec<Dim, T>& v) {
+    for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) m(a, b) += u[a] * v[b];
+}
 
 /// (S . v)_a = S_ab v_b
 template <int Dim, class T>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/state.hpp>
+#include <spam/diagnostics/history.hpp>
 #include <spam/neighbors/box.hpp>
 
 namespace spam {
@@ -16,5 +17,10 @@ double shape_error(const Points<Dim>& reference, const Points<Dim>& position, do
 /// where to look; it grows until a pair is found.
 template <int Dim>
 double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& box);
+
+/// How long a body keeps its shape: the first time, among the rows of `history`, at which its columns
+/// have shape_error >= 0.5 or closest_pair <= 0.3 spacings (or neither number), the last time where
+/// none has. Spacing 1.
+double time_survived(const History& history);
 
 }  // namespace spam

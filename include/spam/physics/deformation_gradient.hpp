@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/physics/lagrangian_record.hpp>
+
+namespace spam {
+
+/// A_i = sum_j V_j (x_j - x_i) (x) grad_i W_ij, physics.md 12. F_i = A_i K_i is the deformation
+/// gradient, exact where x is a linear function of X: K_i is the inverse of A_i in the reference
+/// configuration.
+template <int Dim>
+struct DeformationGradient {
+    static constexpr bool light = true;  // sweep.hpp
+
+    template <class T>
+    struct Sums {
+        Mat<Dim, T> A;
+    };
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        add_outer(sums.A, present_separation(pair, i, j), j.volume * pair.grad_w);
+    }
+};
+
+}  // namespace spam

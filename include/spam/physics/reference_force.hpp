@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/physics/lagrangian_record.hpp>
+
+namespace spam {
+
+/// sum_j V_j (P_i K_i^t + P_j K_j^t) . grad_i W_ij, the force of the stresses for unit V_i, physics.md
+/// 12; P less the penalty's M/V (B of StressedRecord). Minus the derivative of sum V energy(F): the
+/// angular momentum is kept although the pair forces are not central.
+template <int Dim>
+struct ReferenceForce {
+    static constexpr bool light = true;  // sweep.hpp
+
+    template <class T>
+    struct Sums {
+        Vec<Dim, T> force;
+    };
+    template <class T, class Record>
+    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        sums.force += j.volume * ((i.B + j.B) * pair.grad_w);
+    }
+};
+
+}  // namespace spam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/hyperelastic_material.hpp>
+#include <spam/neighbors/cluster_list.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <memory>
+
+namespace spam {
+
+template <int Dim>
+struct SweepInput;
+template <int Dim>
+struct LagrangianSweeps;
+
+/// How a total-Lagrangian solid is summed.
+struct TotalLagrangianScheme {
+    double
+        density;  ///< rho_0 of the reference configuration; sqrt(4/3) m in the triangular lattice
+    double range = 3.0;    ///< of Lucy's weight function
+    double penalty = 0.1;  ///< kappa, against zero-energy modes; 0 leaves them free
+};
+
+/// An elastic solid of smooth particles that remembers its reference configuration, physics.md 12: y =
+/// (x, v); neighbours and weights are those of particles().reference_position for good, stresses
+/// follow from the deformation gradient. All forces derive from one energy that rotations leave
+/// unchanged: p is kept exactly, E and in open space L to integrator error, and there is no tensile
+/// instability. It cannot flow or break: who are neighbours stays so.
+template <int Dim>
+class TotalLagrangianModel final : public Model<Dim> {
+  public:
+    /// `material`: any hyperelastic law (hyperelastic_law.hpp). In a periodic box the lattice closes on
+    /// itself as in the reference configuration. Throws InputError for a density, range or penalty
+    /// that makes no sense, a periodic box not wider than twice the range, and a particle whose
+    /// neighbours do not span space.
+    TotalLagrangianModel(Particles<Dim> particles, const HyperelasticMaterial<Dim>& material,
+                         const TotalLagrangianScheme& scheme, const Box<Dim>& box = {});
+    ~TotalLagrangianModel() override;
+
+    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair.
+    double internal_energy(std::span<const double> y) const override;
+    /// rho_0/det F; negative where a particle is turned inside out.
+    std::vector<double> density(std::span<const double> y) const override;
+    Promises promises() const override;
+    std::string describe() const override;
+    std::size_t pairs() const override { return list_.pairs(); }
+    double reach() const override { return scheme_.range; }
+
+    const TotalLagrangianScheme& scheme() const { return scheme_; }
+    /// F of all particles, in their order; F_ab = d x_a / d X_b.
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
+
+  private:
+    struct Stresses;
+    SweepInput<Dim> input(const std::vector<double>& records) const;
+    void pack_reference();
+    void find_corrections();
+    void load(std::span<const double> y, std::vector<double>& records) const;
+    std::vector<double> deformed(std::span<const double> y) const;
+    void fail_stress(std::span<double> y_dot);
+
+    HyperelasticMaterial<Dim> material_;
+    TotalLagrangianScheme scheme_;
+    std::unique_ptr<const LagrangianSweeps<Dim>> sweeps_;
+    ClusterList<Dim> list_;        ///< of the reference positions
+    std::vector<double> records_;  ///< StressedRecord by slot
+};
+
+extern template class TotalLagrangianModel<1>;
+extern template class TotalLagrangianModel<2>;
+extern template class TotalLagrangianModel<3>;
+
+}  // namespace spam
