@@ -213,6 +213,12 @@ double LatticeModes<Dim>::frequency(const Point<Dim>& k, const Point<Dim>& direc
     return omega;
 }
 
+template <int Dim>
+Eigen::MatrixXcd LatticeModes<Dim>::acceleration_rate(const Point<Dim>& k) const {
+    const Eigen::MatrixXcd J = jacobian(k);
+    return J.middleRows<Dim>(Dim) * J.middleCols<Dim>(Dim);
+}
+
 template class LatticeModes<1>;
 template class LatticeModes<2>;
 template class LatticeModes<3>;

@@ -76,15 +76,36 @@ bool same_titles(const std::vector<CurvePanel>& panels) {
 /// One row under the whole picture: gnuplot's own key is no wider than its frame.
 std::string shared_key(const CurvePanel& panel) {
     std::string key = "unset key\n";
-    const auto n = static_cast<double>(panel.curves.size());
-    for (std::size_t k = 0; k < panel.curves.size(); ++k) {
+    std::vector<Curve> curves;
+    for (const Curve& curve : panel.curves)
+        if (curve.like == 0) curves.push_back({curve.title, {}, {}});
+    const auto n = static_cast<double>(curves.size());
+    for (std::size_t k = 0; k < curves.size(); ++k) {
         const double x = (static_cast<double>(k) + 0.12) / n;
         key += fmt::format(
             "set arrow {0} from screen {1:.4f},0.06 to screen {2:.4f},0.06 nohead ls {0}\n"
             "set label {0} \"{3}\" at screen {4:.4f},0.06 left\n",
-            k + 1, x, x + 0.028, escaped(panel.curves[k].title), x + 0.036);
+            k + 1, x, x + 0.028, escaped(curves[k].title), x + 0.036);
     }
     return key;
+}
+
+/// Numbers along the x axis, or the panel's own names with a line at each.
+std::string x_axis(const CurvePanel& panel) {
+    if (panel.x_ticks.empty()) return "set xtics autofreq\n";
+    std::string ticks;
+    for (const Tick& tick : panel.x_ticks)
+        ticks +=
+            fmt::format("{}\"{}\" {:.8g}", ticks.empty() ? "" : ", ", escaped(tick.label), tick.at);
+    return fmt::format("set xtics ({})\n", ticks);
+}
+
+/// How a curve is drawn and named; `style` counts those with a colour of their own.
+std::string curve_style(const Curve& curve, int& style) {
+    const std::string line = curve.like > 0 ? fmt::format("ls {} lw 1.6 dt (8,6)", curve.like)
+                                            : fmt::format("ls {}", ++style);
+    return curve.title.empty() ? line + " notitle"
+                               : fmt::format("{} title \"{}\"", line, escaped(curve.title));
 }
 
 /// One curve as a block of the data file; a curve without points keeps its place in the key.
@@ -127,15 +148,15 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
         script +=
             fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n",
                         escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label));
+        script += x_axis(panel);
         script += panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
                               : "unset logscale y\nset format y '%g'\n";
         std::string plots;
         int style = 0;
         for (const Curve& curve : panel.curves) {
             data += curve_block(panel, curve);
-            plots += fmt::format("{} '{}.dat' index {} with lines ls {} title \"{}\"",
-                                 plots.empty() ? "plot" : ",", name, block++, ++style,
-                                 escaped(curve.title));
+            plots += fmt::format("{} '{}.dat' index {} with lines {}", plots.empty() ? "plot" : ",",
+                                 name, block++, curve_style(curve, style));
         }
         script += plots + "\n";
     }

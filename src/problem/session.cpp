@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/parallel.hpp>
@@ -24,13 +25,43 @@ void Session::leave_out_of_case(const std::vector<std::string>& names) {
     left_out_.insert(left_out_.end(), names.begin(), names.end());
 }
 
-/// The folder comes into being with the first run: everything before may still be refused.
+/// The folder comes into being with the first run or the analysis: everything before may still be refused.
 void Session::open_folder() {
     if (folder_) return;
     folder_.emplace(problem_.common_.out, problem_.common_.force);
     terminal_.log_to(*folder_ / "run.log");
     describe_environment();
     folder_->write("case.toml", problem_.options_.case_toml(left_out_));
+}
+
+void Session::end_dry_run() {
+    terminal_.say("");
+    terminal_.say(
+        fmt::format("dry run: nothing computed; results would go to {}", problem_.common_.out));
+    throw DryRunDone{};
+}
+
+RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {
+    const std::vector<std::string> of_runs{
+        "t-end", "output-every", "snapshot-every", "integrator", "dt", "rtol", "atol"};
+    if (const auto name = problem_.options_.first_given(of_runs); !name.empty())
+        throw InputError(
+            fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
+    leave_out_of_case(of_runs);
+    const auto describe = [&] {
+        for (const auto& line : description) terminal_.say(line);
+    };
+    if (problem_.common_.dry_run) {
+        terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
+        describe();
+        end_dry_run();
+    }
+    open_folder();
+    describe();
+    analysis_start_ = std::chrono::steady_clock::now();
+    statistics_.push_back({});
+    statistics_.back().problem = problem_.name_;
+    return statistics_.back();
 }
 
 void Session::describe_environment() {
@@ -90,6 +121,10 @@ void Session::report(const RunRecord& record) {
 int Session::finish() {
     if (!folder_) return 0;
     write_results(*folder_, checks_);
+    if (analysis_start_)
+        statistics_.front().wall_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - *analysis_start_)
+                .count();
     if (statistics_.size() > 1 || !std::filesystem::exists(*folder_ / "statistics.json")) {
         RunStatistics total = statistics_.front();
         for (std::size_t k = 1; k < statistics_.size(); ++k) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dry_run.hpp"
 #include "recorder.hpp"
 #include <spam/core/error.hpp>
 #include <spam/integrate/driver.hpp>
@@ -155,10 +154,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
         for (const auto& one : cases) describe(one);
-        terminal_.say("");
-        terminal_.say(
-            fmt::format("dry run: nothing computed; results would go to {}", problem_.common_.out));
-        throw DryRunDone{};
+        end_dry_run();
     }
     open_folder();
     std::vector<RunRecord> records;

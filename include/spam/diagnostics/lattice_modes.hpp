@@ -48,6 +48,10 @@ class LatticeModes {
     /// Frequency of the oscillation whose velocity is along `direction` (or nearest to it).
     double frequency(const Point<Dim>& k, const Point<Dim>& direction) const;
 
+    /// M(k) of v_ddot = M v for a disturbance that begins with velocities alone: the velocity part
+    /// of J^2, because accelerations do not depend on velocities.
+    Eigen::MatrixXcd acceleration_rate(const Point<Dim>& k) const;
+
     /// Right-hand sides that went into it.
     std::size_t rhs_evaluations() const { return rhs_evaluations_; }
 

@@ -14,6 +14,13 @@ namespace spam {
 struct Curve {
     std::string title;
     std::vector<double> x, y;
+    int like = 0;  ///< above 0: dashed, in the colour of the like-th curve that is not
+};
+
+/// A place on an axis that has a name.
+struct Tick {
+    double at;
+    std::string label;
 };
 
 /// One frame of a row of curves.
@@ -22,6 +29,7 @@ struct CurvePanel {
     std::string x_label, y_label;
     bool log_y = false;  ///< absolute values, zeros dropped
     std::vector<Curve> curves;
+    std::vector<Tick> x_ticks{};  ///< in place of numbers
 };
 
 /// One frame of a grid of configurations: particles coloured by a value, and outlines.
