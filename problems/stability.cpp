@@ -20,6 +20,7 @@
 #include <spam/diagnostics/wave_vectors.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
+#include <spam/setup/periodic_solid.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -81,24 +82,14 @@ std::vector<Analysed> schemes_to_compare(const Scheme& scheme, bool single) {
 
 // ---- the lattice ----
 
-/// Just wide enough for the analysis: it tells the modes of samples of any size.
-int cells_of_lattice(const Scheme& scheme) {
-    const int cells = static_cast<int>(4.0 * scheme.range / std::sqrt(0.75)) + 1;
-    return cells + cells % 2;
-}
-
+/// A lattice just wide enough for the analysis tells the modes of samples of any size.
 LatticeModes<2> analyse(const Parameters& p, const Scheme& scheme, RunStatistics& statistics) {
-    const int n = cells_of_lattice(scheme);
-    const Box<2> box = triangular_box(n, n);
-    SmoothParticleModel<2> model(make_particles<2>(triangular_block(n, n), 1.0, 1.0, box),
-                                 ElasticSolid::triangular_lattice(), scheme, box);
-    auto y = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0), at_rest<2>());
-    const State<2> state(model.layout(), y);
-    state.stress().topRows<2>().setConstant(p.stress);
-    LatticeModes<2> modes(model, y);
-    statistics.particles = model.particles().size();
+    const auto solid = smallest_triangular_solid(ElasticSolid::triangular_lattice(), scheme,
+                                                 std::sqrt(4.0 / 3.0), p.stress);
+    LatticeModes<2> modes(*solid.model, solid.y0);
+    statistics.particles = solid.model->particles().size();
     statistics.rhs_evaluations += modes.rhs_evaluations();
-    statistics.pair_interactions += modes.rhs_evaluations() * model.pairs();
+    statistics.pair_interactions += modes.rhs_evaluations() * solid.model->pairs();
     return modes;
 }
 

@@ -25,6 +25,7 @@
 #include <spam/diagnostics/wave_vectors.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
+#include <spam/setup/periodic_solid.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -57,24 +58,25 @@ struct Sample {
 
 Sample make_sample(const Parameters& p, double stress, const Scheme& scheme) {
     Sample sample{"", "", "", stress, nullptr};
-    const Box<2> box = triangular_box(p.cells, p.cells);
-    sample.model = std::make_unique<SmoothParticleModel<2>>(
-        make_particles<2>(triangular_block(p.cells, p.cells), 1.0, 1.0, box),
-        ElasticSolid::triangular_lattice(), scheme, box);
     const char* velocity = scheme.transport == Transport::plain     ? "plain v"
                            : scheme.transport == Transport::average ? "⟨v⟩"
                                                                     : "⟨v⟩ Monaghan";
-    sample.title = fmt::format("tension {:g}, {}", stress, velocity);
+    sample.title = fmt::format("s = {:g}, {}", stress, velocity);
     // at rest under tension
+    const auto solid = ElasticSolid::triangular_lattice();
+    const double density = std::sqrt(4.0 / 3.0);
+    auto lattice = triangular_solid(p.cells, p.cells, solid, scheme, density, stress);
+    sample.model = std::move(lattice.model);
+    sample.y0 = std::move(lattice.y0);
     auto& model = *sample.model;
-    sample.y0 = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0), at_rest<2>());
+    const Box<2>& box = model.box();
     const State<2> state(model.layout(), sample.y0);
-    state.stress().topRows<2>().setConstant(stress);
     // what the linear equations say
     const Point<2> kick(0.0, p.speed);
+    const auto small = smallest_triangular_solid(solid, scheme, density, stress);
     sample.linear = std::make_unique<KickedLattice<2>>(
-        LatticeModes<2>(model, sample.y0), allowed_wave_vectors<2>(box, {p.cells, p.cells}), 1.0,
-        kick);
+        LatticeModes<2>(*small.model, small.y0), allowed_wave_vectors<2>(box, {p.cells, p.cells}),
+        1.0, kick);
     // the particle in the middle
     const Point<2> middle(0.5 * box.length(0), 0.5 * box.length(1));
     Eigen::Index nearest = 0;
@@ -249,7 +251,7 @@ void draw(Session& session, const std::vector<Sample>& samples,
     if (drawn > 0) panels.push_back(rate);
     session.note_drawn(
         draw_curves(session.plots_folder(), "kinetic_energy",
-                    fmt::format("One moving particle in a stretched lattice of {} particles",
+                    fmt::format("One moving particle in a lattice of {} under tension s",
                                 runs.front().statistics.particles),
                     panels));
 }

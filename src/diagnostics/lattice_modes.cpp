@@ -15,15 +15,6 @@ constexpr double touching = 1e-9;  ///< of a spacing: distances that count as no
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError("lattice modes: " + what); }
 
-/// Distance at which a disturbance of one particle changes the rates of another.
-template <int Dim>
-double coupling_reach(const SmoothParticleModel<Dim>& model) {
-    const Scheme& scheme = model.scheme();
-    const bool by_way_of_a_third =
-        scheme.density == Density::summed || scheme.density == Density::chain_rule;
-    return by_way_of_a_third ? 2.0 * scheme.range : scheme.range;
-}
-
 template <int Dim>
 Point<Dim> nearest_separation(const Box<Dim>& box, const Points<Dim>& wrapped, Eigen::Index from,
                               Eigen::Index to) {
@@ -34,7 +25,7 @@ Point<Dim> nearest_separation(const Box<Dim>& box, const Points<Dim>& wrapped, E
 
 template <int Dim>
 void require_wide_box(const SmoothParticleModel<Dim>& model) {
-    const double reach = coupling_reach(model);
+    const double reach = coupling_reach(model.scheme());
     for (int a = 0; a < Dim; ++a) {
         if (!model.box().periodic(a)) refuse("the box must be periodic in every direction");
         if (!(model.box().length(a) > 2.0 * reach))
@@ -87,6 +78,12 @@ void require_rest(const ConstState<Dim>& state) {
 }
 
 }  // namespace
+
+double coupling_reach(const Scheme& scheme) {
+    const bool by_way_of_a_third =
+        scheme.density == Density::summed || scheme.density == Density::chain_rule;
+    return by_way_of_a_third ? 2.0 * scheme.range : scheme.range;
+}
 
 template <int Dim>
 LatticeModes<Dim>::LatticeModes(SmoothParticleModel<Dim>& model, std::span<const double> y,

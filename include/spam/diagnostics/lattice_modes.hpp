@@ -15,6 +15,10 @@ struct LatticeMode {
     Eigen::Matrix<std::complex<double>, Dim, 1> velocity;  ///< part of an eigenvector of length one
 };
 
+/// Distance at which a disturbance of one particle changes the rates of another: the range, or twice
+/// the range where density is summed or follows the transport velocity.
+double coupling_reach(const Scheme& scheme);
+
 /// Small disturbances of a periodic Bravais lattice at rest under uniform stress, [HHM04] IV. With
 /// z_j = (x, v, [rho], sigma) of particle j, the equations linearised at rest are z_dot_i =
 /// sum_j J_ij z_j. Every particle sees the same surroundings, so that the response of all particles
@@ -26,8 +30,7 @@ template <int Dim>
 class LatticeModes {
   public:
     /// `y`: a state of `model` at rest, with uniform stress and density, on a Bravais lattice. The
-    /// box must be periodic and wider than twice the distance at which a particle feels another:
-    /// the range, or twice the range where density is summed or follows the transport velocity.
+    /// box must be periodic and wider than twice the coupling_reach().
     /// `step` in units of the spacing (positions), of the density, and of one. Throws InputError
     /// for a state without these properties, and for schemes without derivatives at rest (balanced
     /// torques).
