@@ -123,6 +123,16 @@ std::string curve_block(const CurvePanel& panel, const Curve& curve) {
 
 }  // namespace
 
+Curve steps(std::string title, const std::vector<double>& centre, const std::vector<double>& height,
+            double width) {
+    Curve curve{std::move(title), {}, {}};
+    for (std::size_t b = 0; b < centre.size(); ++b) {
+        curve.x.insert(curve.x.end(), {centre[b] - 0.5 * width, centre[b] + 0.5 * width});
+        curve.y.insert(curve.y.end(), {height[b], height[b]});
+    }
+    return curve;
+}
+
 bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
                  const std::vector<CurvePanel>& panels) {
     // One key for all frames where they show the same curves: under the middle of the picture.

@@ -2,6 +2,7 @@
 #include <spam/setup/plane_wave.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace spam {
 
@@ -57,6 +58,24 @@ double PlaneWave::block_angular_momentum(double side, double omega, double y, do
 
 double PlaneWave::block_torque(double side, double y) const {
     return std::pow(side, 4) / 12.0 * solid.eta * k * k * k * amplitude * std::cos(k * y);
+}
+
+StandingWave standing_wave(Polarization polarization, int cells, double amplitude,
+                           const Scheme& scheme) {
+    const auto law = ElasticSolid::triangular_lattice();
+    const double density = std::sqrt(4.0 / 3.0);
+    StandingWave standing{{polarization, amplitude, 0.0, density, law},
+                          triangular_solid(cells, cells, law, scheme, density, 0.0),
+                          nullptr};
+    standing.wave.k = 2.0 * std::numbers::pi / standing.wavelength();
+    const auto small = smallest_triangular_solid(law, scheme, density, 0.0);
+    standing.modes = std::make_shared<const LatticeModes<2>>(*small.model, small.y0);
+    auto& layout = standing.solid.model->layout();
+    standing.wave.add_to(State<2>(layout, standing.solid.y0));
+    const double speed = standing.omega_lattice() * amplitude;
+    layout.set_scale(Field::velocity, speed);
+    layout.set_scale(Field::energy, speed * speed);
+    return standing;
 }
 
 }  // namespace spam

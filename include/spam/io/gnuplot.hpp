@@ -17,6 +17,10 @@ struct Curve {
     int like = 0;  ///< above 0: dashed, in the colour of the like-th curve that is not
 };
 
+/// A histogram as a curve: bars of one width around their centres.
+Curve steps(std::string title, const std::vector<double>& centre, const std::vector<double>& height,
+            double width);
+
 /// A place on an axis that has a name.
 struct Tick {
     double at;

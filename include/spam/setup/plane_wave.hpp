@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/state.hpp>
+#include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/setup/periodic_solid.hpp>
 
 #include <string_view>
 
@@ -38,5 +39,20 @@ struct PlaneWave {
     /// cos(k y).
     double block_torque(double side, double y) const;
 };
+
+/// A standing wave as long as the lattice is high, and what is known of it beforehand.
+struct StandingWave {
+    PlaneWave wave;
+    PeriodicSolid solid;                           ///< its y0 holds the wave
+    std::shared_ptr<const LatticeModes<2>> modes;  ///< of the lattice without it
+
+    double wavelength() const { return solid.model->box().length(1); }
+    double omega_lattice() const { return modes->frequency({0.0, wave.k}, wave.direction()); }
+};
+
+/// In cells x cells particles of the triangular lattice of springs (m = kappa = spacing = 1), free of
+/// other stress. Throws InputError as triangular_solid() and LatticeModes do.
+StandingWave standing_wave(Polarization polarization, int cells, double amplitude,
+                           const Scheme& scheme);
 
 }  // namespace spam
