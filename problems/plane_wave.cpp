@@ -37,6 +37,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -226,15 +227,13 @@ void draw_energies(Session& session, const std::vector<Ringing>& all,
                    const std::vector<RunRecord>& runs) {
     std::vector<CurvePanel> panels;
     for (std::size_t n = 0; n < runs.size(); ++n) {
-        const auto t = runs[n].history.column("t");
-        panels.push_back({fmt::format("{} wave, amplitude {:g}",
-                                      to_string(all[n].wave.polarization), all[n].wave.amplitude),
-                          "t",
-                          "energy",
-                          false,
-                          {}});
-        panels.back().curves.push_back({"internal", t, runs[n].history.column("internal")});
-        panels.back().curves.push_back({"kinetic", t, runs[n].history.column("kinetic")});
+        const History& h = runs[n].history;
+        CurvePanel panel{"", "t", "energy", false, {}};
+        panel.title = fmt::format("{} wave, amplitude {:g}", to_string(all[n].wave.polarization),
+                                  all[n].wave.amplitude);
+        panel.curves = {{"internal", h.column("t"), h.column("internal")},
+                        {"kinetic", h.column("t"), h.column("kinetic")}};
+        panels.push_back(std::move(panel));
     }
     session.note_drawn(draw_curves(
         session.plots_folder(), "energies",

@@ -37,8 +37,11 @@ double KickedLattice<Dim>::kinetic_rate(double t) const {
     double sum = 0.0, change = 0.0;
     for (const Wave& wave : waves_) {
         const Eigen::ArrayXcd lambda = wave.lambda.array();
-        const Eigen::VectorXcd v = wave.shape * (t * lambda).cosh().matrix();
-        const Eigen::VectorXcd v_dot = wave.shape * (lambda * (t * lambda).sinh()).matrix();
+        // By exp(fastest_rate t) smaller than they are: at late times only their ratio is finite.
+        const Eigen::ArrayXcd growing = 0.5 * (t * (lambda - fastest_rate_)).exp();
+        const Eigen::ArrayXcd falling = 0.5 * (-t * (lambda + fastest_rate_)).exp();
+        const Eigen::VectorXcd v = wave.shape * (growing + falling).matrix();
+        const Eigen::VectorXcd v_dot = wave.shape * (lambda * (growing - falling)).matrix();
         sum += v.squaredNorm();
         change += 2.0 * v.dot(v_dot).real();
     }
