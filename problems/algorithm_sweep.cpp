@@ -13,6 +13,7 @@
 // clumped (two particles nearer than 0.3 spacings), at most `turns` turns; the first turn is always
 // completed. One row of sweep.csv each. A sweep that was stopped, even by kill -9, goes on with the
 // same command.
+#include <spam/io/gnuplot.hpp>
 #include <spam/io/study_table.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/spam.hpp>

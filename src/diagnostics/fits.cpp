@@ -19,6 +19,26 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
     return fit;
 }
 
+double best_factor(std::span<const double> of, std::span<const double> to) {
+    double product = 0.0, norm = 0.0;
+    for (std::size_t n = 0; n < of.size(); ++n) {
+        product += of[n] * to[n];
+        norm += to[n] * to[n];
+    }
+    return product / norm;
+}
+
+double period_of_zeros(std::span<const double> t, std::span<const double> value) {
+    std::vector<double> number, zero;
+    for (std::size_t r = 1; r < t.size(); ++r) {
+        const double before = value[r - 1], now = value[r];
+        if (before == 0.0 || (before < 0.0) == (now < 0.0)) continue;
+        number.push_back(static_cast<double>(zero.size()));
+        zero.push_back(t[r - 1] + (t[r] - t[r - 1]) * before / (before - now));
+    }
+    return zero.size() < 3 ? 0.0 : 2.0 * fit_line(number, zero).slope;
+}
+
 double observed_order(std::span<const double> step, std::span<const double> error) {
     std::vector<double> log_step, log_error;
     for (const double h : step) log_step.push_back(std::log(h));

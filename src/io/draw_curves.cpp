@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -22,18 +23,27 @@ bool same_titles(const std::vector<CurvePanel>& panels) {
     return panels.size() > 1;
 }
 
-/// Line style of curve k.
+/// Line style of curve k: its own, that of the one it is like, or its place among those of their own.
 int style_of(const CurvePanel& panel, std::size_t k) {
-    const int chosen = panel.curves[k].style;
-    return chosen > 0 ? chosen : static_cast<int>(k) % gnuplot::styles + 1;
+    const Curve& curve = panel.curves[k];
+    if (curve.like > 0) return curve.like;
+    if (curve.style > 0) return curve.style;
+    const auto before = panel.curves.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto own =
+        std::count_if(panel.curves.begin(), before, [](const Curve& c) { return c.like == 0; });
+    return static_cast<int>(own) % gnuplot::styles + 1;
 }
 
 /// One row under the whole picture: gnuplot's own key is no wider than its frame.
 std::string shared_key(const CurvePanel& panel) {
     std::string key = "unset key\n";
-    const auto n = static_cast<double>(panel.curves.size());
-    for (std::size_t k = 0; k < panel.curves.size(); ++k) {
-        const double x = (static_cast<double>(k) + 0.12) / n;
+    std::vector<std::size_t> named;
+    for (std::size_t k = 0; k < panel.curves.size(); ++k)
+        if (panel.curves[k].like == 0) named.push_back(k);
+    const auto n = static_cast<double>(named.size());
+    for (std::size_t place = 0; place < named.size(); ++place) {
+        const std::size_t k = named[place];
+        const double x = (static_cast<double>(place) + 0.12) / n;
         const int style = style_of(panel, k);
         if (panel.curves[k].mark == Mark::points)
             key += fmt::format("set label {0} \"\" at screen {1:.4f},0.06 point ls {2} ps 1.2\n",
@@ -46,6 +56,26 @@ std::string shared_key(const CurvePanel& panel) {
                            escaped(panel.curves[k].title), x + 0.036);
     }
     return key;
+}
+
+/// Numbers along the x axis, or the panel's own names with a line at each.
+std::string x_axis(const CurvePanel& panel) {
+    if (panel.x_ticks.empty()) return "set xtics autofreq\n";
+    std::string ticks;
+    for (const Tick& tick : panel.x_ticks)
+        ticks +=
+            fmt::format("{}\"{}\" {:.8g}", ticks.empty() ? "" : ", ", escaped(tick.label), tick.at);
+    return fmt::format("set xtics ({})\n", ticks);
+}
+
+/// How curve k is drawn and named.
+std::string look_of(const CurvePanel& panel, std::size_t k) {
+    const Curve& curve = panel.curves[k];
+    const std::string look =
+        fmt::format("{} ls {}{}", curve.mark == Mark::points ? "points" : "lines",
+                    style_of(panel, k), curve.like > 0 ? " lw 1.6 dt (8,6)" : "");
+    return curve.title.empty() ? look + " notitle"
+                               : fmt::format("{} title \"{}\"", look, escaped(curve.title));
 }
 
 /// One curve as a block of the data file; a curve without points keeps its place in the key.
@@ -66,14 +96,24 @@ std::string frame(const CurvePanel& panel, std::size_t k, double width) {
     const double left = frame_width * static_cast<double>(k);
     return fmt::format(
         "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n{}",
+        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n{}{}",
         (left + 95) / width, (left + frame_width - 20) / width, escaped(panel.title),
-        escaped(panel.x_label), escaped(panel.y_label),
+        escaped(panel.x_label), escaped(panel.y_label), x_axis(panel),
         panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
                     : "unset logscale y\nset format y '%g'\n");
 }
 
 }  // namespace
+
+Curve steps(std::string title, const std::vector<double>& centre, const std::vector<double>& height,
+            double width) {
+    Curve curve{std::move(title), {}, {}};
+    for (std::size_t b = 0; b < centre.size(); ++b) {
+        curve.x.insert(curve.x.end(), {centre[b] - 0.5 * width, centre[b] + 0.5 * width});
+        curve.y.insert(curve.y.end(), {height[b], height[b]});
+    }
+    return curve;
+}
 
 bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
                  const std::vector<CurvePanel>& panels) {
@@ -97,12 +137,9 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
                                (frame_width * static_cast<double>(k) + 347) / width);
         std::string plots;
         for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-            const Curve& curve = panel.curves[c];
-            data += curve_block(panel, curve);
-            plots += fmt::format("{} '{}.dat' index {} with {} ls {} title \"{}\"",
-                                 plots.empty() ? "plot" : ",", name, block++,
-                                 curve.mark == Mark::points ? "points" : "lines",
-                                 style_of(panel, c), escaped(curve.title));
+            data += curve_block(panel, panel.curves[c]);
+            plots += fmt::format("{} '{}.dat' index {} with {}", plots.empty() ? "plot" : ",", name,
+                                 block++, look_of(panel, c));
         }
         script += plots + "\n";
     }

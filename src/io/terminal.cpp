@@ -75,7 +75,7 @@ std::size_t Terminal::width() const {
 
 void Terminal::log_to(const std::filesystem::path& path) {
     log_path_ = path;
-    log_.open(path);
+    log_.open(path, std::ios::app);  // a study that goes on has begun its log before
     log("");
 }
 

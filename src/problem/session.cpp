@@ -84,6 +84,10 @@ void Session::report(const RunRecord& record) {
 int Session::finish() {
     if (!folder_) return 0;
     write_results(*folder_, checks_);
+    if (analysis_start_)
+        statistics_.front().wall_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - *analysis_start_)
+                .count();
     if (statistics_.size() > 1 || !std::filesystem::exists(*folder_ / "statistics.json")) {
         RunStatistics total = statistics_.front();
         for (std::size_t k = 1; k < statistics_.size(); ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dry_run.hpp"
+#include "duration.hpp"
 #include "run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/integrate/driver.hpp>
@@ -16,14 +16,6 @@
 
 namespace spam {
 namespace {
-
-/// "about 3 min" from seconds.
-std::string duration(double seconds) {
-    if (!std::isfinite(seconds)) return "-";
-    if (seconds < 100.0) return fmt::format("{:.0f} s", seconds);
-    if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
-    return fmt::format("{:.1f} h", seconds / 3600.0);
-}
 
 /// "momentum_x" as a reader wants it in a key.
 std::string words(std::string name) {
@@ -120,10 +112,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
         for (const auto& one : cases) describe(one);
-        terminal_.say("");
-        terminal_.say(
-            fmt::format("dry run: nothing computed; results would go to {}", problem_.common_.out));
-        throw DryRunDone{};
+        end_dry_run();
     }
     open_folder();
     std::vector<RunRecord> records;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/neighbors/connected_parts.hpp>
 #include <spam/neighbors/strip_sort.hpp>
 #include <spam/setup/lattices.hpp>
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -40,6 +43,13 @@ Points<2> triangular_block(int columns, int rows, double spacing) {
             points(1, k) = spacing * row * std::sqrt(0.75);
         }
     return points;
+}
+
+Box<2> triangular_box(int columns, int rows, double spacing) {
+    if (rows % 2 != 0)
+        throw InputError(fmt::format(
+            "{} rows of triangular lattice are not periodic; use an even number", rows));
+    return Box<2>({spacing * columns, spacing * rows * std::sqrt(0.75)});
 }
 
 template <int Dim>

@@ -21,7 +21,18 @@ struct Curve {
     std::string title;
     std::vector<double> x, y;
     Mark mark = Mark::line;
-    int style = 0;  ///< colour 1 to 6; 0: its place among the curves
+    int style = 0;  ///< colour 1 to 6; 0: its place among the curves that are not like another
+    int like = 0;   ///< above 0: dashed, in the colour of the like-th curve that is not, no key
+};
+
+/// A histogram as a curve: bars of one width around their centres.
+Curve steps(std::string title, const std::vector<double>& centre, const std::vector<double>& height,
+            double width);
+
+/// A place on an axis that has a name.
+struct Tick {
+    double at;
+    std::string label;
 };
 
 /// One frame of a row of curves.
@@ -30,6 +41,7 @@ struct CurvePanel {
     std::string x_label, y_label;
     bool log_y = false;  ///< absolute values, zeros dropped
     std::vector<Curve> curves;
+    std::vector<Tick> x_ticks{};  ///< in place of numbers
 };
 
 bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,

@@ -15,6 +15,9 @@ class RunFolder {
     /// cannot be created or written.
     RunFolder(const std::filesystem::path& path, bool force);
 
+    /// One that a run has left, to go on in.
+    static RunFolder reopen(const std::filesystem::path& path) { return RunFolder(path); }
+
     /// A folder inside, created.
     RunFolder inside(std::string_view name) const;
 

@@ -59,5 +59,9 @@ Column<Dim> shape_error_column();
 /// Distance of the closest two particles, column `closest_pair`.
 template <int Dim>
 Column<Dim> closest_pair_column();
+/// Torques between particles and their shares (diagnostics/pair_torques.hpp), for models of smooth
+/// particles: `pair_torques_negative`, `..._positive` (how many), `..._negative_sum`,
+/// `..._positive_sum`, `..._factor` (R = sqrt(P/M)); the same of `particle_torques`.
+std::vector<Column<2>> pair_torque_columns();
 
 }  // namespace spam

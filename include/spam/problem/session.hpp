@@ -2,14 +2,18 @@
 #pragma once
 
 #include <spam/io/run_folder.hpp>
+#include <spam/io/study_table.hpp>
 #include <spam/io/terminal.hpp>
 #include <spam/problem/plan.hpp>
 #include <spam/problem/problem.hpp>
 
+#include <chrono>
+
 namespace spam {
 
 /// One invocation of a problem, as its body sees it. Build everything first, then run: nothing is
-/// written before the first run(), so that whatever is wrong with the input is found before.
+/// written before the first run() or begin_...(), so that whatever is wrong with the input is found
+/// before.
 class Session {
   public:
     bool given(std::string_view option) const { return problem_.options_.given(option); }
@@ -28,6 +32,19 @@ class Session {
     /// recorded and the next one begins; after a signal no further case is begun.
     template <int Dim>
     std::vector<RunRecord> run_all(std::vector<Case<Dim>> cases);
+
+    /// For a problem that integrates nothing, in place of run(): says what will be analysed, line by
+    /// line, ends a dry run, and makes the result folder. Options of running and integrating must
+    /// not be given. What comes back is for statistics.json; the time until the end is added to it.
+    RunStatistics& begin_analysis(const std::vector<std::string>& description);
+
+    /// For a study of many small runs, in place of run(): likewise, and opens its table. A study of the
+    /// same case that was stopped, by whatever, is gone on with; throws InputError where the folder
+    /// holds an unfinished one of another case.
+    StudyTable begin_study(const std::string& table, const std::vector<std::string>& columns,
+                           const std::vector<std::string>& description);
+    /// StudyTable::run() with a progress line. False after a signal.
+    bool run_study(StudyTable& table, const std::vector<StudyTask>& tasks, int threads);
 
     /// Something measured, for result.json; printed at the end.
     void check(Check check);
@@ -48,7 +65,10 @@ class Session {
     friend class Problem;
     Session(Problem& problem, const IntegratorOptions& integrator, std::string command);
 
+    [[noreturn]] void end_dry_run();
     void open_folder();
+    void begin(const std::vector<std::string>& description, const char* study);
+    bool continues(const char* study) const;
     void describe_environment();
     int finish();
     template <int Dim>
@@ -67,6 +87,7 @@ class Session {
     std::vector<std::string> left_out_;
     std::vector<Check> checks_;
     std::vector<RunStatistics> statistics_;
+    std::optional<std::chrono::steady_clock::time_point> analysis_start_;
     std::string guard_reason_;
     bool warned_about_plots_ = false;
 };

@@ -17,6 +17,11 @@ inline VelocityField<2> rigid_rotation(double omega) {
     return [omega](const Point<2>& x) { return Point<2>(-omega * x.y(), omega * x.x()); };
 }
 
+template <int Dim>
+VelocityField<Dim> at_rest() {
+    return [](const Point<Dim>&) { return Point<Dim>(Point<Dim>::Zero()); };
+}
+
 /// y at the start: reference positions, the given velocities, density (where y carries it), no
 /// stress, no internal energy. Scales of the layout are set for the tolerances: position by the
 /// spacing, velocity by the largest speed (its square for the energy), density by its value, stress

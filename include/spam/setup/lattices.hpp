@@ -19,6 +19,9 @@ Points<2> triangular_disk(double radius, double spacing = 1.0);
 /// spacing.
 Points<2> triangular_block(int columns, int rows, double spacing = 1.0);
 
+/// The periodic box of that block. Throws InputError when the number of rows is odd.
+Box<2> triangular_box(int columns, int rows, double spacing = 1.0);
+
 /// Square (cubic, linear) lattice, `cells` particles in each direction, first one at the origin.
 template <int Dim>
 Points<Dim> square_lattice(const std::array<int, Dim>& cells, double spacing = 1.0);

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: one particle disturbs a stretched lattice: tensile instability, [HHM04] Fig. 1; 10 s
+//
+// Tensile instability, [HHM04] IV and Fig. 1.
+//
+//       o   o   o   o        A periodic triangular lattice of cells x cells smooth particles, at
+//         o   o   o          rest under hydrostatic tension. One particle gets the speed 1e-10,
+//       o   o ↑ o   o        across the rows. The lattice should ring; with plain velocities its
+//         o   o   o          kinetic energy K grows by many orders of magnitude instead, until the
+//                            particles have clumped. Averaged velocities stop that for hundreds of
+//                            collision times, though not for ever.
+//
+//     v_dot = sum m (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad w_ij     sigma = s I, s > 0: attraction
+//
+// The linear analysis (diagnostics/lattice_modes.hpp) foretells K(t) as a sum over all wave vectors
+// of the sample, without anything fitted, and in the end d ln K/dt = 2 x the largest growth rate.
+// The measured rate is the slope of a line through log K where the fastest waves have taken over and
+// the motion is still linear: from where the sum's own d ln K/dt has come within 3 % of its limit,
+// up to where a particle has moved by 2 % of the spacing. (In a 24 x 24 sample many waves grow
+// almost as fast as the fastest; 1 % would come too late.)
+// Without --stress and scheme options it draws the figure: tension 0.01 and 0.02, and
+// <v>_Monaghan at 0.02. Names in result.json without a prefix belong to plain velocities at 0.02.
+#include <spam/diagnostics/fits.hpp>
+#include <spam/diagnostics/kicked_lattice.hpp>
+#include <spam/diagnostics/wave_vectors.hpp>
+#include <spam/io/csv.hpp>
+#include <spam/io/gnuplot.hpp>
+#include <spam/setup/periodic_solid.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+
+constexpr double taken_over = 0.03;  // d ln K/dt this near to its limit
+constexpr double linear = 0.02;      // largest displacement, in spacings
+constexpr double grows = 1e-5;       // growth rates below are round-off
+
+struct Parameters {
+    double stress = 0.02;
+    int cells = 24;
+    double speed = 1e-10;
+};
+
+struct Sample {
+    std::string label, prefix, title;
+    double stress;
+    std::unique_ptr<SmoothParticleModel<2>> model;
+    std::vector<double> y0{};
+    std::unique_ptr<KickedLattice<2>> linear{};
+};
+
+Sample make_sample(const Parameters& p, double stress, const Scheme& scheme) {
+    Sample sample{"", "", "", stress, nullptr};
+    const char* velocity = scheme.transport == Transport::plain     ? "plain v"
+                           : scheme.transport == Transport::average ? "⟨v⟩"
+                                                                    : "⟨v⟩ Monaghan";
+    sample.title = fmt::format("s = {:g}, {}", stress, velocity);
+    // at rest under tension
+    const auto solid = ElasticSolid::triangular_lattice();
+    const double density = std::sqrt(4.0 / 3.0);
+    auto lattice = triangular_solid(p.cells, p.cells, solid, scheme, density, stress);
+    sample.model = std::move(lattice.model);
+    sample.y0 = std::move(lattice.y0);
+    auto& model = *sample.model;
+    const Box<2>& box = model.box();
+    const State<2> state(model.layout(), sample.y0);
+    // what the linear equations say
+    const Point<2> kick(0.0, p.speed);
+    const auto small = smallest_triangular_solid(solid, scheme, density, stress);
+    sample.linear = std::make_unique<KickedLattice<2>>(
+        LatticeModes<2>(*small.model, small.y0), allowed_wave_vectors<2>(box, {p.cells, p.cells}),
+        1.0, kick);
+    // the particle in the middle
+    const Point<2> middle(0.5 * box.length(0), 0.5 * box.length(1));
+    Eigen::Index nearest = 0;
+    (state.position().colwise() - middle).colwise().norm().minCoeff(&nearest);
+    state.velocity().col(nearest) = kick;
+    model.layout().set_scale(Field::velocity, p.speed);
+    model.layout().set_scale(Field::energy, p.speed * p.speed);
+    return sample;
+}
+
+std::vector<Sample> figure(const Parameters& p, const Scheme& scheme) {
+    std::vector<Sample> all;
+    const auto add = [&](double stress, Transport transport, const char* label,
+                         const char* prefix) {
+        Scheme other = scheme;
+        other.transport = transport;
+        all.push_back(make_sample(p, stress, other));
+        all.back().label = label;
+        all.back().prefix = prefix;
+    };
+    add(0.01, Transport::plain, "plain_0.01", "plain_0.01_");
+    add(0.02, Transport::plain, "plain_0.02", "");
+    add(0.02, Transport::monaghan, "monaghan_0.02", "monaghan_0.02_");
+    return all;
+}
+
+Column<2> largest_displacement_column() {
+    return {"largest_displacement", [](const Model<2>& model, std::span<const double> y) {
+                const auto moved = ConstState<2>(model.layout(), y).position() -
+                                   model.particles().reference_position;
+                return moved.colwise().norm().maxCoeff() / model.particles().spacing;
+            }};
+}
+
+// ---- what was found ----
+
+/// Rows [first, last) of a run in which the motion is linear, and from `fastest` on the fastest
+/// growing waves have taken over.
+struct Window {
+    std::size_t fastest, last;
+    bool long_enough() const { return last >= fastest + 5; }
+};
+
+Window window_of(const Sample& sample, const History& h) {
+    const auto t = h.column("t"), moved = h.column("largest_displacement");
+    Window window{0, 0};
+    while (window.last < t.size() && moved[window.last] < linear) ++window.last;
+    const double limit = 2.0 * sample.linear->fastest_rate();
+    for (std::size_t r = 0; r < window.last; ++r)
+        if (std::abs(sample.linear->kinetic_rate(t[r]) - limit) > taken_over * limit)
+            window.fastest = r + 1;
+    return window;
+}
+
+double slope_of_log(const std::vector<double>& t, std::vector<double> K, const Window& window) {
+    for (double& value : K) value = std::log(value);
+    const std::size_t n = window.last - window.fastest;
+    return fit_line(std::span(t).subspan(window.fastest, n),
+                    std::span(K).subspan(window.fastest, n))
+        .slope;
+}
+
+void report(Session& session, const Parameters& p, const Sample& sample, const RunRecord& run) {
+    const History& h = run.history;
+    const auto t = h.column("t"), K = h.column("kinetic");
+    const auto check = [&](const char* name, double value, std::optional<double> expected,
+                           double tolerance, const char* source) {
+        session.check({sample.prefix + name, value, expected, tolerance, source});
+    };
+    const auto measured = [&](const char* name, double value) {
+        check(name, value, {}, 0.0, "measured");
+    };
+    // The whole curve, as long as it is linear.
+    const Window window = window_of(sample, h);
+    std::vector<double> predicted;
+    double error = 0.0;
+    for (std::size_t r = 0; r < t.size(); ++r) {
+        predicted.push_back(sample.linear->kinetic(t[r]));
+        if (r < window.last) error = std::max(error, std::abs(K[r] / predicted[r] - 1.0));
+    }
+    check("kinetic_error_against_all_modes", error, 0.0, 0.02, "linear analysis, all wave vectors");
+    // Its end.
+    const double limit = 2.0 * sample.linear->fastest_rate();
+    if (window.long_enough() && limit > grows) {
+        const double rate = slope_of_log(t, K, window);
+        check("kinetic_growth_rate", rate, limit, 0.03 * limit,
+              "linear analysis, fastest wave vector of the sample");
+        measured("kinetic_growth_rate_predicted", limit);
+        measured("kinetic_growth_rate_all_modes", slope_of_log(t, predicted, window));
+        measured("window_begin", t[window.fastest]);
+        measured("window_end", t[window.last - 1]);
+    } else {
+        measured("kinetic_growth_rate_predicted", limit > grows ? limit : 0.0);
+    }
+    double ratio = 0.0;
+    for (std::size_t r = 0; r < t.size(); ++r)
+        if (t[r] <= 400.0) ratio = std::max(ratio, K[r] / K.front());
+    const Scheme& scheme = sample.model->scheme();
+    if (scheme.transport != Transport::plain && scheme.range == 3.0 && p.cells == 24 &&
+        std::abs(sample.stress) <= 0.02)
+        check("largest_kinetic_ratio", ratio, 50.0, 50.0,
+              "[HHM04] Fig. 1: no instability to t = 400");
+    else
+        measured("largest_kinetic_ratio", ratio);
+    measured("growth_time", limit > grows ? 2.0 / limit : INFINITY);
+    const Point<2> k = first_zone(sample.linear->fastest());
+    measured("fastest_k_x", limit > grows ? k.x() : 0.0);
+    measured("fastest_k_y", limit > grows ? k.y() : 0.0);
+}
+
+/// Measured and foretold side by side.
+void write_comparison(const RunFolder& folder, const std::vector<Sample>& samples,
+                      const std::vector<RunRecord>& runs) {
+    std::vector<std::string> names{"t"};
+    for (std::size_t n = 0; n < runs.size(); ++n)
+        for (const char* what : {"kinetic", "kinetic_predicted", "kinetic_rate_predicted"})
+            names.push_back(samples[n].label.empty() ? what : samples[n].label + "_" + what);
+    CsvWriter csv(folder / "comparison.csv", names);
+    for (const double t : runs.front().history.column("t")) {
+        std::vector<double> row{t};
+        for (std::size_t n = 0; n < runs.size(); ++n) {
+            row.push_back(runs[n].history.at(t, "kinetic"));
+            row.push_back(samples[n].linear->kinetic(t));
+            row.push_back(samples[n].linear->kinetic_rate(t));
+        }
+        csv.add(row);
+    }
+}
+
+/// K(t) and the straight line of the fastest wave, which touches it where the linear motion ends.
+void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int own) {
+    const auto t = h.column("t"), K = h.column("kinetic");
+    panel.curves.push_back({sample.title, t, K});
+    const std::size_t end = std::max<std::size_t>(window_of(sample, h).last, 1) - 1;
+    const double limit = 2.0 * sample.linear->fastest_rate();
+    Curve line{"", {}, {}, own};
+    for (std::size_t r = 0; r < t.size() && limit > grows; ++r) {
+        const double straight = K[end] * std::exp(limit * (t[r] - t[end]));
+        if (straight < 0.1 * K.front() || t[r] > 1.05 * t[end]) continue;
+        line.x.push_back(t[r]);
+        line.y.push_back(straight);
+    }
+    panel.curves.push_back(std::move(line));
+}
+
+/// d ln K/dt between rows, and its limit.
+void add_rate(CurvePanel& panel, const Sample& sample, const History& h, int own) {
+    const auto t = h.column("t"), K = h.column("kinetic");
+    Curve rate{sample.title, {}, {}}, limit{"", {}, {}, own};
+    for (std::size_t r = 1; r < t.size(); ++r) {
+        rate.x.push_back(0.5 * (t[r] + t[r - 1]));
+        rate.y.push_back(std::log(K[r] / K[r - 1]) / (t[r] - t[r - 1]));
+        limit.x.push_back(rate.x.back());
+        limit.y.push_back(2.0 * sample.linear->fastest_rate());
+    }
+    panel.curves.push_back(std::move(rate));
+    panel.curves.push_back(std::move(limit));
+}
+
+void draw(Session& session, const std::vector<Sample>& samples,
+          const std::vector<RunRecord>& runs) {
+    CurvePanel kinetic{"kinetic energy (dashed: growth of the fastest wave)", "t", "K", true, {}};
+    CurvePanel rate{"its growth (dashed: fastest wave)", "t", "d ln K/dt", false, {}};
+    int drawn = 0;
+    for (std::size_t n = 0; n < runs.size(); ++n) {
+        const History& h = runs[n].history;
+        add_kinetic(kinetic, samples[n], h, static_cast<int>(n) + 1);
+        // A rate of something that only rings says nothing.
+        if (window_of(samples[n], h).long_enough()) add_rate(rate, samples[n], h, ++drawn);
+    }
+    std::vector<CurvePanel> panels{kinetic};
+    if (drawn > 0) panels.push_back(rate);
+    session.note_drawn(
+        draw_curves(session.plots_folder(), "kinetic_energy",
+                    fmt::format("One moving particle in a lattice of {} under tension s",
+                                runs.front().statistics.particles),
+                    panels));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("tensile_instability",
+                    "one moving particle in a stretched periodic lattice, [HHM04] Fig. 1");
+    Parameters p;
+    auto& options = problem.options();
+    options.number("stress", p.stress, "hydrostatic stress; tension is positive",
+                   between(-1.0, 1.0));
+    options.integer("cells", p.cells, "cells x cells particles (an even number)", between(2, 400));
+    options.number("speed", p.speed, "speed of the one particle at the start", positive());
+    problem.use_scheme();
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke && !session.given("cells")) p.cells = 10;
+        double t_end = session.common().smoke ? 20.0 : 450.0;
+        if (session.common().t_end) t_end = *session.common().t_end;
+
+        auto choices = Problem::scheme_option_names();
+        choices.emplace_back("stress");
+        const bool single = !options.first_given(choices).empty();
+        if (!single) session.leave_out_of_case(choices);
+        std::vector<Sample> samples;
+        if (single)
+            samples.push_back(make_sample(p, p.stress, session.scheme()));
+        else
+            samples = figure(p, session.scheme());
+
+        std::vector<Case<2>> cases;
+        for (auto& sample : samples) {
+            Plan<2> plan;
+            plan.t_end = t_end;
+            plan.columns = {largest_displacement_column(), closest_pair_column<2>()};
+            cases.push_back({*sample.model, sample.y0, std::move(plan), sample.label});
+        }
+        const auto runs = session.run_all(std::move(cases));
+        session.terminal().say(
+            "(momentum: forces of order 0.01 cancel to 1e-18, which is seen where speeds are "
+            "1e-10)");
+
+        for (std::size_t n = 0; n < runs.size(); ++n) report(session, p, samples[n], runs[n]);
+        write_comparison(session.folder(), samples, runs);
+        if (session.plots()) draw(session, samples, runs);
+    });
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a session does besides runs: analyses, and studies of many small runs.
+#include "dry_run.hpp"
+#include "duration.hpp"
+#include <spam/core/error.hpp>
+#include <spam/problem/session.hpp>
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace spam {
+
+void Session::end_dry_run() {
+    terminal_.say("");
+    terminal_.say(
+        fmt::format("dry run: nothing computed; results would go to {}", problem_.common_.out));
+    throw DryRunDone{};
+}
+
+/// Whether the folder holds an unfinished study of this case.
+bool Session::continues(const char* study) const {
+    const std::filesystem::path folder = problem_.common_.out;
+    if (problem_.common_.force || !StudyTable::unfinished(folder, study)) return false;
+    std::ifstream in(folder / "case.toml", std::ios::binary);
+    const std::string begun{std::istreambuf_iterator<char>(in), {}};
+    if (begun != problem_.options_.case_toml(left_out_))
+        throw InputError(fmt::format(
+            "out: '{}' holds an unfinished study of another case (its case.toml); give the same "
+            "options to go on with it, --force to begin anew, or another --out",
+            folder.string()));
+    return true;
+}
+
+/// `study`: the name of its table, or null.
+void Session::begin(const std::vector<std::string>& description, const char* study) {
+    const auto describe = [&] {
+        for (const auto& line : description) terminal_.say(line);
+    };
+    if (problem_.common_.dry_run) {
+        terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
+        describe();
+        end_dry_run();
+    }
+    if (study != nullptr && continues(study)) {
+        folder_ = RunFolder::reopen(problem_.common_.out);
+        terminal_.log_to(*folder_ / "run.log");
+        describe_environment();
+    } else {
+        open_folder();
+    }
+    describe();
+    analysis_start_ = std::chrono::steady_clock::now();
+    statistics_.push_back({});
+    statistics_.back().problem = problem_.name_;
+}
+
+RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {
+    const std::vector<std::string> of_runs{
+        "t-end", "output-every", "snapshot-every", "integrator", "dt", "rtol", "atol"};
+    if (const auto name = problem_.options_.first_given(of_runs); !name.empty())
+        throw InputError(
+            fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
+    leave_out_of_case(of_runs);
+    begin(description, nullptr);
+    return statistics_.back();
+}
+
+StudyTable Session::begin_study(const std::string& table, const std::vector<std::string>& columns,
+                                const std::vector<std::string>& description) {
+    const std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every"};
+    if (const auto name = problem_.options_.first_given(of_one_run); !name.empty())
+        throw InputError(fmt::format("{}: has no meaning for the many runs of {}; leave it out",
+                                     name, problem_.name_));
+    leave_out_of_case(of_one_run);
+    begin(description, table.c_str());
+    return {*folder_, table, columns};
+}
+
+bool Session::run_study(StudyTable& table, const std::vector<StudyTask>& tasks, int threads) {
+    const std::size_t had = table.known();
+    if (had > 0) terminal_.say(fmt::format("{} of {} are known already", had, tasks.size()));
+    terminal_.begin_progress();
+    const auto progress = [&](std::size_t known) {
+        const double fraction = static_cast<double>(known) / static_cast<double>(tasks.size());
+        if (!terminal_.progress_due(fraction)) return;
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - *analysis_start_)
+                .count();
+        const double left =
+            seconds * static_cast<double>(tasks.size() - known) / static_cast<double>(known - had);
+        terminal_.progress(fraction, fmt::format("{:3.0f} %  {} of {}  left {}", 100.0 * fraction,
+                                                 known, tasks.size(), duration(left)));
+    };
+    const bool complete = table.run(tasks, threads, progress);
+    terminal_.end_progress();
+    return complete;
+}
+
+}  // namespace spam

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/diagnostics/lattice_modes.hpp>
+#include <spam/setup/initial_state.hpp>
+#include <spam/setup/lattices.hpp>
+#include <spam/setup/periodic_solid.hpp>
+
+#include <cmath>
+
+namespace spam {
+
+PeriodicSolid triangular_solid(int columns, int rows, const Material<2>& material,
+                               const Scheme& scheme, double density, double stress) {
+    const Box<2> box = triangular_box(columns, rows);
+    PeriodicSolid solid;
+    solid.model = std::make_unique<SmoothParticleModel<2>>(
+        make_particles<2>(triangular_block(columns, rows), 1.0, 1.0, box), material, scheme, box);
+    solid.y0 = initial_state<2>(*solid.model, density, std::sqrt(3.0 / 16.0), at_rest<2>());
+    State<2>(solid.model->layout(), solid.y0).stress().topRows<2>().setConstant(stress);
+    return solid;
+}
+
+PeriodicSolid smallest_triangular_solid(const Material<2>& material, const Scheme& scheme,
+                                        double density, double stress) {
+    const int cells = static_cast<int>(2.0 * coupling_reach(scheme) / std::sqrt(0.75)) + 1;
+    const int even = std::max(4, cells + cells % 2);
+    return triangular_solid(even, even, material, scheme, density, stress);
+}
+
+}  // namespace spam
