@@ -15,6 +15,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_in_step = 10'000, most_at_once = 100;
+constexpr double long_window = 64.0;  // steps
+constexpr std::size_t most_in_long_window = 3200;
 constexpr double aim = 0.5;  // of distances in units of the tolerance
 
 /// A length and how far the distance there was from the aim.
@@ -100,12 +102,12 @@ std::size_t EventWatch::apply(double t, std::span<double> y) {
     for (const Event& event : events_) {
         if (event.distance(t, y) / event.tolerance > std::max(least, 1.0)) continue;
         happened += event.apply(t, y);
-        count(t, event.name);
+        count(t, y.size(), event.name);
     }
     return happened;
 }
 
-void EventWatch::count(double t, const std::string& name) {
+void EventWatch::count(double t, std::size_t entries, const std::string& name) {
     at_last_t_ = t == last_t_ ? at_last_t_ + 1 : 0;
     last_t_ = t;
     if (!(t < window_end_)) {
@@ -113,6 +115,15 @@ void EventWatch::count(double t, const std::string& name) {
         in_window_ = 0;
     }
     ++in_window_;
+    if (!(t < long_window_end_)) {
+        long_window_end_ = t + long_window * whole_;
+        in_long_window_ = 0;
+    }
+    if (++in_long_window_ > std::max(most_in_long_window, 2 * entries))
+        throw GuardStop(
+            fmt::format("{}: {} events within {:g} steps at t = {:.6g}; what rests at the surface "
+                        "would be stopped again and again",
+                        name, in_long_window_, long_window, t));
     if (at_last_t_ >= most_at_once)
         throw GuardStop(fmt::format("{}: {} events in a row at t = {:.6g}: time does not go on",
                                     name, at_last_t_, t));

@@ -28,13 +28,14 @@ class EventWatch {
 
     /// Applies what is due at (t, y). Returns how many events that were.
     /// Throws GuardStop where events no longer let time go on: more than 10,000 times within a step,
-    /// or 100 times in a row at the same t.
+    /// or 100 times in a row at the same t, or step after step more often than anybody can wait for:
+    /// 3,200 times (for a large y twice its entries) within 64 steps.
     std::size_t apply(double t, std::span<double> y);
 
   private:
     double distance(double t, std::span<const double> y) const;
     Piece locate(double h, double at_h, const Retake& retake);
-    void count(double t, const std::string& name);
+    void count(double t, std::size_t entries, const std::string& name);
 
     const std::vector<Event>& events_;
     double t_ = 0.0;      ///< of begin()
@@ -43,6 +44,8 @@ class EventWatch {
     double whole_ = 0.0;         ///< length of the step looked at last
     double window_end_ = 0.0;    ///< one step after the first of those counted
     std::size_t in_window_ = 0;  ///< applied since
+    double long_window_end_ = 0.0;
+    std::size_t in_long_window_ = 0;
     double last_t_ = 0.0;
     std::size_t at_last_t_ = 0;
 };
