@@ -325,7 +325,7 @@ int main(int argc, char** argv) {
             longest = std::max(longest, one.period_lattice());
             shortest = std::min(shortest, one.period_lattice());
         }
-        const double t_end = session.common().t_end.value_or((smoke ? 1.2 : 3.0) * longest);
+        const double t_end = session.common().t_end.value_or((smoke ? 1.7 : 3.0) * longest);
         std::vector<Case<2>> cases;
         for (auto& one : all)
             cases.push_back(
