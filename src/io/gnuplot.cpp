@@ -64,28 +64,32 @@ constexpr std::string_view line_styles =
 
 namespace {
 
+/// Curves with a colour of their own, and so a place in the key.
+std::vector<std::string> key_titles(const CurvePanel& panel) {
+    std::vector<std::string> titles;
+    for (const Curve& curve : panel.curves)
+        if (curve.like == 0) titles.push_back(curve.title);
+    return titles;
+}
+
 bool same_titles(const std::vector<CurvePanel>& panels) {
-    for (const CurvePanel& panel : panels) {
-        if (panel.curves.size() != panels.front().curves.size()) return false;
-        for (std::size_t k = 0; k < panel.curves.size(); ++k)
-            if (panel.curves[k].title != panels.front().curves[k].title) return false;
-    }
-    return panels.size() > 1;
+    return panels.size() > 1 &&
+           std::all_of(panels.begin(), panels.end(), [&](const CurvePanel& panel) {
+               return key_titles(panel) == key_titles(panels.front());
+           });
 }
 
 /// One row under the whole picture: gnuplot's own key is no wider than its frame.
 std::string shared_key(const CurvePanel& panel) {
     std::string key = "unset key\n";
-    std::vector<Curve> curves;
-    for (const Curve& curve : panel.curves)
-        if (curve.like == 0) curves.push_back({curve.title, {}, {}});
-    const auto n = static_cast<double>(curves.size());
-    for (std::size_t k = 0; k < curves.size(); ++k) {
+    const auto titles = key_titles(panel);
+    const auto n = static_cast<double>(titles.size());
+    for (std::size_t k = 0; k < titles.size(); ++k) {
         const double x = (static_cast<double>(k) + 0.12) / n;
         key += fmt::format(
             "set arrow {0} from screen {1:.4f},0.06 to screen {2:.4f},0.06 nohead ls {0}\n"
             "set label {0} \"{3}\" at screen {4:.4f},0.06 left\n",
-            k + 1, x, x + 0.028, escaped(curves[k].title), x + 0.036);
+            k + 1, x, x + 0.028, escaped(titles[k]), x + 0.036);
     }
     return key;
 }
