@@ -14,13 +14,19 @@ using gnuplot::escaped;
 
 constexpr double frame_width = 620.0, height = 540.0;
 
+/// Of the curves with a look of their own, and so a place in the key.
+std::vector<std::string> key_titles(const CurvePanel& panel) {
+    std::vector<std::string> titles;
+    for (const Curve& curve : panel.curves)
+        if (curve.like == 0) titles.push_back(curve.title);
+    return titles;
+}
+
 bool same_titles(const std::vector<CurvePanel>& panels) {
-    for (const CurvePanel& panel : panels) {
-        if (panel.curves.size() != panels.front().curves.size()) return false;
-        for (std::size_t k = 0; k < panel.curves.size(); ++k)
-            if (panel.curves[k].title != panels.front().curves[k].title) return false;
-    }
-    return panels.size() > 1;
+    return panels.size() > 1 &&
+           std::all_of(panels.begin(), panels.end(), [&](const CurvePanel& panel) {
+               return key_titles(panel) == key_titles(panels.front());
+           });
 }
 
 /// Line style of curve k: its own, that of the one it is like, or its place among those of their own.

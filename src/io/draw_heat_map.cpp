@@ -13,7 +13,7 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double cell_width = 92.0, cell_height = 44.0, line = 26.0, letter = 10.6;
+constexpr double cell_width = 92.0, cell_height = 48.0, line = 26.0, letter = 10.6;
 constexpr double bar = 110.0;  // least width of what is to the right of the table
 
 std::size_t combinations(const std::vector<HeatAxis>& axes, std::size_t first = 0) {

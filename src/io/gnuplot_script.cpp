@@ -33,6 +33,10 @@ bool run(const RunFolder& folder, const std::string& script) {
 std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text) {
+        if (c == '\n') {
+            out += "\\n";
+            continue;
+        }
         if (c == '_' || c == '^' || c == '{' || c == '}' || c == '@' || c == '&' || c == '~')
             out += "\\\\";
         if (c == '"' || c == '\\') out += '\\';

@@ -68,7 +68,9 @@ StandingWave standing_wave(Polarization polarization, int cells, double amplitud
                           triangular_solid(cells, cells, law, scheme, density, 0.0),
                           nullptr};
     standing.wave.k = 2.0 * std::numbers::pi / standing.wavelength();
-    const auto small = smallest_triangular_solid(law, scheme, density, 0.0);
+    Scheme free = scheme;
+    free.angular_momentum = AngularMomentum::free;
+    const auto small = smallest_triangular_solid(law, free, density, 0.0);
     standing.modes = std::make_shared<const LatticeModes<2>>(*small.model, small.y0);
     auto& layout = standing.solid.model->layout();
     standing.wave.add_to(State<2>(layout, standing.solid.y0));

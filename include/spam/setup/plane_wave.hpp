@@ -44,7 +44,7 @@ struct PlaneWave {
 struct StandingWave {
     PlaneWave wave;
     PeriodicSolid solid;                           ///< its y0 holds the wave
-    std::shared_ptr<const LatticeModes<2>> modes;  ///< of the lattice without it
+    std::shared_ptr<const LatticeModes<2>> modes;  ///< of the lattice without it, torques left free
 
     double wavelength() const { return solid.model->box().length(1); }
     double omega_lattice() const { return modes->frequency({0.0, wave.k}, wave.direction()); }
