@@ -199,7 +199,10 @@ void draw(Session& session, const Parameters& p, const WavePath& path,
     for (std::size_t n = 0; n < all.size(); ++n) {
         const Spectrum& s = all[n].path;
         frequency.curves.push_back({all[n].title, path.distance, s.high_frequency});
-        frequency.curves.push_back({"", path.distance, s.low_frequency, static_cast<int>(n) + 1});
+        frequency.curves.push_back({.title = "",
+                                    .x = path.distance,
+                                    .y = s.low_frequency,
+                                    .like = static_cast<int>(n) + 1});
         growth.curves.push_back({all[n].title, path.distance, s.growth});
     }
     session.note_drawn(draw_curves(folder, "dispersion",

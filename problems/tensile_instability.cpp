@@ -219,7 +219,7 @@ void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int 
     panel.curves.push_back({sample.title, t, K});
     const std::size_t end = std::max<std::size_t>(window_of(sample, h).last, 1) - 1;
     const double limit = 2.0 * sample.linear->fastest_rate();
-    Curve line{"", {}, {}, own};
+    Curve line{.title = "", .x = {}, .y = {}, .like = own};
     for (std::size_t r = 0; r < t.size() && limit > grows; ++r) {
         const double straight = K[end] * std::exp(limit * (t[r] - t[end]));
         if (straight < 0.1 * K.front() || t[r] > 1.05 * t[end]) continue;
@@ -232,7 +232,7 @@ void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int 
 /// d ln K/dt between rows, and its limit.
 void add_rate(CurvePanel& panel, const Sample& sample, const History& h, int own) {
     const auto t = h.column("t"), K = h.column("kinetic");
-    Curve rate{sample.title, {}, {}}, limit{"", {}, {}, own};
+    Curve rate{sample.title, {}, {}}, limit{.title = "", .x = {}, .y = {}, .like = own};
     for (std::size_t r = 1; r < t.size(); ++r) {
         rate.x.push_back(0.5 * (t[r] + t[r - 1]));
         rate.y.push_back(std::log(K[r] / K[r - 1]) / (t[r] - t[r - 1]));

@@ -18,12 +18,14 @@ Outcome run_in(const Scratch& folder, const std::string& name, const Words& argu
     return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(240));
 }
 
-/// Every table of invariants below a result folder, by its place there.
+/// Every table of invariants below a result folder, by its place there; of a problem without one, what
+/// it found.
 std::map<std::string, std::string> invariants(const std::filesystem::path& folder) {
     std::map<std::string, std::string> all;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
         if (entry.path().filename() == "invariants.csv")
             all[entry.path().lexically_relative(folder).string()] = contents_of(entry.path());
+    if (all.empty()) all["result.json"] = contents_of(folder / "result.json");
     return all;
 }
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables that are computed row by row and survive being stopped.
+#include "support/process.hpp"
+#include <spam/core/error.hpp>
+#include <spam/io/study_table.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <atomic>
+
+using namespace spam;
+using spam::test::contents_of;
+using spam::test::Scratch;
+
+namespace {
+
+const std::vector<std::string> columns{"name", "square", "words"};
+
+/// Rows 0 to n - 1; `computed` counts; `limit` of them can be computed before a signal comes.
+std::vector<StudyTask> squares(int n, std::atomic<int>& computed, int limit = 1000) {
+    std::vector<StudyTask> tasks;
+    for (int k = 0; k < n; ++k)
+        tasks.push_back({"row " + std::to_string(k),
+                         [k, &computed, limit]() -> std::optional<std::vector<std::string>> {
+                             if (computed >= limit) return {};
+                             ++computed;
+                             return std::vector<std::string>{std::to_string(k * k),
+                                                             "with, comma and \"marks\""};
+                         }});
+    return tasks;
+}
+
+struct Folder : Scratch {
+    RunFolder folder = RunFolder::reopen(path());
+    std::string text(const char* name) const { return contents_of(path() / name); }
+    bool has(const char* name) const { return std::filesystem::exists(path() / name); }
+};
+
+void ignore(std::size_t) {}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_line_of_csv_reads_back) {
+    const std::vector<std::string> cells{"plain", "a,b", "say \"yes\"", "", "two\nlines"};
+    std::string line = csv_line(cells);
+    BOOST_TEST(line.back() == '\n');
+    line.pop_back();
+    const auto back = csv_cells(line);
+    BOOST_TEST_REQUIRE(back.size() == cells.size());
+    for (std::size_t k = 0; k + 1 < cells.size(); ++k) BOOST_TEST(back[k] == cells[k]);
+    BOOST_TEST(back.back() == "two lines");
+}
+
+BOOST_AUTO_TEST_CASE(a_whole_study_leaves_one_table_in_order) {
+    const Folder f;
+    std::atomic<int> computed{0};
+    const auto tasks = squares(20, computed);
+    StudyTable table(f.folder, "study", columns);
+    BOOST_TEST(table.run(tasks, 2, ignore));
+    BOOST_TEST(computed == 20);
+    BOOST_TEST(!f.has("study.part.csv"));
+    std::string expected = csv_line(columns);
+    for (int k = 0; k < 20; ++k)
+        expected += csv_line(
+            {"row " + std::to_string(k), std::to_string(k * k), "with, comma and \"marks\""});
+    BOOST_TEST(f.text("study.csv") == expected);
+}
+
+BOOST_AUTO_TEST_CASE(a_stopped_study_goes_on_and_repeats_nothing) {
+    const Folder f;
+    std::atomic<int> computed{0}, more{0};
+    {
+        StudyTable table(f.folder, "study", columns);
+        BOOST_TEST(!table.run(squares(20, computed, 7), 2, ignore));
+        BOOST_TEST(!f.has("study.csv"));
+        BOOST_TEST(StudyTable::unfinished(f.path(), "study"));
+    }
+    const int before = computed;
+    StudyTable table(f.folder, "study", columns);
+    BOOST_TEST(table.known() == static_cast<std::size_t>(before));
+    BOOST_TEST(table.run(squares(20, more), 2, ignore));
+    BOOST_TEST(more + before == 20);
+    BOOST_TEST(!StudyTable::unfinished(f.path(), "study"));
+    BOOST_TEST(table.rows(squares(20, more)).size() == 20u);
+}
+
+BOOST_AUTO_TEST_CASE(a_torn_last_line_does_not_count) {
+    for (const char* torn : {"row 3,9", "row 3,9,words without an end", "row 3,9,\"open", "\n"}) {
+        const Folder f;
+        f.write("study.part.csv", csv_line(columns) + csv_line({"row 1", "1", "kept"}) + torn);
+        std::atomic<int> computed{0};
+        StudyTable table(f.folder, "study", columns);
+        BOOST_TEST(table.known() == 1u, "after '" << torn << "'");
+        BOOST_TEST(table.run(squares(5, computed), 1, ignore));
+        BOOST_TEST(computed == 4);
+        BOOST_TEST(f.text("study.csv").find("row 1,1,kept\n") != std::string::npos);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_or_torn_header_begins_anew) {
+    for (const char* text : {"", "name,squ"}) {
+        const Folder f;
+        f.write("study.part.csv", text);
+        StudyTable table(f.folder, "study", columns);
+        BOOST_TEST(table.known() == 0u);
+        BOOST_TEST(f.text("study.part.csv") == csv_line(columns));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_table_with_other_columns_is_refused) {
+    const Folder f;
+    f.write("study.part.csv", "name,cube\n");
+    BOOST_CHECK_THROW(StudyTable(f.folder, "study", columns), InputError);
+    BOOST_TEST(f.text("study.part.csv") == "name,cube\n");
+}
+
+BOOST_AUTO_TEST_CASE(an_exception_of_a_task_ends_the_study_with_its_rows_kept) {
+    const Folder f;
+    std::atomic<int> computed{0};
+    auto tasks = squares(10, computed);
+    tasks[4].compute = []() -> std::optional<std::vector<std::string>> {
+        throw InputError("this one cannot be done");
+    };
+    StudyTable table(f.folder, "study", columns);
+    BOOST_CHECK_THROW(table.run(tasks, 1, ignore), InputError);
+    BOOST_TEST(table.known() == 4u);
+    BOOST_TEST(StudyTable(f.folder, "study", columns).known() == 4u);
+}
