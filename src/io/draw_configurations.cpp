@@ -13,30 +13,66 @@ namespace {
 using gnuplot::escaped;
 
 constexpr double side = 340.0, bar = 112.0, top = 50.0;  // of a frame, of the colour bar, the title
+constexpr double title_share = 26.0;                     // of a frame's height
 
 /// What all frames have in common.
 struct Extent {
-    double reach = 1e-300;  ///< largest coordinate
+    double x[2] = {HUGE_VAL, -HUGE_VAL}, y[2] = {HUGE_VAL, -HUGE_VAL};
     double low = HUGE_VAL, high = -HUGE_VAL;
-    double spacing = HUGE_VAL;  ///< a particle is drawn about as wide as its share of the frame
+    double spacing = 0.0;  ///< a particle is drawn about as wide as it has room
+
+    /// The longer side of a frame is `side`; the shorter one has at least a third of that.
+    double across() const { return std::max(x[1] - x[0], y[1] - y[0]); }
+    double width() const { return side * std::max((x[1] - x[0]) / across(), 0.34); }
+    double height() const { return side * std::max((y[1] - y[0]) / across(), 0.34) + title_share; }
 };
+
+/// Median over (at most 200 of) the particles of the distance to the nearest other one.
+double typical_spacing(const Points<2>& position) {
+    std::vector<double> nearest;
+    const Eigen::Index n = position.cols(), stride = std::max<Eigen::Index>(1, n / 200);
+    for (Eigen::Index i = 0; i < n; i += stride) {
+        double least = HUGE_VAL;
+        for (Eigen::Index j = 0; j < n; ++j)
+            if (j != i) least = std::min(least, (position.col(i) - position.col(j)).squaredNorm());
+        if (std::isfinite(least)) nearest.push_back(std::sqrt(least));
+    }
+    if (nearest.empty()) return 0.0;
+    const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+    std::nth_element(nearest.begin(), middle, nearest.end());
+    return *middle;
+}
 
 Extent extent_of(const std::vector<ConfigurationPanel>& panels) {
     Extent e;
     for (const auto& panel : panels) {
-        if (panel.position.cols() > 0)
-            e.reach = std::max(e.reach, panel.position.cwiseAbs().maxCoeff());
+        for (Eigen::Index i = 0; i < panel.position.cols(); ++i) {
+            e.x[0] = std::min(e.x[0], panel.position(0, i));
+            e.x[1] = std::max(e.x[1], panel.position(0, i));
+            e.y[0] = std::min(e.y[0], panel.position(1, i));
+            e.y[1] = std::max(e.y[1], panel.position(1, i));
+        }
         for (const double c : panel.colour) {
             e.low = std::min(e.low, c);
             e.high = std::max(e.high, c);
         }
+        e.spacing = std::max(e.spacing, typical_spacing(panel.position));
     }
-    e.spacing = 2.0 * e.reach;
-    for (const auto& panel : panels)
-        if (panel.position.cols() > 1)
-            e.spacing = std::min(
-                e.spacing, 1.7 * e.reach / std::sqrt(static_cast<double>(panel.position.cols())));
+    if (!(e.x[1] >= e.x[0])) e.x[0] = e.x[1] = e.y[0] = e.y[1] = 0.0;
     if (!(e.high > e.low)) e.high = e.low + 1.0;
+    // A margin all around, and the same scale both ways whatever the frame's shape.
+    const double margin = std::max({0.06 * e.across(), 0.6 * e.spacing, 1e-12});
+    for (double* range : {e.x, e.y}) {
+        range[0] -= margin;
+        range[1] += margin;
+    }
+    const auto widen = [](double* range, double wanted) {
+        const double more = std::max(0.0, 0.5 * (wanted - (range[1] - range[0])));
+        range[0] -= more;
+        range[1] += more;
+    };
+    widen(e.x, 0.34 * e.across());
+    widen(e.y, 0.34 * e.across());
     return e;
 }
 
@@ -64,8 +100,10 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
     columns = std::max<std::size_t>(1, std::min(columns, panels.size()));
     const std::size_t rows = (panels.size() + columns - 1) / columns;
     const Extent e = extent_of(panels);
-    const double width = side * static_cast<double>(columns) + bar;
-    const double height = side * static_cast<double>(rows) + top;
+    const double frame_width = e.width() + 12.0, frame_height = e.height() + 12.0;
+    const double width = frame_width * static_cast<double>(columns) + bar;
+    const double height = frame_height * static_cast<double>(rows) + top;
+    const double title_room = (e.y[1] - e.y[0]) * title_share / (e.height() - title_share);
 
     std::string data, script = gnuplot::preamble(name, width, height);
     script += gnuplot::palette;
@@ -73,8 +111,7 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         "set multiplot title \"{}\" font ',15' offset 0,-0.2\n"
         "set cbrange [{:g}:{:g}]\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
         "unset tics\nunset key\nset border lc rgb '#bbbbbb'\nset style fill solid 1 noborder\n",
-        escaped(title), e.low, e.high, -1.13 * e.reach, 1.13 * e.reach, -1.03 * e.reach,
-        1.23 * e.reach);  // titles on top
+        escaped(title), e.low, e.high, e.x[0], e.x[1], e.y[0], e.y[1] + title_room);
     int block = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const auto& panel = panels[k];
@@ -88,14 +125,15 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         }
         const auto row = static_cast<double>(k / columns),
                    column = static_cast<double>(k % columns);
-        const double left = side * column / width,
-                     bottom = (height - top - side * (row + 1)) / height;
+        const double left = frame_width * column / width,
+                     bottom = (height - top - frame_height * (row + 1)) / height;
         script += fmt::format(
             "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
             "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
-            "set label 1 \"{}\" at graph 0.5,0.962 center font ',12'\n",
-            left + 6 / width, left + (side - 6) / width, bottom + 6 / height,
-            bottom + (side - 6) / height, escaped(panel.title));
+            "set label 1 \"{}\" at graph 0.5,{:.5f} center font ',12'\n",
+            left + 6 / width, left + (frame_width - 6) / width, bottom + 6 / height,
+            bottom + (frame_height - 6) / height, escaped(panel.title),
+            1.0 - 0.55 * title_share / e.height());
         script += k == 0
                       ? fmt::format(
                             "set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
@@ -105,7 +143,7 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
                       : std::string("unset colorbox\n");
         script += fmt::format(
             "plot '{0}.dat' index {1} using 1:2:({2:.5g}):3 with circles fc palette{3}\n", name,
-            points, 0.42 * e.spacing, lines);
+            points, 0.46 * e.spacing, lines);
     }
     script += "unset multiplot\n";
     return gnuplot::draw(folder, name, script, data);

@@ -129,3 +129,10 @@ BOOST_AUTO_TEST_CASE(defaults_and_smoke) {
     for (const char* name : {"stability", "tensile_instability", "plane_wave"})
         results_of(name, {"--smoke"});
 }
+
+BOOST_AUTO_TEST_CASE(balanced_torques_promise_no_angular_momentum_in_a_periodic_box) {
+    const auto values = results_of(
+        "plane_wave", {"--smoke", "--transport", "monaghan", "--angular-momentum", "torque_pair"});
+    BOOST_TEST(!values.contains("angular_momentum_drift"));
+    BOOST_TEST(values.contains("energy_drift"));
+}

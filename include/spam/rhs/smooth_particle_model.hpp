@@ -40,7 +40,13 @@ class SmoothParticleModel final : public Model<Dim> {
     std::vector<double> density(std::span<const double> y) const override;
     /// The restriction of the distance of closest approach, where the scheme has one.
     std::optional<Event> event() const override;
-    Promises promises() const override { return scheme_.promises(Dim); }
+    /// The scheme's; in a periodic box no scheme keeps the angular momentum about the origin, because
+    /// forces across the border act at the images of particles.
+    Promises promises() const override {
+        Promises promises = scheme_.promises(Dim);
+        if (this->box().periodic()) promises.angular_momentum = Promise::not_kept;
+        return promises;
+    }
     std::string describe() const override;
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: how many turns each scheme keeps the rotating hexagon, up to 100; 3 min on 2 cores
+//
+// The question that [HHM04] leaves open: how far does each of its schemes go, and what goes further?
+// The rotating hexagon turns until its shape is lost (rms distance from the best-fit hexagon half a
+// spacing) or it has clumped (two particles nearer than 0.3 spacings), at most `turns` turns:
+//
+//     molecular dynamics          the reference
+//     the paper's schemes         v, <v>, <v>_Monaghan; torques of particles or pairs balanced
+//     with viscosity, reflection  added to the best of them
+//     total Lagrangian            sums over initial neighbours: beyond the paper. It keeps its shape
+//                                 because it cannot do otherwise: no new neighbours, no flow, no
+//                                 fragments
+#include <spam/io/gnuplot.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/problem/run_in_memory.hpp>
+#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace {
+
+using namespace spam;
+using std::numbers::pi;
+
+constexpr double shape_lost = 0.5, clumped = 0.3;  // spacings
+
+struct Parameters {
+    int size = 8;
+    double speed = 0.1, turns = 100.0;
+    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    double turn() const { return 2.0 * pi * size / speed; }
+};
+
+struct Contestant {
+    std::string name, title;
+    enum Kind { springs, smooth, lagrangian } kind;
+    Scheme scheme{};
+};
+
+std::vector<Contestant> contestants() {
+    using enum AngularMomentum;
+    const auto smooth = Contestant::smooth;
+    const auto plain = Transport::plain, average = Transport::average,
+               monaghan = Transport::monaghan;
+    return {
+        {"molecular_dynamics", "molecular dynamics", Contestant::springs},
+        {"plain", "v", smooth, {.transport = plain}},
+        {"plain_pair",
+         "v, pair torque",
+         smooth,
+         {.transport = plain, .angular_momentum = torque_pair}},
+        {"average", "⟨v⟩", smooth, {.transport = average}},
+        {"average_pair",
+         "⟨v⟩, pair torque",
+         smooth,
+         {.transport = average, .angular_momentum = torque_pair}},
+        {"monaghan", "⟨v⟩ Monaghan", smooth, {.transport = monaghan}},
+        {"monaghan_particle",
+         "⟨v⟩ Monaghan, particle torque",
+         smooth,
+         {.transport = monaghan, .angular_momentum = torque_particle}},
+        {"monaghan_pair",
+         "⟨v⟩ Monaghan, pair torque",
+         smooth,
+         {.transport = monaghan, .angular_momentum = torque_pair}},
+        {"monaghan_pair_reflected",
+         "the same, reflected at 0.7",
+         smooth,
+         {.transport = monaghan, .angular_momentum = torque_pair, .closest_approach = 0.7}},
+        {"monaghan_pair_viscous",
+         "the same, viscosity 1 instead",
+         smooth,
+         {.transport = monaghan, .angular_momentum = torque_pair, .viscosity = 1.0}},
+        {"total_lagrangian", "total Lagrangian", Contestant::lagrangian},
+    };
+}
+
+std::unique_ptr<Model<2>> model_of(const Parameters& p, const Contestant& one) {
+    auto particles = make_particles<2>(triangular_hexagon(p.size), 1.0);
+    const auto solid = ElasticSolid::triangular_lattice();
+    if (one.kind == Contestant::springs)
+        return std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
+    if (one.kind == Contestant::lagrangian)
+        return std::make_unique<TotalLagrangianModel<2>>(
+            std::move(particles), StVenantKirchhoff::like(solid),
+            TotalLagrangianScheme{std::sqrt(4.0 / 3.0), 3.0, 0.1});
+    return std::make_unique<SmoothParticleModel<2>>(std::move(particles), solid, one.scheme);
+}
+
+const std::vector<std::string> columns{"case",         "turns_survived", "end",
+                                       "L_final",      "energy_change",  "largest_shape_error",
+                                       "closest_pair", "seconds"};
+
+/// Nothing where a signal interrupted it.
+std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const Contestant& one,
+                                                     const IntegratorOptions& integrator) {
+    const auto model = model_of(p, one);
+    auto y0 = initial_state<2>(*model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
+                               rigid_rotation(p.speed / p.size));
+    Plan<2> plan;
+    plan.t_end = p.turns * p.turn();
+    plan.output_every = p.turn() / 48.0;
+    plan.snapshot_every = plan.t_end;
+    plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
+    const auto deformed = [](const History& h) { return h.last("shape_error") >= shape_lost; };
+    const auto near = [](const History& h) { return h.last("closest_pair") <= clumped; };
+    plan.enough = [&](const History& h) { return deformed(h) || near(h); };
+    const RunRecord run = run_in_memory<2>({*model, std::move(y0), std::move(plan)}, integrator);
+    const std::string& stopped = run.statistics.stopped;
+    if (stopped.starts_with("signal")) return {};
+    const History& h = run.history;
+    return std::vector<std::string>{
+        fmt::format("{:.6g}", h.last("t") / p.turn()),
+        !stopped.empty() ? "stopped: " + stopped
+        : deformed(h)    ? "deformed"
+        : near(h)        ? "clumped"
+                         : "whole",
+        fmt::format("{:.15g}", h.last("angular_momentum") / h.first("angular_momentum")),
+        fmt::format("{:.3g}", h.largest_change("energy") / h.first("energy")),
+        fmt::format("{:.4g}", h.largest("shape_error")),
+        fmt::format("{:.4g}", h.smallest("closest_pair")),
+        fmt::format("{:.1f}", run.statistics.wall_seconds)};
+}
+
+double number(const StudyTable::Row& row, std::size_t column) { return std::stod(row[column]); }
+
+void draw(Session& session, const Parameters& p, const std::vector<Contestant>& all,
+          const std::vector<StudyTable::Row>& rows) {
+    BarChart chart{"turns survived", true, {}};
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const bool whole = rows[k][2] == "whole";
+        chart.bars.push_back({all[k].title, number(rows[k], 1),
+                              fmt::format("{:.3g}{}, L {:.2f}, {}", number(rows[k], 1),
+                                          whole ? " and more" : "", number(rows[k], 3), rows[k][2]),
+                              all[k].kind == Contestant::smooth       ? 3
+                              : all[k].kind == Contestant::lagrangian ? 2
+                                                                      : 1});
+    }
+    session.note_drawn(
+        draw_bars(session.plots_folder(), "turns_survived",
+                  fmt::format("Rotating hexagon, {} particles: turns until its shape is lost",
+                              1 + 3 * p.size * (p.size + 1)),
+                  chart));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("turns_survived", "how many turns each scheme keeps the rotating hexagon");
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("size", p.size, "of the hexagon: 1 + 3n + 3n^2 particles", between(2, 200));
+    options.number("speed", p.speed, "speed of its corners", positive());
+    options.number("turns", p.turns, "nominal turns at most", positive());
+    options.integer("jobs", p.jobs, "cases computed at a time", between(1, 1024));
+    options.exclude_from_case({"jobs"});
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke) {
+            if (!session.given("size")) p.size = 2;
+            if (!session.given("turns")) p.turns = 0.5;
+        }
+        const auto all = contestants();
+        std::vector<StudyTask> tasks;
+        for (const Contestant& one : all)
+            tasks.push_back({one.name, [&] { return turn_hexagon(p, one, session.integrator()); }});
+        StudyTable table = session.begin_study(
+            "turns_survived", columns,
+            {fmt::format("{} cases, hexagon of {} particles, at most {:g} turns, {} at a time",
+                         tasks.size(), 1 + 3 * p.size * (p.size + 1), p.turns, p.jobs)});
+        if (!session.run_study(table, tasks, p.jobs)) return;
+
+        const auto rows = table.rows(tasks);
+        for (const auto& row : rows)
+            session.check({row.front() + "_turns", number(row, 1), {}, 0.0, row[2]});
+        for (const std::size_t k : {std::size_t{0}, rows.size() - 1}) {
+            session.check({rows[k].front() + "_survives", number(rows[k], 1), p.turns,
+                           1e-9 * p.turns, "all the turns asked for"});
+            session.check({rows[k].front() + "_L_drift", std::abs(number(rows[k], 3) - 1.0), 0.0,
+                           1e-10, "to the error of RK4"});
+        }
+        if (session.plots()) draw(session, p, all, rows);
+    });
+}
