@@ -222,7 +222,9 @@ int main(int argc, char** argv) {
         const auto schemes = combinations(p);
         std::vector<StudyTask> tasks;
         for (const Scheme& scheme : schemes) {
-            scheme.validate(2);
+            scheme.validate(2);  // and what the model has to say, before anything is written
+            SmoothParticleModel<2>(make_particles<2>(triangular_hexagon(1), 1.0),
+                                   ElasticSolid::triangular_lattice(), scheme);
             tasks.push_back({name_of(scheme), [&p, &session, scheme] {
                                  return turn_hexagon(p, scheme, session.integrator());
                              }});

@@ -256,7 +256,7 @@ int main(int argc, char** argv) {
             lines.push_back(fmt::format("scheme      {}", one.scheme.describe()));
         RunStatistics& statistics = session.begin_analysis(lines);
 
-        const WavePath path = triangular_path(session.common().smoke ? 60 : 400);
+        const WavePath path = triangular_path(400);
         Points<2> k = allowed_wave_vectors<2>(box, {p.cells, p.cells});
         for (Eigen::Index n = 0; n < k.cols(); ++n) k.col(n) = first_zone(k.col(n));
         for (auto& one : all) {

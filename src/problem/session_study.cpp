@@ -37,6 +37,8 @@ bool Session::continues(const char* study) const {
 void Session::begin(const std::vector<std::string>& description, const char* study) {
     const auto describe = [&] {
         for (const auto& line : description) terminal_.say(line);
+        terminal_.say(fmt::format(
+            "integrator  {}", study != nullptr ? integrator_.describe() : "none: nothing moves"));
     };
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
