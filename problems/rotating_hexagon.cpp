@@ -109,7 +109,8 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
     auto names = Problem::scheme_option_names();
     if (p.lagrangian()) refuse(names, "--formulation total_lagrangian (no choice of that kind)");
     if (!p.md() && !p.lagrangian()) refuse({"penalty"}, "--formulation updated");
-    names.insert(names.end(), {"kernel", "range", "formulation", "penalty"});
+    if (p.lagrangian()) refuse({"torques"}, "--formulation total_lagrangian (no pair torques)");
+    names.insert(names.end(), {"kernel", "range", "formulation", "penalty", "torques"});
     if (p.md()) refuse(names, "--model md (springs between initial neighbours)");
 }
 
@@ -234,6 +235,9 @@ int main(int argc, char** argv) {
     options.number("penalty", p.penalty,
                    "kappa against zero-energy modes, total_lagrangian only (0.1)", non_negative());
 
+    options.flag("torques", p.torques,
+                 "columns with the distribution of pair and particle torques, [HHM04] VIII");
+
     return problem.main(argc, argv, [&](Session& session) {
         options.command_line_wins({"t-end"}, {"turns"});
         options.command_line_wins({"turns"}, {"t-end"});
@@ -256,7 +260,10 @@ int main(int argc, char** argv) {
             hexagons = hexagons_of_figure(p, session.scheme());
         } else if (single) {
             hexagons.push_back(make_hexagon(p, p.model, session.scheme(), ""));
-            if (p.md() || p.lagrangian()) session.leave_out_of_case(scheme_names);
+            if (p.md() || p.lagrangian()) {
+                session.leave_out_of_case(scheme_names);
+                session.leave_out_of_case({"torques"});
+            }
             if (p.md()) session.leave_out_of_case({"kernel", "range", "formulation"});
             if (!p.lagrangian()) session.leave_out_of_case({"penalty"});
         } else {
@@ -273,6 +280,8 @@ int main(int argc, char** argv) {
             plan.t_end = p.turns ? *p.turns * p.turn() : *session.common().t_end;
             plan.snapshot_every = p.turn() / 12.0;
             plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
+            if (p.torques && dynamic_cast<const SmoothParticleModel<2>*>(hexagon.model.get()))
+                for (auto& column : pair_torque_columns()) plan.columns.push_back(column);
             if (plan.t_end > 0.4 * p.turn()) hexagon.sights.push_back({p.turn() / 3.0});
             hexagon.sights.push_back({plan.t_end});
             plan.on_snapshot = [&hexagon](double t, const Model<2>& model,

@@ -29,6 +29,7 @@ struct Parameters {
     ModelKind model = ModelKind::spam;
     Formulation formulation = Formulation::updated;
     double penalty = 0.1;  // kappa of the total-Lagrangian scheme
+    bool torques = false;  // record their distribution
 
     double omega() const { return speed / size; }
     double turn() const {  // nominal: the hexagon's own turn is slower

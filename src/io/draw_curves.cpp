@@ -102,7 +102,7 @@ std::string frame(const CurvePanel& panel, std::size_t k, double width) {
     const double left = frame_width * static_cast<double>(k);
     return fmt::format(
         "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 0.5,0\n{}{}",
+        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}{}",
         (left + 95) / width, (left + frame_width - 20) / width, escaped(panel.title),
         escaped(panel.x_label), escaped(panel.y_label), x_axis(panel),
         panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
@@ -138,7 +138,7 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
         script += frame(panel, k, width);
         script += shared ? (k == 0 ? shared_key(panel) : std::string("unset label\nunset arrow\n"))
                          : fmt::format(
-                               "set key at screen {:.5f},0.055 center horizontal samplen 2 "
+                               "set key at screen {:.5f},0.066 center horizontal samplen 2 "
                                "maxrows 2\n",
                                (frame_width * static_cast<double>(k) + 347) / width);
         std::string plots;

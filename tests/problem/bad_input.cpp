@@ -95,6 +95,7 @@ BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
 
 BOOST_AUTO_TEST_CASE(values_out_of_range) {
     check_all({
+        {{"--model", "md", "--torques"}, {"torques", "md"}},
         {{"--viscosity", "-1"}, {"viscosity", "-1"}},
         {{"--viscosity", "nan"}, {"viscosity", "nan"}},
         {{"--balance", "global"}, {"balance", "free", "torque_pair"}},
