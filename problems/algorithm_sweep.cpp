@@ -13,6 +13,7 @@
 // clumped (two particles nearer than 0.3 spacings), at most `turns` turns; the first turn is always
 // completed. One row of sweep.csv each. A sweep that was stopped, even by kill -9, goes on with the
 // same command.
+#include <spam/diagnostics/shape.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/io/study_table.hpp>
 #include <spam/problem/run_in_memory.hpp>
@@ -29,8 +30,6 @@ namespace {
 
 using namespace spam;
 using std::numbers::pi;
-
-constexpr double shape_lost = 0.5, clumped = 0.3;  // spacings
 
 struct Parameters {
     int size = 8;
@@ -71,20 +70,6 @@ std::vector<Scheme> combinations(const Parameters& p) {
     return all;
 }
 
-/// Row at which the hexagon is lost, the number of rows if never.
-std::size_t lost_at(const History& h) {
-    const auto shape = h.column("shape_error"), closest = h.column("closest_pair");
-    std::size_t k = 0;
-    while (k < shape.size() && shape[k] < shape_lost && closest[k] > clumped) ++k;
-    return k;
-}
-
-std::string why_lost(const History& h, std::size_t row) {
-    const bool near = h.column("closest_pair")[row] <= clumped;
-    const bool deformed = h.column("shape_error")[row] >= shape_lost;
-    return near && deformed ? "clumped and deformed" : near ? "clumped" : "deformed";
-}
-
 std::string broken_promises(const RunRecord& run) {
     std::string broken;
     for (const Drift& drift : run.drifts)
@@ -105,21 +90,18 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
     plan.snapshot_every = plan.t_end;
     plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
     plan.enough = [&p](const History& h) {
-        return h.last("t") >= 0.999 * p.turn() &&
-               (h.last("shape_error") >= shape_lost || lost_at(h) < h.rows().size());
+        return h.last("t") >= 0.999 * p.turn() && !survival(h).whole;
     };
     const RunRecord run = run_in_memory<2>({model, std::move(y0), std::move(plan)}, integrator);
     const std::string& stopped = run.statistics.stopped;
     if (stopped.starts_with("signal")) return {};
 
     const History& h = run.history;
-    const std::size_t lost = lost_at(h);
-    const bool survived = lost == h.rows().size();
-    const double turns = (survived ? h.last("t") : h.column("t")[lost]) / p.turn();
+    const Survival survived = survival(h);
     const double one_turn = std::min(p.turn(), h.last("t")), L0 = h.first("angular_momentum");
     const double L = h.last("angular_momentum") / L0;
     // A hexagon that has stopped turning is no success.
-    const std::string whole = std::abs(L) < 0.5 ? "whole, but L lost" : "whole";
+    const std::string end(survived.whole && std::abs(L) < 0.5 ? "whole, but L lost" : survived.end);
     const auto number = [](double x) { return fmt::format("{:.6g}", x); };
     const auto precise = [](double x) { return fmt::format("{:.15g}", x); };
     return std::vector<std::string>{
@@ -128,10 +110,8 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
         std::string(to_string(scheme.density)),
         std::string(to_string(scheme.transport)),
         std::string(to_string(scheme.angular_momentum)),
-        number(turns),
-        !stopped.empty() ? "stopped: " + stopped
-        : survived       ? "whole"
-                         : why_lost(h, lost),
+        number(survived.t / p.turn()),
+        stopped.empty() ? end : "stopped: " + stopped,
         precise(h.at(one_turn, "angular_momentum") / L0),
         precise(L),
         number(h.largest_change("energy") / std::abs(h.first("energy"))),
@@ -170,14 +150,16 @@ void draw(Session& session, const Parameters& p, const std::vector<StudyTable::R
     map.value_label = "turns survived";
     map.log_value = true;
     for (const auto& row : rows) {
-        map.value.push_back(cell(row, "turns_survived"));
+        map.value.push_back(std::abs(cell(row, "L_final")) < 0.5 ? std::nan("")
+                                                                 : cell(row, "turns_survived"));
         map.text.push_back(fmt::format("{:.2g}{}\nL {:.2f}", cell(row, "turns_survived"),
                                        words(row, "end").starts_with("whole") ? "+" : "",
                                        cell(row, "L_after_turn")));
     }
     session.note_drawn(draw_heat_map(
         session.plots_folder(), "sweep",
-        fmt::format("72 algorithms: turns until the hexagon (n = {}) is lost, L/L_0 after one turn",
+        fmt::format("Turns until the hexagon (n = {}) is lost, and L/L(0) after one turn. Grey: at "
+                    "the end more than half of L was lost",
                     p.size),
         map));
 }

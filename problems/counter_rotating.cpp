@@ -76,11 +76,10 @@ void draw(Session& session, const std::vector<std::unique_ptr<Hexagons>>& pairs,
         }
         curves.push_back(panel);
     }
-    session.note_drawn(
-        draw_configurations(session.plots_folder(), "configurations",
-                            fmt::format("Counter-rotating hexagons after {:.3g} turns",
-                                        runs.front().statistics.t_end / turn),
-                            panels, panels.size(), "speed"));
+    session.note_drawn(draw_configurations(
+        session.plots_folder(), "configurations",
+        fmt::format("Counter-rotating hexagons at t = {:.4g}", runs.front().statistics.t_end),
+        panels, panels.size(), "speed"));
     session.note_drawn(
         draw_curves(session.plots_folder(), "curves", "Counter-rotating hexagons", curves));
 }

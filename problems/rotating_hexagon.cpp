@@ -204,7 +204,7 @@ void report_measured(Session& session, const RunRecord& run, bool ratio_claimed,
                  h.last("angular_momentum") / h.first("angular_momentum"));
     measured("shape_error_final", h.last("shape_error"));
     measured("closest_pair", h.smallest("closest_pair"));
-    measured("turns_survived", time_survived(h) / p.turn());
+    measured("turns_survived", survival(h).t / p.turn());
 }
 
 }  // namespace

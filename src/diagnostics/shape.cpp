@@ -45,12 +45,18 @@ double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& b
     return std::sqrt(closest2);
 }
 
-double time_survived(const History& history) {
+Survival survival(const History& history) {
     const auto t = history.column("t"), error = history.column("shape_error"),
                pair = history.column("closest_pair");
-    std::size_t k = 0;
-    while (k + 1 < t.size() && error[k] < 0.5 && pair[k] > 0.3) ++k;
-    return t[k];
+    for (std::size_t k = 0; k < t.size(); ++k) {
+        const bool deformed = !(error[k] < 0.5), clumped = !(pair[k] > 0.3);
+        if (deformed || clumped)
+            return {t[k], false,
+                    deformed && clumped ? "clumped and deformed"
+                    : deformed          ? "deformed"
+                                        : "clumped"};
+    }
+    return {t.back(), true, "whole"};
 }
 
 template double shape_error<1>(const Points<1>&, const Points<1>&, double);

@@ -12,6 +12,8 @@ namespace {
 
 using gnuplot::escaped;
 
+constexpr double frame_width = 660.0;
+
 bool has_bar(const BarChart& chart, double value) {
     return std::isfinite(value) && (!chart.log_value || value > 0.0);
 }
@@ -19,6 +21,15 @@ bool has_bar(const BarChart& chart, double value) {
 struct Axis {
     double from, to;
 };
+
+std::string text_of(const Bar& bar) {
+    return bar.text.empty() ? fmt::format("{:.3g}", bar.value) : bar.text;
+}
+
+/// The share of the frame's width that a bar's text takes.
+double text_share(const Bar& bar) {
+    return std::min(0.6, (8.2 * static_cast<double>(text_of(bar).size()) + 20.0) / frame_width);
+}
 
 /// From zero (from the decade below the smallest, if logarithmic), with room for the texts.
 Axis axis_of(const BarChart& chart) {
@@ -31,9 +42,15 @@ Axis axis_of(const BarChart& chart) {
     if (!(low <= high)) return chart.log_value ? Axis{0.1, 1.0} : Axis{0.0, 1.0};
     if (chart.log_value) {
         const double from = std::pow(10.0, std::ceil(std::log10(low)) - 1.0);
-        return {from, from * std::pow(high / from, 1.18)};
+        double decades = 0.0;
+        for (const Bar& bar : chart.bars)
+            if (has_bar(chart, bar.value))
+                decades = std::max(decades, std::log10(bar.value / from) / (1.0 - text_share(bar)));
+        return {from, from * std::pow(10.0, decades)};
     }
-    const double room = 0.18 * (std::max(high, 0.0) - std::min(low, 0.0));
+    double share = 0.18;
+    for (const Bar& bar : chart.bars) share = std::max(share, text_share(bar));
+    const double room = share / (1.0 - share) * (std::max(high, 0.0) - std::min(low, 0.0));
     return {low < 0.0 ? low - room : 0.0, high > 0.0 ? high + room : room};
 }
 
@@ -46,7 +63,7 @@ bool draw_bars(const RunFolder& folder, std::string_view name, std::string_view 
     std::size_t longest = 0;
     for (const Bar& bar : chart.bars) longest = std::max(longest, bar.name.size());
     const double row = 34.0, left = 40.0 + 8.6 * static_cast<double>(longest), top = 60.0;
-    const double width = left + 680.0,
+    const double width = left + frame_width + 20.0,
                  height = top + 80.0 + row * static_cast<double>(chart.bars.size());
 
     std::string data, script = gnuplot::preamble(name, width, height);
@@ -69,10 +86,9 @@ bool draw_bars(const RunFolder& folder, std::string_view name, std::string_view 
         const auto y = static_cast<double>(k);
         data += fmt::format("{0:.10g} {1:g} {2:.10g} {3:.10g} {4:g} {5:g}\n\n\n", end, y,
                             std::min(foot, end), std::max(foot, end), y - 0.34, y + 0.34);
-        script += fmt::format(
-            "set ytics add (\"{}\" {})\nset label \" {} \" at {:.10g},{} {}\n", escaped(bar.name),
-            k, escaped(bar.text.empty() ? fmt::format("{:.3g}", bar.value) : bar.text), end, k,
-            end < foot ? "right" : "left");
+        script += fmt::format("set ytics add (\"{}\" {})\nset label \" {} \" at {:.10g},{} {}\n",
+                              escaped(bar.name), k, escaped(text_of(bar)), end, k,
+                              end < foot ? "right" : "left");
         plots += fmt::format("{} '{}.dat' index {} with boxxyerror ls {}",
                              plots.empty() ? "plot" : ",", name, k, std::max(1, bar.style));
     }

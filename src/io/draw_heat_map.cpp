@@ -14,7 +14,8 @@ namespace {
 using gnuplot::escaped;
 
 constexpr double cell_width = 92.0, cell_height = 48.0, line = 26.0, letter = 10.6;
-constexpr double bar = 110.0;  // least width of what is to the right of the table
+constexpr double text_line = 20.0;  // of a cell
+constexpr double bar = 110.0;       // least width of what is to the right of the table
 
 std::size_t combinations(const std::vector<HeatAxis>& axes, std::size_t first = 0) {
     std::size_t n = 1;
@@ -129,12 +130,15 @@ std::string cell_texts(const HeatMap& map, const Geometry& g, double low, double
         const double v = map.value[k];
         const bool dark =
             has_colour(map, v) && (scale(v) - scale(low)) / (scale(high) - scale(low)) < 0.6;
-        script += label_at(!map.text.empty()  ? map.text[k]
-                           : std::isfinite(v) ? fmt::format("{:.3g}", v)
-                                              : std::string("–"),
-                           g.x(static_cast<double>(k % g.columns) + 0.5),
-                           g.y(static_cast<double>(k / g.columns) + 0.5),
-                           dark ? "center front tc rgb 'white'" : "center front tc rgb 'black'");
+        const std::string text = !map.text.empty()  ? map.text[k]
+                                 : std::isfinite(v) ? fmt::format("{:.3g}", v)
+                                                    : std::string("–");
+        // The first of several lines is written at the place: half of the others above the middle.
+        const auto more_lines = static_cast<double>(std::count(text.begin(), text.end(), '\n'));
+        script += label_at(
+            text, g.x(static_cast<double>(k % g.columns) + 0.5),
+            g.y(static_cast<double>(k / g.columns) + 0.5) + 0.5 * more_lines * text_line / g.height,
+            dark ? "center front tc rgb 'white'" : "center front tc rgb 'black'");
     }
     return script;
 }

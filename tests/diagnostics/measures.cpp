@@ -125,17 +125,22 @@ BOOST_AUTO_TEST_CASE(fits_recover_lines_and_orders) {
     BOOST_TEST(observed_order(steps, errors) == 4.0, boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(time_survived_until_the_shape_or_a_pair_is_lost) {
+BOOST_AUTO_TEST_CASE(a_body_survives_until_its_shape_or_a_pair_is_lost) {
     const auto survived = [](double error, double pair) {
         History history({"t", "shape_error", "closest_pair"});
         history.add({0.0, 0.0, 1.0});
         history.add({2.0, 0.49, 0.31});
         history.add({3.0, error, pair});
         history.add({5.0, 0.1, 0.9});
-        return time_survived(history);
+        return survival(history);
     };
-    BOOST_TEST(survived(0.49, 0.31) == 5.0);
-    BOOST_TEST(survived(0.5, 0.31) == 3.0);
-    BOOST_TEST(survived(0.49, 0.3) == 3.0);
-    BOOST_TEST(survived(std::nan(""), 0.9) == 3.0);
+    BOOST_TEST(survived(0.49, 0.31).t == 5.0);
+    BOOST_TEST(survived(0.49, 0.31).whole);
+    BOOST_TEST(survived(0.5, 0.31).t == 3.0);
+    BOOST_TEST(survived(0.5, 0.31).end == "deformed");
+    BOOST_TEST(survived(0.49, 0.3).t == 3.0);
+    BOOST_TEST(survived(0.49, 0.3).end == "clumped");
+    BOOST_TEST(!survived(0.6, 0.2).whole);
+    BOOST_TEST(survived(0.6, 0.2).end == "clumped and deformed");
+    BOOST_TEST(survived(std::nan(""), 0.9).t == 3.0);
 }

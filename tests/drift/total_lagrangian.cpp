@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(the_hexagon_turns_four_times_and_nothing_changes) {
     BOOST_TEST(h.largest("p") < 1e-12);
     BOOST_TEST(h.largest("L") < 1e-11);
     BOOST_TEST(h.largest("energy") < 1e-8);
-    BOOST_TEST(time_survived(h) == 4.0 * turn);
+    BOOST_TEST(survival(h).t == 4.0 * turn);
 }
 
 BOOST_AUTO_TEST_CASE(without_the_penalty_its_shape_is_lost) {

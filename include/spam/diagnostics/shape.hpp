@@ -5,6 +5,8 @@
 #include <spam/diagnostics/history.hpp>
 #include <spam/neighbors/box.hpp>
 
+#include <string_view>
+
 namespace spam {
 
 /// How far a body is from a rigid motion of its reference shape: the root mean square distance of
@@ -18,9 +20,15 @@ double shape_error(const Points<Dim>& reference, const Points<Dim>& position, do
 template <int Dim>
 double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& box);
 
-/// How long a body keeps its shape: the first time, among the rows of `history`, at which its columns
-/// have shape_error >= 0.5 or closest_pair <= 0.3 spacings (or neither number), the last time where
-/// none has. Spacing 1.
-double time_survived(const History& history);
+/// How long a body kept its shape, and how it lost it.
+struct Survival {
+    double t;              ///< of the first row without it; of the last one where it was kept
+    bool whole;            ///< kept to the end
+    std::string_view end;  ///< "whole", "deformed", "clumped", "clumped and deformed"
+};
+
+/// From the rows of a history with columns `shape_error` and `closest_pair`: deformed is an error of half
+/// a spacing, clumped a pair nearer than 0.3 spacings (or neither a number). Spacing 1.
+Survival survival(const History& history);
 
 }  // namespace spam
