@@ -240,6 +240,11 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("cells")) p.cells = 8;
         const Box<2> box = triangular_box(p.cells, p.cells);
+        if (session.given("closest-approach"))
+            throw InputError(
+                "closest-approach: a linear analysis of a lattice at rest knows no events; leave "
+                "it "
+                "out");
         const auto scheme_options = Problem::scheme_option_names();
         const bool single = !options.first_given(scheme_options).empty();
         if (!single) session.leave_out_of_case(scheme_options);

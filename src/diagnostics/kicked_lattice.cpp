@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "complex_modes.hpp"
 #include <spam/diagnostics/kicked_lattice.hpp>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 namespace spam {
 
@@ -11,10 +9,9 @@ KickedLattice<Dim>::KickedLattice(const LatticeModes<Dim>& modes, const Points<D
                                   const Point<Dim>& v0)
     : mass_(mass) {
     for (Eigen::Index q = 0; q < k.cols(); ++q) {
-        const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(modes.acceleration_rate(k.col(q)));
-        const Eigen::VectorXcd shares =
-            solver.eigenvectors().partialPivLu().solve(v0.template cast<std::complex<double>>());
-        Wave wave{solver.eigenvectors() * shares.asDiagonal(), solver.eigenvalues().cwiseSqrt()};
+        const ComplexModes found = complex_modes(modes.acceleration_rate(k.col(q)));
+        const Eigen::VectorXcd shares = found.shares(v0.template cast<std::complex<double>>());
+        Wave wave{found.vectors * shares.asDiagonal(), found.values.cwiseSqrt()};
         const double rate = wave.lambda.real().cwiseAbs().maxCoeff();
         if (rate > fastest_rate_) {
             fastest_rate_ = rate;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "complex_modes.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/neighbors/pair_list.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -92,6 +92,8 @@ LatticeModes<Dim>::LatticeModes(SmoothParticleModel<Dim>& model, std::span<const
         refuse(
             "balanced torques have no derivative at rest, where all torques vanish (a factor "
             "depends on their signs); use --angular-momentum free");
+    if (model.scheme().viscosity > 0.0)
+        refuse("viscosity has no derivative at rest (it resists approach only); use --viscosity 0");
     const FieldLayout<Dim>& layout = model.layout();
     const ConstState<Dim> state(layout, y);
     require_wide_box(model);
@@ -170,11 +172,10 @@ Eigen::MatrixXcd LatticeModes<Dim>::jacobian(const Point<Dim>& k) const {
 
 template <int Dim>
 std::vector<LatticeMode<Dim>> LatticeModes<Dim>::modes(const Point<Dim>& k) const {
-    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(jacobian(k));
+    const ComplexModes found = complex_modes(jacobian(k));
     std::vector<LatticeMode<Dim>> all;
-    for (Eigen::Index c = 0; c < solver.eigenvalues().size(); ++c)  // velocities follow positions
-        all.push_back(
-            {solver.eigenvalues()[c], solver.eigenvectors().col(c).template segment<Dim>(Dim)});
+    for (Eigen::Index c = 0; c < found.values.size(); ++c)  // velocities follow positions
+        all.push_back({found.values[c], found.vectors.col(c).template segment<Dim>(Dim)});
     std::stable_sort(all.begin(), all.end(),
                      [](const auto& a, const auto& b) { return a.rate.real() > b.rate.real(); });
     return all;
@@ -182,12 +183,12 @@ std::vector<LatticeMode<Dim>> LatticeModes<Dim>::modes(const Point<Dim>& k) cons
 
 template <int Dim>
 double LatticeModes<Dim>::growth_rate(const Point<Dim>& k) const {
-    return jacobian(k).eigenvalues().real().maxCoeff();
+    return complex_modes(jacobian(k)).values.real().maxCoeff();
 }
 
 template <int Dim>
 std::vector<double> LatticeModes<Dim>::frequencies(const Point<Dim>& k) const {
-    const Eigen::VectorXd all = jacobian(k).eigenvalues().imag();
+    const Eigen::VectorXd all = complex_modes(jacobian(k)).values.imag();
     std::vector<double> result(all.begin(), all.end());
     std::sort(result.begin(), result.end(), std::greater<>());
     result.resize(Dim);

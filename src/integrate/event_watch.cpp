@@ -17,7 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_in_step = 10'000, most_at_once = 100;
 constexpr double long_window = 64.0;  // steps
 constexpr std::size_t most_in_long_window = 3200;
-constexpr double aim = 0.5;  // of distances in units of the tolerance
+constexpr double smallest_piece = 1e-3;  // of a step: more would take longer than anybody waits
+constexpr double aim = 0.5;              // of distances in units of the tolerance
 
 /// A length and how far the distance there was from the aim.
 struct Tried {
@@ -58,9 +59,11 @@ EventWatch::Piece EventWatch::first_piece(double h, std::span<const double> z,
     if (at_h > 0.0) return {h, false};
     while (at_h == -infinity) {
         h *= 0.5;
-        if (t_ + h == t_)
-            throw GuardStop(fmt::format("no step is short enough to watch {} at t = {:.6g}",
-                                        events_.front().name, t_));
+        if (h < smallest_piece * whole_)
+            throw GuardStop(fmt::format(
+                "{} cannot be watched at t = {:.6g}: things move too fast for its distance "
+                "or for the step",
+                events_.front().name, t_));
         at_h = distance(t_ + h, retake(h));
         if (at_h > 0.0) return {h, false};
     }

@@ -97,14 +97,32 @@ std::string curve_block(const CurvePanel& panel, const Curve& curve) {
     return block + (any ? "\n\n" : "NaN NaN\n\n\n");
 }
 
+/// Ranges as the points have them; where there are none (all changes zero on a logarithmic scale) or
+/// all lie above each other gnuplot would give up.
+std::string ranges(const CurvePanel& panel) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Curve& curve : panel.curves)
+        for (std::size_t k = 0; k < curve.x.size(); ++k) {
+            if (!std::isfinite(curve.y[k]) || (panel.log_y && curve.y[k] == 0.0)) continue;
+            low = std::min(low, curve.x[k]);
+            high = std::max(high, curve.x[k]);
+        }
+    if (!(low <= high)) return "set xrange [0:1]\nset yrange [0.1:1]\n";
+    const bool degenerate =
+        !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))) || high - low < 1e-290;
+    return (degenerate ? fmt::format("set xrange [{:g}:{:g}]\n", low - 1.0, high + 1.0)
+                       : std::string("set autoscale x\nset autoscale xfix\n")) +
+           "set autoscale y\n";
+}
+
 /// Place, labels and scale of frame k.
 std::string frame(const CurvePanel& panel, std::size_t k, double width) {
     const double left = frame_width * static_cast<double>(k);
     return fmt::format(
         "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}{}",
+        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}{}{}",
         (left + 95) / width, (left + frame_width - 20) / width, escaped(panel.title),
-        escaped(panel.x_label), escaped(panel.y_label), x_axis(panel),
+        escaped(panel.x_label), escaped(panel.y_label), ranges(panel), x_axis(panel),
         panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
                     : "unset logscale y\nset format y '%g'\n");
 }

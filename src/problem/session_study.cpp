@@ -72,6 +72,10 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
 StudyTable Session::begin_study(const std::string& table, const std::vector<std::string>& columns,
                                 const std::vector<std::string>& description) {
     const std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every"};
+    if (problem_.options_.given("threads"))
+        throw InputError(fmt::format(
+            "threads: {} computes many small runs at a time, each in one thread; use --jobs",
+            problem_.name_));
     if (const auto name = problem_.options_.first_given(of_one_run); !name.empty())
         throw InputError(fmt::format("{}: has no meaning for the many runs of {}; leave it out",
                                      name, problem_.name_));

@@ -71,6 +71,12 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
       packed_(packed_with(ListUse::again_and_again)) {
     valid_range(scheme.range, this->particles().spacing);
+    if (scheme.closest_approach > 0.0 && scheme.closest_approach < 1e-3 * this->particles().spacing)
+        throw InputError(
+            fmt::format("closest-approach: {} must be 0 (none) or at least a thousandth of the "
+                        "particle spacing "
+                        "{}; 0.5 to 0.9 spacings are usual",
+                        scheme.closest_approach, this->particles().spacing));
     if (scheme.closest_approach >= this->particles().spacing)
         throw InputError(fmt::format(
             "closest-approach: {} must be below the particle spacing {}: particles that are "

@@ -49,21 +49,35 @@ void first(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     });
 }
 
+/// What needs the first sweep's results, or is wanted too seldom to be part of it: its variants are
+/// many. Forces are added to those that the first sweep found; balanced ones take their place.
 template <int Dim, class... Passes>
 void second(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
+    constexpr bool in_place = (std::is_same_v<Passes, BalancedStressForce> || ...);
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
         sweep_clusters<W, Dim, TransportRecord<Dim>, Passes...>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto&... sums) {
+                ForceSums<Dim, T> forces;
+                bool found = false;
+                const auto take = [&](const auto& s) {
+                    if constexpr (requires { s.v_dot; }) {
+                        forces.v_dot += s.v_dot;
+                        forces.power += s.power;
+                        found = true;
+                    }
+                };
+                (take(sums), ...);
                 for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
-                    const auto store_one = [&](const auto& s) {
-                        if constexpr (requires { s.rho_dot; }) {
-                            out.rho_dot[i] = lane(s.rho_dot, l);
-                        } else {
-                            store<Dim>(out.v_dot, i, l, s.v_dot);
-                            out.e_dot[i] = lane(s.e_dot(), l);
-                        }
+                    const auto store_density = [&](const auto& s) {
+                        if constexpr (requires { s.rho_dot; }) out.rho_dot[i] = lane(s.rho_dot, l);
                     };
-                    (store_one(sums), ...);
+                    (store_density(sums), ...);
+                    if (!found) return;
+                    for (int a = 0; a < Dim; ++a) {
+                        double& v_dot = out.v_dot[i * Dim + static_cast<std::size_t>(a)];
+                        v_dot = lane(forces.v_dot[a], l) + (in_place ? 0.0 : v_dot);
+                    }
+                    out.e_dot[i] = lane(forces.e_dot(), l) + (in_place ? 0.0 : out.e_dot[i]);
                 });
             });
     });
@@ -80,8 +94,7 @@ struct Choices {
     static Sweep<Dim> first_of(const Scheme& scheme) {
         if constexpr (Dim == 2)
             if (balances(scheme)) return first<Dim, Mean, Transport, TorqueSums>;
-        return scheme.viscosity > 0.0 ? first<Dim, Mean, Transport, ViscousStressForce<Dim, Mean>>
-                                      : first<Dim, Mean, Transport, StressForce<Dim>>;
+        return first<Dim, Mean, Transport, StressForce<Dim>>;
     }
     template <class Mean>
     static Sweep<Dim> first_of(const Scheme& scheme) {
@@ -95,19 +108,21 @@ struct Choices {
         }
         return first_of<Mean, MonaghanTransport<Dim, Mean>>(scheme);
     }
-    template <class Force>
-    static Sweep<Dim> balanced(const Scheme& scheme) {
-        return scheme.density == Density::chain_rule
-                   ? second<Dim, ChainRuleContinuity, Balanced<Force>>
-                   : second<Dim, Balanced<Force>>;
+    template <class... Passes>
+    static Sweep<Dim> with_density(const Scheme& scheme) {
+        if (scheme.density == Density::chain_rule)
+            return second<Dim, ChainRuleContinuity, Passes...>;
+        if constexpr (sizeof...(Passes) > 0) return second<Dim, Passes...>;
+        return nullptr;
     }
     template <class Mean>
     static Sweep<Dim> second_of(const Scheme& scheme) {
+        const bool viscous = scheme.viscosity > 0.0;
         if constexpr (Dim == 2)
             if (balances(scheme))
-                return scheme.viscosity > 0.0 ? balanced<ViscousStressForce<Dim, Mean>>(scheme)
-                                              : balanced<StressForce<Dim>>(scheme);
-        return scheme.density == Density::chain_rule ? second<Dim, ChainRuleContinuity> : nullptr;
+                return viscous ? with_density<BalancedStressForce, ViscousForce<Dim, Mean>>(scheme)
+                               : with_density<BalancedStressForce>(scheme);
+        return viscous ? with_density<ViscousForce<Dim, Mean>>(scheme) : with_density<>(scheme);
     }
     template <class Mean>
     static void choose(const Scheme& scheme, Sweeps<Dim>& sweeps) {

@@ -296,8 +296,7 @@ BOOST_AUTO_TEST_CASE(states_and_schemes_without_modes_are_refused) {
     refused("torques",
             make(triangular_solid(8, 8, solid, {.angular_momentum = AngularMomentum::torque_pair},
                                   density, 0.02)));
-    refused("no derivative",
-            make(triangular_solid(8, 8, solid, {.viscosity = 1.0}, density, 0.02)));
+    refused("viscosity", make(triangular_solid(8, 8, solid, {.viscosity = 1.0}, density, 0.02)));
     refused("more cells",
             make(triangular_solid(8, 8, solid, {.density = Density::summed}, density, 0)));
     const State<2> state(good.model->layout(), good.y0);

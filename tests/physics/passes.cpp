@@ -151,12 +151,11 @@ void every_pass() {
     every_width<Dim, MonaghanTransport<Dim, ArithmeticMean>>("<v>_Monaghan");
     every_width<Dim, MonaghanTransport<Dim, GeometricMean>>("<v>_Monaghan, geometric");
     every_width<Dim, StressForce<Dim>>("stress force");
-    every_width<Dim, ViscousStressForce<Dim, ArithmeticMean>>("viscous stress force");
-    every_width<Dim, ViscousStressForce<Dim, GeometricMean>>("viscous stress force, geometric");
+    every_width<Dim, ViscousForce<Dim, ArithmeticMean>>("viscous force");
+    every_width<Dim, ViscousForce<Dim, GeometricMean>>("viscous force, geometric");
     if constexpr (Dim == 2) {
         every_width<Dim, TorqueSums>("torque sums");
         every_width<Dim, BalancedStressForce>("balanced stress force");
-        every_width<Dim, Balanced<ViscousStressForce<2, ArithmeticMean>>>("balanced viscous force");
     }
 }
 

@@ -103,6 +103,7 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
          {"gauss-singular", "torque_pair", "gauss"}},
         {{"--closest-approach", "-0.5"}, {"closest-approach", "-0.5", "0"}},
         {{"--closest-approach", "nan"}, {"closest-approach", "nan"}},
+        {{"--closest-approach", "1e-300"}, {"closest-approach", "1e-300", "0.5 to 0.9"}},
         {{"--closest-approach", "1"}, {"closest-approach", "1", "spacing", "0.5 to 0.9"}},
         {{"--model", "md", "--closest-approach", "0.5"}, {"closest-approach", "md"}},
         {{"--range", "-1"}, {"range", "-1", "above 0"}},

@@ -37,12 +37,8 @@ struct StressForce {
     using Sums = ForceSums<Dim, T>;
 
     template <class T, class Record>
-    static Vec<Dim, T> force(const Pair<Dim, T>& pair, const Record& i, const Record& j) {
-        return stress_force(pair, i, j);
-    }
-    template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(j.m, force(pair, i, j), pair.v_ji);
+        sums.add(j.m, stress_force(pair, i, j), pair.v_ji);
     }
 };
 

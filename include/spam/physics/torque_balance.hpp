@@ -69,24 +69,15 @@ Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
     return {{f_ij[0] + k * pair.r_ji[1], f_ij[1] - k * pair.r_ji[0]}};
 }
 
-/// A force with balanced pair torques; its power enters the energy like any force's.
-template <class Force>
-struct Balanced {
+/// The stress force with balanced torques; its power enters the energy like any force's.
+struct BalancedStressForce {
     template <class T>
     using Sums = ForceSums<2, T>;
 
-    Force force{};
-    template <class Constants>
-    static Balanced with(const Constants& constants) requires requires {
-        Force::with(constants);
-    }
-    { return {Force::with(constants)}; }
-
     template <class T, class Record>
-    void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
-        sums.add(j.m, scale_torque(pair, i, j, force.force(pair, i, j)), pair.v_ji);
+    static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
     }
 };
-using BalancedStressForce = Balanced<StressForce<2>>;
 
 }  // namespace spam

@@ -14,17 +14,17 @@ struct ViscosityConstants {
 
 /// Von Neumann's artificial viscosity as a pair force, [HHM04] IV and IX; form of its reference [1],
 /// with the quadratic term twice the linear one. For approaching particles, v_ij . r_ij < 0,
-///     f_ij -= Pi_ij grad_i w_ij,   Pi_ij = alpha (c mu + 2 mu^2) / rho_ij,
+///     f_ij = -Pi_ij grad_i w_ij,   Pi_ij = alpha (c mu + 2 mu^2) / rho_ij,
 ///     mu = l |v_ij . r_ij| / (r^2 + 0.01 l^2).
 /// Central and antisymmetric: it keeps p and L; what it takes from the motion becomes heat. Not
 /// smooth where a pair begins to approach.
 template <int Dim, class MeanDensity>
-struct ViscousStressForce {
+struct ViscousForce {
     template <class T>
     using Sums = ForceSums<Dim, T>;
 
     ViscosityConstants constants{};
-    static ViscousStressForce with(const ViscosityConstants& constants) { return {constants}; }
+    static ViscousForce with(const ViscosityConstants& constants) { return {constants}; }
 
     template <class T, class Record>
     Vec<Dim, T> force(const Pair<Dim, T>& pair, const Record& i, const Record& j) const {
@@ -33,7 +33,7 @@ struct ViscousStressForce {
         const T mu = T(l) * approach / (pair.r2 + T(0.01 * l * l));
         const T Pi = T(constants.alpha * MeanDensity::factor) * mu *
                      (T(constants.sound_speed) + T(2.0) * mu) / MeanDensity::divisor(i.rho, j.rho);
-        return stress_force(pair, i, j) - Pi * pair.grad_w;
+        return -Pi * pair.grad_w;
     }
     template <class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
