@@ -68,37 +68,45 @@ struct Arkode::Calls {
     decltype(&ERKStepSetAdaptivityMethod) set_adaptivity;
     decltype(&ERKStepGetNumErrTestFails) rejected;
     decltype(&ERKStepGetLastStep) last_step;
+    decltype(&ERKStepGetCurrentStep) current_step;
 };
 
 namespace {
 // Designated initialisers would name private members of Arkode; the order is that of struct Calls.
-#define SPAM_ARKODE_CALLS(S)                                                               \
-    {                                                                                      \
-        S##Evolve, S##Reset, S##Free, S##SetUserData, S##SetErrHandlerFn, S##SVtolerances, \
-            S##SetFixedStep, S##SetInitStep, S##SetStopTime, S##SetMinStep,                \
-            S##SetAdaptivityMethod, S##GetNumErrTestFails, S##GetLastStep                  \
+#define SPAM_ARKODE_CALLS(S)                                                                 \
+    {                                                                                        \
+        S##Evolve, S##Reset, S##Free, S##SetUserData, S##SetErrHandlerFn, S##SVtolerances,   \
+            S##SetFixedStep, S##SetInitStep, S##SetStopTime, S##SetMinStep,                  \
+            S##SetAdaptivityMethod, S##GetNumErrTestFails, S##GetLastStep, S##GetCurrentStep \
     }
 }  // namespace
 
 Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
                const SundialsContext& context)
     : Integrator(ode, y, t0),
+      options_(options),
+      context_(context),
       dt_(options.dt),
-      t0_(t0),
-      min_step_(options.min_step),
+      grid_(t0, options.dt.value_or(1.0)),
       accepted_(y.clone()),
       watch_(ode) {
+    create();
+}
+
+/// ARKODE's memory for going on from y at t, as if nothing had been before.
+void Arkode::create() {
     static constexpr Calls erkstep = SPAM_ARKODE_CALLS(ERKStep);
     static constexpr Calls arkstep = SPAM_ARKODE_CALLS(ARKStep);
-    const Table table = load_table(options.method);
+    if (memory_ != nullptr) calls_->free(&memory_);
+    const Table table = load_table(options_.method);
     if (!dt_ && table->d == nullptr)
         throw InputError(fmt::format(
             "integrator: {} has no embedded error estimate and cannot choose its steps; add --dt",
-            options.method));
+            options_.method));
     const bool erk = erkstep_is_right(*table);
     calls_ = erk ? &erkstep : &arkstep;
-    memory_ = erk ? ERKStepCreate(&Arkode::rates, t0, y.get(), context.get())
-                  : ARKStepCreate(&Arkode::rates, nullptr, t0, y.get(), context.get());
+    memory_ = erk ? ERKStepCreate(&Arkode::rates, t_, y_.get(), context_.get())
+                  : ARKStepCreate(&Arkode::rates, nullptr, t_, y_.get(), context_.get());
     if (memory_ == nullptr) throw std::bad_alloc();
     check(calls_->set_error_handler(memory_, &Arkode::remember_message, this), "SetErrHandlerFn");
     check(calls_->set_user_data(memory_, this), "SetUserData");
@@ -108,14 +116,15 @@ Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, doub
     if (dt_) {
         check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
     } else {
-        Vector atol = y.clone();
-        std::copy(ode.absolute_tolerance.begin(), ode.absolute_tolerance.end(),
+        Vector atol = y_.clone();
+        std::copy(ode_.absolute_tolerance.begin(), ode_.absolute_tolerance.end(),
                   atol.span().begin());
-        check(calls_->set_tolerances(memory_, options.rtol, atol.get()), "SVtolerances");
-        check(calls_->set_min_step(memory_, options.min_step), "SetMinStep");
+        check(calls_->set_tolerances(memory_, options_.rtol, atol.get()), "SVtolerances");
+        check(calls_->set_min_step(memory_, options_.min_step), "SetMinStep");
         check(calls_->set_adaptivity(memory_, ARK_ADAPT_PID, 1, 0, nullptr), "SetAdaptivityMethod");
     }
-    N_VScale(1.0, y.get(), accepted_.get());
+    retaking_ = false;
+    N_VScale(1.0, y_.get(), accepted_.get());
 }
 
 Arkode::~Arkode() { calls_->free(&memory_); }
@@ -155,7 +164,7 @@ void Arkode::stop(int flag) const {
         message = fmt::format(
             "the error test failed again and again, the step fell to {:.3g}, "
             "near the least allowed {:.3g}",
-            statistics_.last_step, min_step_);
+            statistics_.last_step, options_.min_step);
     throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
 }
 
@@ -214,40 +223,41 @@ void Arkode::take_piece(double h, double t_next) {
 }
 
 double Arkode::step(double t_stop) {
-    double t_next = t_stop;
-    bool last = true;
     if (dt_) {
-        const double grid = t0_ + static_cast<double>(n_ + 1) * *dt_;
-        last = grid >= t_stop - 1e-9 * *dt_;
-        if (!last) t_next = grid;
-        const bool on_grid = t_ == t0_ + static_cast<double>(n_) * *dt_;
-        const double whole = last || !on_grid ? t_next - t_ : *dt_;
-        for (double h = whole; t_ < t_next; h = t_next - t_) take_piece(h, t_next);
-        statistics_.last_step = whole;
+        const FixedGrid::Step next = grid_.next(t_, t_stop);
+        for (double h = next.length; t_ < next.to; h = next.to - t_) take_piece(h, next.to);
+        grid_.arrive(next);
+        statistics_.last_step = next.length;
     } else {
         check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
         take_piece(0.0, t_stop);
     }
-    ++n_;
     ++statistics_.steps;
     long rejected = 0;
     calls_->rejected(memory_, &rejected);
-    statistics_.rejected_steps = static_cast<std::size_t>(rejected);
-    if (dt_ && last) {
-        t0_ = t_;
-        n_ = 0;
-    }
+    statistics_.rejected_steps = rejected_before_ + static_cast<std::size_t>(rejected);
     return t_;
 }
 
 void Arkode::reset(double t) {
-    t_ = t0_ = t;
-    n_ = 0;
+    t_ = t;
+    grid_.reset(t);
     check(calls_->reset(memory_, t, y_.get()), "Reset");
     // A step that failed while it was taken again has left its length behind.
     if (dt_ || retaking_) check(calls_->set_fixed_step(memory_, dt_.value_or(0.0)), "SetFixedStep");
     retaking_ = false;
     N_VScale(1.0, y_.get(), accepted_.get());
+}
+
+void Arkode::remember(Archive& archive) {
+    Integrator::remember(archive);
+    double ahead = 0.0;  // the step that ARKODE would try next
+    if (!archive.reading()) check(calls_->current_step(memory_, &ahead), "GetCurrentStep");
+    archive(grid_, watch_, ahead);
+    if (!archive.reading()) return;
+    rejected_before_ = statistics_.rejected_steps;
+    create();
+    if (!dt_) check(calls_->set_init_step(memory_, ahead), "SetInitStep");
 }
 
 const std::vector<std::string>& arkode_tables() {

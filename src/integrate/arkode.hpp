@@ -2,6 +2,7 @@
 #pragma once
 
 #include "event_watch.hpp"
+#include "fixed_grid.hpp"
 
 #include <exception>
 
@@ -16,6 +17,7 @@ class Arkode final : public Integrator {
     double step(double t_stop) override;
     bool lands_on_stops() const override { return !dt_; }
     void reset(double t) override;
+    void remember(Archive& archive) override;
 
   private:
     struct Calls;  // the ERKStep and ARKStep flavours of one ARKODE call
@@ -30,10 +32,14 @@ class Arkode final : public Integrator {
     static void remember_message(int code, const char* module, const char* function, char* message,
                                  void* self);
 
+    void create();
+
+    IntegratorOptions options_;
+    const SundialsContext& context_;
     std::optional<double> dt_;
-    double t0_, min_step_;
-    std::size_t n_ = 0;
-    bool retaking_ = false;  ///< ARKODE has the length of a step taken again
+    FixedGrid grid_;                   ///< used where dt_ is set
+    std::size_t rejected_before_ = 0;  ///< by the memory in use before
+    bool retaking_ = false;            ///< ARKODE has the length of a step taken again
     Vector accepted_;  ///< y of the last accepted step: an ARKODE failure may leave y overwritten
     EventWatch watch_;
     const Calls* calls_ = nullptr;

@@ -110,6 +110,11 @@ std::size_t EventWatch::apply(double t, std::span<double> y) {
     return happened;
 }
 
+void EventWatch::remember(Archive& archive) {
+    archive(whole_, window_end_, in_window_, long_window_end_, in_long_window_, last_t_,
+            at_last_t_);
+}
+
 void EventWatch::count(double t, std::size_t entries, const std::string& name) {
     at_last_t_ = t == last_t_ ? at_last_t_ + 1 : 0;
     last_t_ = t;

@@ -32,6 +32,8 @@ class EventWatch {
     /// 3,200 times (for a large y twice its entries) within 64 steps.
     std::size_t apply(double t, std::span<double> y);
 
+    void remember(Archive& archive);
+
   private:
     double distance(double t, std::span<const double> y) const;
     Piece locate(double h, double at_h, const Retake& retake);

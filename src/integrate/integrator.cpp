@@ -53,6 +53,12 @@ void Integrator::guard(std::span<const double> z, double t) const {
     }
 }
 
+void Integrator::remember(Archive& archive) {
+    archive(t_, statistics_);
+    for (const Event& event : ode_.events)
+        if (event.remember) event.remember(archive);
+}
+
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Ode& ode,
                                             Vector& y, double t0, const SundialsContext& context) {
     options.validate();

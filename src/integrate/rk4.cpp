@@ -12,8 +12,7 @@ namespace spam {
 
 Rk4::Rk4(const Ode& ode, Vector& y, double t0, double dt)
     : Integrator(ode, y, t0),
-      dt_(dt),
-      t0_(t0),
+      grid_(t0, dt),
       k_{y.clone(), y.clone(), y.clone(), y.clone()},
       z_(y.clone()),
       watch_(ode) {}
@@ -57,22 +56,22 @@ void Rk4::take_pieces(double h, double t_next) {
 }
 
 double Rk4::step(double t_stop) {
-    double t_next = t0_ + static_cast<double>(n_ + 1) * dt_;
-    const bool last = t_next >= t_stop - 1e-9 * dt_;
-    if (last) t_next = t_stop;
-    const bool on_grid = t_ == t0_ + static_cast<double>(n_) * dt_;
-    const double h = last || !on_grid ? t_next - t_ : dt_;
-    take_pieces(h, t_next);
-    ++n_;
-    if (last) reset(t_stop);
+    const FixedGrid::Step next = grid_.next(t_, t_stop);
+    take_pieces(next.length, next.to);
+    grid_.arrive(next);
     ++statistics_.steps;
-    statistics_.last_step = h;
+    statistics_.last_step = next.length;
     return t_;
 }
 
 void Rk4::reset(double t) {
-    t_ = t0_ = t;
-    n_ = 0;
+    t_ = t;
+    grid_.reset(t);
+}
+
+void Rk4::remember(Archive& archive) {
+    Integrator::remember(archive);
+    archive(grid_, watch_);
 }
 
 }  // namespace spam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "event_watch.hpp"
+#include "fixed_grid.hpp"
 
 #include <array>
 
@@ -15,14 +16,14 @@ class Rk4 final : public Integrator {
     double step(double t_stop) override;
     bool lands_on_stops() const override { return false; }
     void reset(double t) override;
+    void remember(Archive& archive) override;
 
   private:
     void stage(double t, const Vector& at, std::size_t k);
     std::span<const double> advance(double h);
     void take_pieces(double h, double t_next);
 
-    double dt_, t0_;
-    std::size_t n_ = 0;
+    FixedGrid grid_;
     std::array<Vector, 4> k_;
     Vector z_;
     EventWatch watch_;

@@ -42,6 +42,10 @@ Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
                            model.particles().id[entry.particle]);
     };
     if (auto event = model.event()) ode.events.push_back(std::move(*event));
+    ode.inseparable = model.inseparable();
+    for (const auto& block : model.layout().blocks())
+        ode.blocks.push_back({std::string(field_name(block.field)), block.offset,
+                              block.components * model.layout().particles()});
     ode.absolute_tolerance.resize(model.layout().size());
     for (const auto& block : model.layout().blocks())
         std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),

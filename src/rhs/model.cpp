@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/rhs/model.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -18,6 +20,20 @@ std::vector<double> Model<Dim>::density(std::span<const double> y) const {
     if (!state.has(Field::density)) return {};
     const auto rho = state.density();
     return {rho.data(), rho.data() + rho.size()};
+}
+
+template <int Dim>
+void Model<Dim>::remember(Archive& archive) {
+    archive(particles_.body);
+    if (archive.reading()) set_bodies(particles_.body);
+}
+
+template <int Dim>
+std::string Model<Dim>::inseparable() const {
+    for (const auto& block : layout_.blocks())
+        if (block.field != Field::position && block.field != Field::velocity)
+            return fmt::format("{} in y changes with the velocity", field_name(block.field));
+    return {};
 }
 
 template class Model<1>;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/archive.hpp>
+
 #include <functional>
 #include <span>
 #include <string>
@@ -28,6 +30,9 @@ struct Event {
     /// Changes y, with 0 < distance <= tolerance but for rounding. Returns how often the event has
     /// happened: more than once where several are due together, 0 where it was a false alarm.
     std::function<std::size_t(double t, std::span<double> y)> apply;
+
+    /// What it knows of earlier steps and cannot find in y. May be empty.
+    std::function<void(Archive&)> remember{};
 };
 
 }  // namespace spam

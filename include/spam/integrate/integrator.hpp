@@ -26,6 +26,14 @@ struct Ode {
     std::vector<double> absolute_tolerance;
     /// What changes y at single times.
     std::vector<Event> events{};
+    /// Entries of y that belong together, in order: "position", "velocity", ...
+    struct Block {
+        std::string name;
+        std::size_t first, size;
+    };
+    std::vector<Block> blocks{};
+    /// Why `velocity` and `position` cannot be advanced in turn; empty where they can.
+    std::string inseparable{};
 };
 
 /// How to integrate. `dt` unset with an arkode method means adaptive steps.
@@ -53,7 +61,9 @@ struct IntegratorOptions {
 /// - lands_on_stops(): whether steps may be shortened to hit intermediate times (adaptive methods);
 ///   a fixed-step method keeps its grid t_n = t_0 + n dt and shortens only the step that reaches
 ///   t_stop;
-/// - reset(t) must follow any change of y from outside.
+/// - reset(t) must follow any change of y from outside;
+/// - remember() writes where the integration stands (y itself apart) and, reading, goes on from y as an
+///   integrator does that was made there: bit for bit the same whether it was or not.
 class Integrator {
   public:
     Integrator(const Ode& ode, Vector& y, double t0) : ode_(ode), y_(y), t_(t0) {}
@@ -64,6 +74,7 @@ class Integrator {
     virtual double step(double t_stop) = 0;
     virtual bool lands_on_stops() const = 0;
     virtual void reset(double t) = 0;
+    virtual void remember(Archive& archive);
 
     struct Statistics {
         std::size_t steps = 0;
@@ -71,6 +82,10 @@ class Integrator {
         std::size_t rhs_evaluations = 0;
         std::size_t events = 0;  ///< as Event::apply counts them
         double last_step = 0.0;
+
+        void remember(Archive& archive) {
+            archive(steps, rejected_steps, rhs_evaluations, events, last_step);
+        }
     };
     const Statistics& statistics() const { return statistics_; }
     double t() const { return t_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/archive.hpp>
 #include <spam/core/event.hpp>
 #include <spam/core/particles.hpp>
 #include <spam/neighbors/box.hpp>
@@ -59,6 +60,15 @@ class Model {
     virtual void set_bodies(std::vector<std::int32_t> bodies) {
         particles_.body = std::move(bodies);
     }
+
+    /// What the model knows beyond y: bodies, and what watch() remembers. After reading, the next rates
+    /// are those of a model made anew: lists built before are forgotten, which a run that writes a
+    /// checkpoint does as well, by reading it back.
+    virtual void remember(Archive& archive);
+
+    /// Why velocity and position cannot be advanced in turn, as leapfrog does; empty where dx/dt = v
+    /// and dv/dt depends on x alone and y holds nothing else.
+    virtual std::string inseparable() const;
 
     /// Pairs (undirected) that the latest right-hand side summed over.
     virtual std::size_t pairs() const = 0;
