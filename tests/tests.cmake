@@ -39,6 +39,7 @@ spam_test(io/pictures unit)
 spam_test(io/checkpoint_file unit hdf5::hdf5)
 spam_test(io/checkpoint_damage property OpenSSL::Crypto)
 spam_test(io/checkpoint_pair property)
+spam_test(io/checkpoint_faults property)
 spam_test(style/house_rules style)
 target_compile_definitions(test.style.house_rules PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 
