@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint.hpp"
 #include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
@@ -44,8 +45,16 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
                     positive());
     options_.number("snapshot-every", common_.snapshot_every, "interval between .vtp snapshots",
                     positive());
+    options_.number(
+        "checkpoint-every", common_.checkpoint_every,
+        "interval between checkpoint_0.h5 and _1.h5, in turn; one is always left at the "
+        "end",
+        positive());
+    options_.text("restart", common_.restart, "checkpoint to go on from, with its case");
     options_.exclude_from_case(
-        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads"});
+        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
+    options_.case_from("restart", [this](const std::string& file) { return recall_case(file); },
+                       {"t-end", "output-every", "snapshot-every", "checkpoint-every"});
     options_.group("Integrator");
     options_.text("integrator", method_,
                   "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
@@ -54,6 +63,37 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
     options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
                     positive());
     options_.group("Problem");
+}
+
+Problem::~Problem() = default;
+
+/// The case of a checkpoint; keeps the rest of it for the session.
+std::string Problem::recall_case(const std::string& file) {
+    earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
+    if (earlier_->problem != name_)
+        throw InputError(fmt::format("restart: '{}' is a checkpoint of {}, not of {}", file,
+                                     earlier_->problem, name_));
+    return earlier_->case_toml;
+}
+
+/// A run that is gone on with does so in the folder of its results, unless another is named.
+void Problem::settle_restart() {
+    if (!earlier_) return;
+    namespace fs = std::filesystem;
+    if (common_.smoke && !earlier_->smoke)
+        throw InputError("smoke: --restart goes on with the same case, which was no smoke test");
+    common_.smoke = earlier_->smoke;
+    fs::path folder = fs::path(common_.restart).parent_path();
+    if (folder.empty()) folder = ".";
+    std::error_code error;
+    const bool results = fs::exists(folder / "run.log", error);
+    if (results && !options_.given("out")) common_.out = folder.string();
+    in_place_ = results && fs::equivalent(common_.out, folder, error) && !error;
+    if (in_place_ && common_.force)
+        throw InputError(
+            "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
+            "choose "
+            "another --out");
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
@@ -157,6 +197,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     const InterruptWatch watch;
     try {
         if (!options_.parse(argc, argv)) return 0;
+        settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const auto idle = idle_scheme_options();
         const IntegratorOptions integrator = resolve_integrator();

@@ -74,7 +74,8 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
 
 template <int Dim>
 double Run<Dim>::seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return seconds_before_ +
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 /// The file comes into being with the first event.
@@ -88,6 +89,75 @@ void Run<Dim>::remember(double t, const Remark& remark) {
             throw OutputError(fmt::format("cannot write '{}' (disk full?)", events_->string()));
     }
     record_.remarks.emplace_back(t, remark);
+}
+
+template <int Dim>
+void Run<Dim>::snapshot(double t, const Watchers& watchers) {
+    if (!snapshot_times_.empty() && snapshot_times_.back() == t) return;
+    snapshot_times_.push_back(t);
+    if (watchers.snapshot) watchers.snapshot(t);
+    if (one_.plan.on_snapshot) one_.plan.on_snapshot(t, one_.model, y_.span());
+}
+
+template <int Dim>
+void Run<Dim>::remember_motion(Archive& archive) {
+    one_.model.remember(archive);
+    integrator_->remember(archive);
+}
+
+template <int Dim>
+void Run<Dim>::remember_records(Archive& archive) {
+    recorder_.remember(archive);
+    double so_far = seconds();
+    archive(record_.remarks, record_.statistics.pair_interactions, so_far, snapshot_times_);
+    if (archive.reading()) seconds_before_ = so_far;
+    if (one_.plan.memory) one_.plan.memory(archive);
+}
+
+template <int Dim>
+CaseMemory Run<Dim>::memory() {
+    CaseMemory memory = case_memory<Dim>(one_.model, y_.span(), integrator_->t());
+    memory.label = one_.label;
+    Archive motion, records;
+    remember_motion(motion);
+    remember_records(records);
+    memory.motion = motion.bytes();
+    memory.records = records.bytes();
+    return memory;
+}
+
+template <int Dim>
+void Run<Dim>::recall(const CaseMemory& memory) {
+    const auto y = state_of(memory, one_.model);
+    std::copy(y.begin(), y.end(), y_.span().begin());
+    Archive motion(memory.motion), records(memory.records);
+    remember_motion(motion);
+    motion.expect_end();
+    remember_records(records);
+    records.expect_end();
+    if (events_) rewrite_events();
+    resumed_ = true;
+    ended_ = memory.stopped;
+}
+
+/// What is written now can be gone on from later. Here the run does so itself, so that it goes the same
+/// way as one that was restarted.
+template <int Dim>
+void Run<Dim>::checkpoint(const Watchers& watchers) {
+    watchers.checkpoint();
+    Archive motion;
+    remember_motion(motion);
+    Archive back(motion.bytes());
+    remember_motion(back);
+}
+
+template <int Dim>
+void Run<Dim>::rewrite_events() {
+    std::error_code ignored;
+    std::filesystem::remove(*events_, ignored);
+    auto remarks = std::move(record_.remarks);
+    record_.remarks.clear();
+    for (const auto& [t, remark] : remarks) remember(t, remark);
 }
 
 template <int Dim>
@@ -118,11 +188,13 @@ template <int Dim>
 std::string Run<Dim>::drive(const Watchers& watchers) {
     const Plan<Dim>& plan = one_.plan;
     Observers observers;
-    observers.output = [&](double t) { recorder_.add(t, statistics().last_step, y_.span()); };
-    observers.snapshot = [&](double t) {
-        if (watchers.snapshot) watchers.snapshot(t);
-        if (plan.on_snapshot) plan.on_snapshot(t, one_.model, y_.span());
+    observers.output = [&](double t) {
+        const auto& rows = recorder_.history().rows();
+        if (rows.empty() || rows.back().front() != t)
+            recorder_.add(t, statistics().last_step, y_.span());
     };
+    observers.snapshot = [&](double t) { snapshot(t, watchers); };
+    if (watchers.checkpoint) observers.checkpoint = [&](double) { checkpoint(watchers); };
     observers.step = [&](double t) {
         watch(t, watchers);
         if (watchers.step) watchers.step(t);
@@ -133,8 +205,15 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
 
     std::string reason;
     try {
-        const int signal = spam::drive(
-            *integrator_, {plan.t_end, plan.output_every, plan.snapshot_every}, observers);
+        Schedule schedule{plan.t_end, plan.output_every, plan.snapshot_every,
+                          plan.checkpoint_every};
+        schedule.resumed = resumed_;
+        if (!ended_.empty()) {
+            observers.output(integrator_->t());
+            observers.snapshot(integrator_->t());
+            throw GuardStop(ended_);
+        }
+        const int signal = spam::drive(*integrator_, schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const GuardStop& stop) {

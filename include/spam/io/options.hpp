@@ -61,6 +61,12 @@ class Options {
     /// the case that is written back. Applies to options already added.
     void exclude_from_case(const std::vector<std::string>& names);
 
+    /// `option`, a text already added, brings the case of an earlier run: `read` makes its TOML from the
+    /// option's value. On the command line only `may_change` may then differ from it, and options that
+    /// are no part of a case.
+    void case_from(std::string option, std::function<std::string(const std::string&)> read,
+                   std::vector<std::string> may_change);
+
     /// Reads the command line and, if --config was given, its file. Returns false when help was
     /// asked for (and printed).
     bool parse(int argc, const char* const* argv);
@@ -85,10 +91,18 @@ class Options {
     struct Parser;
     Entry& add(std::string name, std::string help);
     void read_config(const std::string& path);
+    void read_case(const std::string& text_of_case, const std::string& path);
+    bool read_earlier_case(const std::vector<std::string>& raw, bool has_config);
+    void refuse_change(const Entry& entry, const std::string& before) const;
     std::vector<std::string> names() const;
 
     std::string program_, summary_, group_;
     std::string config_;
+    struct {
+        std::string option;
+        std::function<std::string(const std::string&)> read;
+        std::vector<std::string> may_change;
+    } earlier_;
     std::vector<std::unique_ptr<Entry>> entries_;
 };
 
