@@ -127,9 +127,8 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     SessionMemory memory;
     memory.version = file.text("/version");
     if (release(memory.version) != release(version()))
-        throw InputError(
-            fmt::format("restart: '{}' was written by spam {}, this is {}; go on with that one",
-                        path.string(), memory.version, version()));
+        throw InputError(fmt::format("'{}' was written by spam {}, this is {}; go on with that one",
+                                     path.string(), memory.version, version()));
     memory.instruction_set = file.text("/instruction_set");
     memory.problem = file.text("/problem");
     memory.case_toml = file.text("/case");

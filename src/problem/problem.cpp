@@ -69,7 +69,11 @@ Problem::~Problem() = default;
 
 /// The case of a checkpoint; keeps the rest of it for the session.
 std::string Problem::recall_case(const std::string& file) {
-    earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
+    try {
+        earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("restart: {}", error.what()));
+    }
     if (earlier_->problem != name_)
         throw InputError(fmt::format("restart: '{}' is a checkpoint of {}, not of {}", file,
                                      earlier_->problem, name_));
