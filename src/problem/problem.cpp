@@ -50,7 +50,8 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
         "interval between checkpoint_0.h5 and _1.h5, in turn; one is always left at the "
         "end",
         positive());
-    options_.text("restart", common_.restart, "checkpoint to go on from, with its case");
+    options_.text("restart", common_.restart,
+                  "checkpoint to go on from, with its case; a result folder: its newest");
     options_.exclude_from_case(
         {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
     options_.case_from("restart", [this](const std::string& file) { return recall_case(file); },
@@ -68,7 +69,16 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
 Problem::~Problem() = default;
 
 /// The case of a checkpoint; keeps the rest of it for the session.
-std::string Problem::recall_case(const std::string& file) {
+std::string Problem::recall_case(const std::string& name) {
+    std::string file = name;
+    std::error_code error;
+    if (std::filesystem::is_directory(name, error)) {
+        const auto newest = newest_checkpoint(name);
+        if (!newest)
+            throw InputError(fmt::format("restart: '{}' holds no complete checkpoint", name));
+        file = newest->string();
+    }
+    restart_file_ = file;
     try {
         earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
     } catch (const InputError& error) {
@@ -84,6 +94,7 @@ std::string Problem::recall_case(const std::string& file) {
 void Problem::settle_restart() {
     if (!earlier_) return;
     namespace fs = std::filesystem;
+    common_.restart = restart_file_;
     if (common_.smoke && !earlier_->smoke)
         throw InputError("smoke: --restart goes on with the same case, which was no smoke test");
     common_.smoke = earlier_->smoke;

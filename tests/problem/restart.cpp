@@ -127,6 +127,20 @@ BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
     BOOST_TEST(twins >= 14u);
 }
 
+/// Of more particles, so that threads share the sums and the norms of steps.
+BOOST_AUTO_TEST_CASE(the_number_of_threads_may_change) {
+    const Scratch folder;
+    const Words common =
+        hexagon("40", with({"--output-every", "1", "--snapshot-every", "2"}, adaptive));
+    const auto run = [&](const Words& more) {
+        require_ran(run_in(folder, "rotating_hexagon", more));
+    };
+    run(with(common, {"--t-end", "4", "--threads", "2", "--out", "whole"}));
+    run(with(common, {"--t-end", "2", "--threads", "1", "--out", "half"}));
+    run({"--restart", "half", "--t-end", "4", "--threads", "3", "--no-plots"});
+    check_same(left_by(folder / "whole"), left_by(folder / "half"));
+}
+
 /// The barrier is what makes it so: without one in the uninterrupted run adaptive steps differ.
 BOOST_AUTO_TEST_CASE(without_a_barrier_adaptive_steps_are_others) {
     const Scratch folder;

@@ -46,7 +46,7 @@ class Problem {
 
   private:
     friend class Session;
-    std::string recall_case(const std::string& file);
+    std::string recall_case(const std::string& name);
     void settle_restart();
     std::vector<std::string> idle_scheme_options();
     IntegratorOptions resolve_integrator();
@@ -57,7 +57,8 @@ class Problem {
     CommonOptions common_;
     Scheme scheme_;
     std::unique_ptr<const SessionMemory> earlier_;  ///< of --restart
-    bool in_place_ = false;                         ///< its results are those of the checkpoint
+    std::string restart_file_;
+    bool in_place_ = false;  ///< its results are those of the checkpoint
     std::string method_ = "rk4";
     std::optional<double> dt_, rtol_, atol_;
 };
