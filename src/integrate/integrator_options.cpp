@@ -77,6 +77,12 @@ void validate_control(const IntegratorOptions& options) {
 
 bool IntegratorOptions::adaptive() const { return integration_method(method).adaptive && !dt; }
 
+double IntegratorOptions::absolute_tolerance(std::string_view field, double scale) const {
+    for (const FieldTolerance& one : field_atol)
+        if (one.field == field) return one.atol;
+    return atol * scale;
+}
+
 void IntegratorOptions::validate() const {
     validate_steps(*this, integration_method(method));
     validate_tolerances(*this);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spam {
@@ -56,6 +57,8 @@ struct IntegratorOptions {
     std::optional<std::size_t> max_steps{};  ///< more accepted steps than that stop the run
 
     bool adaptive() const;  ///< precondition: valid
+    /// Of a field whose typical magnitude is `scale`.
+    double absolute_tolerance(std::string_view field, double scale) const;
     std::string describe() const;
 
     /// Throws InputError naming the offending option, the allowed values and the fix.
