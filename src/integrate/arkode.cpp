@@ -132,7 +132,10 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
         me.ode_.rates(t, entries(y), entries(y_dot));
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
         // ends here, before later stages cover the first reason by their own.
-        return me.dt_ && !me.ode_.failure().empty() ? -1 : 0;
+        std::string failure = me.ode_.failure();
+        if (failure.empty()) return 0;
+        me.failure_ = std::move(failure);
+        return me.dt_ ? -1 : 0;
     } catch (...) {
         me.error_ = std::current_exception();
         return -1;
@@ -141,10 +144,9 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
 
 void Arkode::stop(int flag) {
     if (error_) std::rethrow_exception(error_);
-    std::string message = ode_.failure();
-    if (message.empty()) message = messages_.text();
+    std::string message = failure_.empty() ? messages_.text() : failure_;
     std::replace(message.begin(), message.end(), '\n', ' ');
-    if (flag == ARK_ERR_FAILURE && ode_.failure().empty()) {
+    if (flag == ARK_ERR_FAILURE && failure_.empty()) {
         look_at_errors();
         double h = 0.0;
         calls_->current_step(memory_, &h);
@@ -164,6 +166,7 @@ void Arkode::look_at_errors() {
 double Arkode::evolve(double t_stop) {
     double reached = t_;
     const SundialsMessages::Scope scope(context_, messages_);
+    failure_.clear();
     const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);

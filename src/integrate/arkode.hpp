@@ -53,6 +53,7 @@ class Arkode final : public Integrator {
     KeptController controller_;
     void* memory_ = nullptr;
     SundialsMessages messages_;
+    std::string failure_;  ///< of the ode, the latest since the last accepted step
     std::exception_ptr error_;
 };
 

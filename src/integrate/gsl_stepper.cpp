@@ -46,7 +46,9 @@ int GslStepper::rates(double t, const double y[], double y_dot[], void* self) {
     try {
         const std::size_t n = me.system_.dimension;
         me.ode_.rates(t, {y, n}, {y_dot, n});
-        return me.ode_.failure().empty() ? GSL_SUCCESS : GSL_EDOM;
+        if (me.ode_.failure().empty()) return GSL_SUCCESS;
+        me.failed_at_ = t;
+        return GSL_EDOM;
     } catch (...) {
         me.thrown_ = std::current_exception();
         return GSL_EBADFUNC;

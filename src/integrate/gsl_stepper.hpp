@@ -20,6 +20,8 @@ class GslStepper {
     /// y <- the state after h from (t, y), or no matter what where that has no meaning; `y_dot` holds
     /// the rates at (t, y), null for a multistep method. Returns whether it has.
     bool attempt(double t, double h, std::span<double> y, const double* y_dot);
+    /// When the rates latest had no meaning.
+    double failed_at() const { return failed_at_; }
     /// Of the latest attempt, entry by entry.
     std::span<const double> error() const { return error_; }
 
@@ -41,6 +43,7 @@ class GslStepper {
     };
     std::unique_ptr<gsl_odeiv2_driver, Free> driver_;
     std::vector<double> error_;
+    double failed_at_ = 0.0;
     std::exception_ptr thrown_;
 };
 
