@@ -156,6 +156,7 @@ void Arkode::stop(int flag) {
 }
 
 void Arkode::look_at_errors() {
+    if (ode_.blocks.empty()) return;
     check(calls_->local_errors(memory_, local_error_.get()), "GetEstLocalErrors");
     check(calls_->weights(memory_, weight_.get()), "GetErrWeights");
     shares_.look(

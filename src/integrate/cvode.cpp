@@ -87,6 +87,7 @@ int Cvode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
 }
 
 void Cvode::look_at_errors() {
+    if (ode_.blocks.empty()) return;
     check(CVodeGetEstLocalErrors(memory_, local_error_.get()), "GetEstLocalErrors");
     check(CVodeGetErrWeights(memory_, weight_.get()), "GetErrWeights");
     shares_.look(

@@ -24,14 +24,22 @@ class ErrorShares {
         squares_ = {};
         largest_ = {};
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            double squares = 0.0, largest = 0.0;
-            for (std::size_t k = 0; k < blocks_[b].size; ++k) {
-                const double s = scaled(blocks_[b].first + k);
-                squares += s * s;
-                largest = std::max(largest, std::abs(s));
+            constexpr std::size_t lanes = 8;  // sums side by side, or each waits for the one before
+            std::array<double, lanes> squares{}, largest{};
+            const std::size_t first = blocks_[b].first, last = first + blocks_[b].size;
+            const auto add = [&](std::size_t lane, double s) {
+                squares[lane] += s * s;
+                const double magnitude = std::abs(s);
+                largest[lane] = magnitude > largest[lane] ? magnitude : largest[lane];
+            };
+            std::size_t k = first;
+            for (; k + lanes <= last; k += lanes)
+                for (std::size_t lane = 0; lane < lanes; ++lane) add(lane, scaled(k + lane));
+            for (; k < last; ++k) add(0, scaled(k));
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                squares_[place(b)] += squares[lane];
+                largest_[place(b)] = std::max(largest_[place(b)], largest[lane]);
             }
-            squares_[place(b)] += squares;
-            largest_[place(b)] = std::max(largest_[place(b)], largest);
         }
     }
 

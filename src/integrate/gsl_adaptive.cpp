@@ -49,6 +49,7 @@ double GslAdaptive::first_step() {
 }
 
 void GslAdaptive::look_at_errors() {
+    if (ode_.blocks.empty()) return;
     shares_.look([&, e = stepper_.error(), z = std::as_const(z_).span()](std::size_t k) {
         return e[k] / (options_.rtol * std::abs(z[k]) + ode_.absolute_tolerance[k]);
     });
