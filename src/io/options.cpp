@@ -107,6 +107,18 @@ void Options::integer(std::string name, int& target, std::string help, Allowed a
     entry.get = [&target] { return fmt::format("{}", target); };
 }
 
+void Options::integer(std::string name, std::optional<int>& target, std::string help,
+                      Allowed allowed) {
+    Entry& entry = add(std::move(name), std::move(help));
+    entry.type = "INTEGER";
+    entry.allowed = "a whole number, " + allowed.words;
+    entry.set = [&entry, &target, allowed](const std::string& text) {
+        target = parse_integer(entry.name, text, allowed);
+    };
+    entry.unset = [&target] { target.reset(); };
+    entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
+}
+
 void Options::text(std::string name, std::string& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "TEXT";
@@ -116,6 +128,7 @@ void Options::text(std::string name, std::string& target, std::string help) {
         if (text.empty()) throw InputError(fmt::format("{}: must not be empty", entry.name));
         target = text;
     };
+    if (target.empty()) entry.unset = [&target] { target.clear(); };
     entry.get = [&target] { return target.empty() ? std::string{} : toml_string(target); };
 }
 

@@ -28,7 +28,7 @@ void keep_standard_descriptors() {
 Problem::Problem(std::string name, std::string summary, double default_dt)
     : name_(std::move(name)),
       summary_(std::move(summary)),
-      default_dt_(default_dt),
+      integrator_(default_dt),
       options_(name_, summary_) {
     common_.out = name_ + "-out";
     options_.group("Running");
@@ -54,15 +54,10 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
                   "checkpoint to go on from, with its case; a result folder: its newest");
     options_.exclude_from_case(
         {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
-    options_.case_from("restart", [this](const std::string& file) { return recall_case(file); },
-                       {"t-end", "output-every", "snapshot-every", "checkpoint-every"});
-    options_.group("Integrator");
-    options_.text("integrator", method_,
-                  "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
-    options_.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt), positive());
-    options_.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
-    options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
-                    positive());
+    options_.case_from(
+        "restart", [this](const std::string& file) { return recall_case(file); },
+        {"t-end", "output-every", "snapshot-every", "checkpoint-every", "max-steps"});
+    integrator_.add_to(options_);
     options_.group("Problem");
 }
 
@@ -170,36 +165,6 @@ std::vector<std::string> Problem::idle_scheme_options() {
     return idle;
 }
 
-/// The integrator that the options mean; an option without effect is refused.
-IntegratorOptions Problem::resolve_integrator() {
-    options_.command_line_wins({"integrator"}, {"dt", "rtol", "atol"});
-    options_.command_line_wins({"dt"}, {"rtol", "atol"});
-    options_.command_line_wins({"rtol", "atol"}, {"dt"});
-    IntegratorOptions integrator;
-    integrator.method = method_;
-    const bool rk4 = method_ == "rk4";
-    const std::string tolerance = options_.first_given({"rtol", "atol"});
-    if (rk4 && !tolerance.empty())
-        throw InputError(
-            fmt::format("{}: rk4 has a fixed step and no tolerance; use --dt, or --integrator "
-                        "arkode:DORMAND_PRINCE_7_4_5",
-                        tolerance));
-    if (!rk4 && dt_ && !tolerance.empty())
-        throw InputError(
-            fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
-                        tolerance, tolerance));
-    if (rk4 && !dt_) dt_ = default_dt_;
-    integrator.dt = dt_;
-    if (rtol_) integrator.rtol = *rtol_;
-    if (atol_) integrator.atol = *atol_;
-    if (integrator.adaptive()) {
-        rtol_ = integrator.rtol;
-        atol_ = integrator.atol;
-    }
-    integrator.validate();
-    return integrator;
-}
-
 int Problem::main(int argc, char** argv, const std::function<void(Session&)>& body) {
     std::string command = name_;
     for (int k = 1; k < argc; ++k) command += fmt::format(" {}", argv[k]);
@@ -215,7 +180,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const auto idle = idle_scheme_options();
-        const IntegratorOptions integrator = resolve_integrator();
+        const IntegratorOptions integrator = integrator_.resolve(options_);
         set_threads(common_.threads);
         Session session(*this, integrator, command);
         session.leave_out_of_case(idle);

@@ -28,7 +28,7 @@ std::string component_name(Field field, std::size_t component) {
 }  // namespace
 
 template <int Dim>
-Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
+Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pair_interactions) {
     Ode ode;
     ode.rates = [&](double t, std::span<const double> y, std::span<double> y_dot) {
         model.rates(t, y, y_dot);
@@ -49,7 +49,8 @@ Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
     ode.absolute_tolerance.resize(model.layout().size());
     for (const auto& block : model.layout().blocks())
         std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
-                    block.components * model.layout().particles(), atol * block.scale);
+                    block.components * model.layout().particles(),
+                    options.absolute_tolerance(field_name(block.field), block.scale));
     return ode;
 }
 
@@ -67,7 +68,7 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
     std::copy(one.y0.begin(), one.y0.end(), y_.span().begin());
     record_.label = one.label;
     record_.statistics.particles = one.model.particles().size();
-    ode_ = as_ode(one.model, options.atol, record_.statistics.pair_interactions);
+    ode_ = as_ode(one.model, options, record_.statistics.pair_interactions);
     integrator_ = make_integrator(options, ode_, y_, 0.0, context_);
     if (folder != nullptr) events_ = *folder / "events.csv";
 }
@@ -171,6 +172,24 @@ void Run<Dim>::watch(double t, const Watchers& watchers) {
 }
 
 template <int Dim>
+std::string Run<Dim>::limiting() const {
+    const auto block = statistics().limiting;
+    return block && *block < ode_.blocks.size() ? ode_.blocks[*block].name : std::string{};
+}
+
+/// Nothing for fixed steps.
+template <int Dim>
+std::vector<RunStatistics::Limit> Run<Dim>::limits() const {
+    std::vector<RunStatistics::Limit> limits;
+    const auto& s = statistics();
+    if (std::all_of(s.limited_by.begin(), s.limited_by.end(), [](auto n) { return n == 0; }))
+        return limits;
+    for (std::size_t b = 0; b < std::min(ode_.blocks.size(), s.limited_by.size()); ++b)
+        limits.push_back({ode_.blocks[b].name, s.limited_by[b], s.error_share[b]});
+    return limits;
+}
+
+template <int Dim>
 void Run<Dim>::complete() {
     RunStatistics& s = record_.statistics;
     s.t_end = integrator_->t();
@@ -178,6 +197,7 @@ void Run<Dim>::complete() {
     s.rejected_steps = statistics().rejected_steps;
     s.rhs_evaluations = statistics().rhs_evaluations;
     s.events = statistics().events;
+    s.limited_by = limits();
     s.wall_seconds = seconds();
     record_.history = recorder_.history();
     record_.drifts = drifts();
@@ -237,9 +257,9 @@ RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
 template class Run<1>;
 template class Run<2>;
 template class Run<3>;
-template Ode as_ode(Model<1>&, double, std::size_t&);
-template Ode as_ode(Model<2>&, double, std::size_t&);
-template Ode as_ode(Model<3>&, double, std::size_t&);
+template Ode as_ode(Model<1>&, const IntegratorOptions&, std::size_t&);
+template Ode as_ode(Model<2>&, const IntegratorOptions&, std::size_t&);
+template Ode as_ode(Model<3>&, const IntegratorOptions&, std::size_t&);
 template RunRecord run_in_memory(Case<1>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<2>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<3>, const IntegratorOptions&);

@@ -14,7 +14,7 @@ namespace spam {
 
 /// What integrators see of a model. `pair_interactions` counts.
 template <int Dim>
-Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions);
+Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pair_interactions);
 
 /// One case on its way: rows, remarks, statistics. What else is to be done at snapshots and steps comes
 /// from outside.
@@ -43,6 +43,8 @@ class Run {
 
     std::span<double> y() { return y_.span(); }
     const Integrator::Statistics& statistics() const { return integrator_->statistics(); }
+    /// The field that kept the latest step short; empty where none did.
+    std::string limiting() const;
     double seconds() const;
     std::vector<Drift> drifts() const { return recorder_.drifts(promise_limit_); }
     /// Complete after drive().
@@ -56,6 +58,7 @@ class Run {
     void remember_motion(Archive& archive);
     void remember_records(Archive& archive);
     void rewrite_events();
+    std::vector<RunStatistics::Limit> limits() const;
     void complete();
 
     Case<Dim>& one_;

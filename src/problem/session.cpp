@@ -115,6 +115,7 @@ void Session::report(const RunRecord& record) {
     const RunStatistics& s = record.statistics;
     terminal_.say(fmt::format("{} steps, {} rejected, {} right-hand sides, {:.2f} s", s.steps,
                               s.rejected_steps, s.rhs_evaluations, s.wall_seconds));
+    if (!s.limited_by.empty()) terminal_.say(fmt::format("limited by  {}", s.limits_in_words()));
 }
 
 /// Completes the results and decides the exit status.
@@ -127,15 +128,7 @@ int Session::finish() {
                 .count();
     if (statistics_.size() > 1 || !std::filesystem::exists(*folder_ / "statistics.json")) {
         RunStatistics total = statistics_.front();
-        for (std::size_t k = 1; k < statistics_.size(); ++k) {
-            total.steps += statistics_[k].steps;
-            total.rejected_steps += statistics_[k].rejected_steps;
-            total.rhs_evaluations += statistics_[k].rhs_evaluations;
-            total.events += statistics_[k].events;
-            total.wall_seconds += statistics_[k].wall_seconds;
-            total.pair_interactions += statistics_[k].pair_interactions;
-            if (total.stopped.empty()) total.stopped = statistics_[k].stopped;
-        }
+        for (std::size_t k = 1; k < statistics_.size(); ++k) total.add(statistics_[k]);
         write_statistics(*folder_, total);
     }
     const int signal = InterruptWatch::received();

@@ -92,8 +92,9 @@ void Session::describe(const Case<Dim>& one) {
     if (integrator_.adaptive()) {
         std::string tolerances;
         for (const auto& block : one.model.layout().blocks())
-            tolerances += fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ",
-                                      field_name(block.field), integrator_.atol * block.scale);
+            tolerances +=
+                fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", field_name(block.field),
+                            integrator_.absolute_tolerance(field_name(block.field), block.scale));
         terminal_.say(fmt::format("atol        {}", tolerances));
     }
 }
@@ -108,11 +109,11 @@ RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan
 template <int Dim>
 std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (auto& one : cases) settle_plan(one.plan);
-    {  // Finds out about tables and tolerances before anything is written.
+    for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
         const SundialsContext context;
-        Vector y(cases.front().y0.size(), context);
+        Vector y(one.y0.size(), context);
         std::size_t unused = 0;
-        const Ode ode = as_ode(cases.front().model, integrator_.atol, unused);
+        const Ode ode = as_ode(one.model, integrator_, unused);
         make_integrator(integrator_, ode, y, 0.0, context);
     }
     check_restart(cases);
@@ -184,11 +185,13 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
                 drifts +=
                     fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
         const auto& s = run.statistics();
+        const std::string limiting = run.limiting();
         terminal_.progress(
             fraction,
-            fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}", 100.0 * fraction,
-                        t, duration(run.seconds() * (1.0 / fraction - 1.0)), drifts, s.last_step,
-                        s.rejected_steps));
+            fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}{}",
+                        100.0 * fraction, t, duration(run.seconds() * (1.0 / fraction - 1.0)),
+                        drifts, s.last_step, s.rejected_steps,
+                        limiting.empty() ? "" : "  limit " + limiting));
     };
     watchers.remark = [this](double t, const Remark& remark) {
         terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));

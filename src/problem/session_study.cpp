@@ -59,15 +59,10 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
 }
 
 RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {
-    const std::vector<std::string> of_runs{"t-end",
-                                           "output-every",
-                                           "snapshot-every",
-                                           "checkpoint-every",
-                                           "restart",
-                                           "integrator",
-                                           "dt",
-                                           "rtol",
-                                           "atol"};
+    std::vector<std::string> of_runs{"t-end", "output-every", "snapshot-every", "checkpoint-every",
+                                     "restart"};
+    of_runs.insert(of_runs.end(), IntegratorSettings::names().begin(),
+                   IntegratorSettings::names().end());
     if (const auto name = problem_.options_.first_given(of_runs); !name.empty())
         throw InputError(
             fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));

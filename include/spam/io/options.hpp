@@ -37,6 +37,7 @@ class Options {
     void number(std::string name, double& target, std::string help, Allowed allowed);
     void number(std::string name, std::optional<double>& target, std::string help, Allowed allowed);
     void integer(std::string name, int& target, std::string help, Allowed allowed);
+    void integer(std::string name, std::optional<int>& target, std::string help, Allowed allowed);
     void text(std::string name, std::string& target, std::string help);
     void flag(std::string name, bool& target, std::string help);
     void choice(std::string name, std::vector<std::string> names, std::string help,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/integrate/integrator.hpp>
 #include <spam/io/options.hpp>
 #include <spam/physics/scheme.hpp>
+#include <spam/problem/integrator_settings.hpp>
 
 #include <functional>
 #include <memory>
@@ -49,18 +49,15 @@ class Problem {
     std::string recall_case(const std::string& name);
     void settle_restart();
     std::vector<std::string> idle_scheme_options();
-    IntegratorOptions resolve_integrator();
 
     std::string name_, summary_;
-    double default_dt_;
+    IntegratorSettings integrator_;
     Options options_;
     CommonOptions common_;
     Scheme scheme_;
     std::unique_ptr<const SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;
     bool in_place_ = false;  ///< its results are those of the checkpoint
-    std::string method_ = "rk4";
-    std::optional<double> dt_, rtol_, atol_;
 };
 
 }  // namespace spam
