@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "option_entry.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
-#include <spam/io/options.hpp>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -33,20 +31,6 @@ Allowed between(double least, double most) {
     return {[=](double x) { return x >= least && x <= most; },
             fmt::format("between {:g} and {:g}", least, most)};
 }
-
-/// One option. Values travel as text: what the command line holds, and what a TOML value prints as.
-struct Options::Entry {
-    std::string name, help, group, type;
-    std::string allowed;                          ///< completes "must be ..."
-    std::function<void(const std::string&)> set;  ///< throws InputError
-    std::function<std::string()> get;             ///< as a TOML value, empty when unset
-    bool is_flag = false;
-    bool is_text = false;  ///< TOML must give a string
-    bool in_case = true;
-    bool in_file = false;         ///< set by the file of --config
-    bool on_command = false;      ///< set on the command line
-    std::function<void()> unset;  ///< back to unset, where that exists
-};
 
 namespace {
 
@@ -194,63 +178,6 @@ std::vector<std::string> Options::names() const {
     std::vector<std::string> result;
     for (const auto& entry : entries_) result.push_back(entry->name);
     return result;
-}
-
-bool Options::parse(int argc, const char* const* argv) {
-    CLI::App app(summary_, program_);
-    app.allow_extras();
-    app.set_help_flag("--help,-h", "print this help and exit");
-    std::vector<std::string> raw(entries_.size());
-    std::vector<CLI::Option*> registered;
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        const Entry& entry = *entries_[k];
-        CLI::Option* option = nullptr;
-        if (entry.is_flag) {
-            option = app.add_flag("--" + entry.name, entry.help);
-        } else {
-            std::string help = entry.help;
-            const std::string standard = entry.get();
-            if (!standard.empty()) help += fmt::format(" [{}]", standard);
-            option = app.add_option("--" + entry.name, raw[k], help)->type_name(entry.type);
-        }
-        registered.push_back(option->group(entry.group));
-    }
-    const auto* config =
-        app.add_option("--config", config_, "read options from a TOML file")->type_name("FILE");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(app.help().c_str(), stdout);
-        return false;
-    } catch (const CLI::ParseError& error) {
-        std::string message = error.what();
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError(message + "; see --help");
-    }
-    if (!app.remaining().empty()) {
-        const std::string word = app.remaining().front();
-        const std::string bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
-        auto known = names();
-        known.emplace_back("config");
-        throw InputError(fmt::format("unknown option '{}'{} See --help", word,
-                                     suggestion(bare.substr(0, bare.find('=')), known, "--")));
-    }
-    const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
-        if (value.starts_with("--"))
-            throw InputError(
-                fmt::format("{}: '{}' is an option, not a value; the value of --{} is "
-                            "missing",
-                            name, value, name));
-    };
-    refuse_option_as_value("config", config_);
-    if (config->count() > 0) read_config(config_);
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        if (registered[k]->count() == 0) continue;
-        refuse_option_as_value(entries_[k]->name, raw[k]);
-        entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
-        entries_[k]->on_command = true;
-    }
-    return true;
 }
 
 void Options::read_config(const std::string& path) {

@@ -30,6 +30,7 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
       default_dt_(default_dt),
       options_(name_, summary_) {
     common_.out = name_ + "-out";
+    options_.version(fmt::format("{}: spam {}, SUNDIALS {}", name_, version(), sundials_version()));
     options_.group("Running");
     options_.text("out", common_.out, "result folder");
     options_.flag("force", common_.force, "move an existing result folder aside");

@@ -30,6 +30,8 @@ class Options {
     ~Options();
     Options(Options&&) noexcept;
 
+    /// What --version prints.
+    void version(std::string text) { version_ = std::move(text); }
     /// Heading under which the options added next appear in --help.
     void group(std::string title);
 
@@ -61,8 +63,8 @@ class Options {
     /// the case that is written back. Applies to options already added.
     void exclude_from_case(const std::vector<std::string>& names);
 
-    /// Reads the command line and, if --config was given, its file. Returns false when help was
-    /// asked for (and printed).
+    /// Reads the command line and, if --config was given, its file. Returns false when help or
+    /// the version was asked for (and printed).
     bool parse(int argc, const char* const* argv);
 
     /// Where one of `names` was given on the command line, `over` from the file no longer count: a
@@ -82,12 +84,11 @@ class Options {
 
   private:
     struct Entry;
-    struct Parser;
     Entry& add(std::string name, std::string help);
     void read_config(const std::string& path);
     std::vector<std::string> names() const;
 
-    std::string program_, summary_, group_;
+    std::string program_, summary_, version_, group_;
     std::string config_;
     std::vector<std::unique_ptr<Entry>> entries_;
 };
