@@ -26,6 +26,7 @@
 // transverse one). --compare-sizes runs half, once and twice as many cells at the same strain
 // (amplitude 0.01 for 24 cells, unless given) and fits the order at which the error falls to that of
 // long waves (0.8 %: sums for integrals).
+#include "plane_wave/input.hpp"
 #include <spam/diagnostics/block_rotation.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/lattice_modes.hpp>
@@ -44,15 +45,8 @@
 namespace {
 
 using namespace spam;
+using namespace plane_wave;
 using std::numbers::pi;
-
-struct Parameters {
-    Polarization polarization = Polarization::transverse;
-    int cells = 24;
-    double amplitude = 0.25;
-    double block = 3.0;  // d
-    bool compare_sizes = false;
-};
 
 struct Ringing : StandingWave {
     std::string label{}, prefix{};
@@ -201,8 +195,7 @@ void report_turning(Session& session, const Parameters& p, const Ringing& one,
     // The formulas expand in the sizes of the block and of the range over that of the wave (at 1.5 for
     // the range they are off by 12 %); a range below 2.5 has too few neighbours for integrals.
     const double range = one.solid.model->scheme().range, k = one.wave.k;
-    const bool long_wave =
-        p.block * k < 1.2 && p.block >= 2.0 && range * k < 1.22 && range >= 2.5;
+    const bool long_wave = p.block * k < 1.2 && p.block >= 2.0 && range * k < 1.22 && range >= 2.5;
     const auto claim = [&](const char* name, double value, double expected, const char* source) {
         if (!long_wave) return measured(name, value);
         session.check({one.prefix + name, value, expected, 0.1 * std::abs(expected), source});
@@ -299,34 +292,6 @@ void compare_sizes(Session& session, const std::vector<Ringing>& all,
     if (session.plots() && !panel.curves.empty())
         session.note_drawn(
             draw_curves(session.plots_folder(), "sizes", "Waves of three lengths", {panel}));
-}
-
-/// Blocks are of the transverse wave, and a part of one bulge of it.
-void refuse_blocks(Session& session, const Parameters& p, bool single) {
-    const bool none = single && p.polarization == Polarization::longitudinal;
-    if (p.compare_sizes || none) {
-        if (session.given("block"))
-            throw InputError(fmt::format(
-                "block: has no meaning with --{}, where no turning is measured; leave it out",
-                none ? "polarization longitudinal" : "compare-sizes"));
-        session.leave_out_of_case({"block"});
-        return;
-    }
-    const double half = 0.5 * p.cells * std::sqrt(0.75);
-    if (p.block > half)
-        throw InputError(fmt::format(
-            "block: {} must be at most half a wave, {:.4g} for --cells {}; choose a smaller one",
-            p.block, half, p.cells));
-}
-
-/// Three zeros of the velocity make a period: the last at 3/2 of it.
-void refuse_too_short(const Parameters& p, double t_end, double longest) {
-    const double least = 1.6 * longest;
-    if (p.compare_sizes && t_end < least)
-        throw InputError(fmt::format(
-            "t-end: {:g} is too short to measure the period {:.4g} of the longest wave that "
-            "--compare-sizes needs; the least is {:.4g}",
-            t_end, longest, least));
 }
 
 }  // namespace

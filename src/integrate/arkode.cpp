@@ -5,6 +5,7 @@
 
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
+#include <spam/integrate/interrupt.hpp>
 
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_butcher_erk.h>
@@ -140,6 +141,7 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     ++me.statistics_.rhs_evaluations;
     try {
         me.ode_.rates(t, entries(y), entries(y_dot));
+        if (me.spoiled_.empty()) me.spoiled_ = me.spoiled_rate(entries(y_dot), t);
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
         // ends here, before later stages cover the first reason by their own.
         return me.dt_ && !me.ode_.failure().empty() ? -1 : 0;
@@ -160,6 +162,8 @@ void Arkode::stop(int flag) const {
     std::replace(message.begin(), message.end(), '\n', ' ');
     if (!reason.empty())
         message = reason;
+    else if (!spoiled_.empty())
+        throw GuardStop(fmt::format("{} (ARKODE {})", spoiled_, flag));
     else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE)
         message = fmt::format(
             "the error test failed again and again, the step fell to {:.3g}, "
@@ -171,9 +175,11 @@ void Arkode::stop(int flag) const {
 /// One step of ARKODE from the last accepted state, into y. Returns the time it reached.
 double Arkode::evolve(double t_stop) {
     double reached = t_;
+    spoiled_.clear();
     const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);
+        if (!spoiled_.empty() && dt_) throw GuardStop(spoiled_);
         guard(y_.span(), reached);
     } catch (const GuardStop&) {
         N_VScale(1.0, accepted_.get(), y_.get());
@@ -225,7 +231,10 @@ void Arkode::take_piece(double h, double t_next) {
 double Arkode::step(double t_stop) {
     if (dt_) {
         const FixedGrid::Step next = grid_.next(t_, t_stop);
-        for (double h = next.length; t_ < next.to; h = next.to - t_) take_piece(h, next.to);
+        for (double h = next.length; t_ < next.to; h = next.to - t_) {
+            take_piece(h, next.to);
+            if (t_ < next.to && InterruptWatch::received() != 0) return t_;
+        }
         grid_.arrive(next);
         statistics_.last_step = next.length;
     } else {

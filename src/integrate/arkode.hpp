@@ -45,6 +45,7 @@ class Arkode final : public Integrator {
     const Calls* calls_ = nullptr;
     void* memory_ = nullptr;
     std::string message_;
+    std::string spoiled_;  ///< the first rate of this step that was not finite
     std::exception_ptr error_;
 };
 

@@ -55,13 +55,13 @@ int drive(Integrator& integrator, const Schedule& schedule, const Observers& obs
             if (row && observers.enough && observers.enough(t)) break;
             if (row && observers.revise && observers.revise(t)) integrator.reset(t);
         }
+        output(integrator.t());
+        snapshot(integrator.t());
     } catch (const GuardStop&) {
         output(integrator.t());
         snapshot(integrator.t());
         throw;
     }
-    output(integrator.t());
-    snapshot(integrator.t());
     return InterruptWatch::received();
 }
 

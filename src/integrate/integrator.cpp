@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -14,6 +15,18 @@ void require_positive(const char* option, double value, const char* fix) {
     if (!(value > 0.0) || !std::isfinite(value))
         throw InputError(fmt::format("{}: {} is not a positive number; {}", option, value, fix));
 }
+
+/// z.size() where all are finite.
+std::size_t first_not_finite(std::span<const double> z) {
+    // One pass without branches: a NaN or an infinity survives in the sum of x - x.
+    double spoiled = 0.0;
+    for (const double x : z) spoiled += x - x;
+    if (spoiled == 0.0) return z.size();
+    const auto bad = std::find_if(z.begin(), z.end(), [](double x) { return !std::isfinite(x); });
+    return static_cast<std::size_t>(bad - z.begin());
+}
+
+const char* what_it_is(double x) { return std::isnan(x) ? "nan" : "infinite"; }
 
 }  // namespace
 
@@ -42,15 +55,17 @@ std::string IntegratorOptions::describe() const {
 }
 
 void Integrator::guard(std::span<const double> z, double t) const {
-    // One pass without branches: a NaN or an infinity survives in the sum of x - x.
-    double spoiled = 0.0;
-    for (const double x : z) spoiled += x - x;
-    if (spoiled == 0.0) return;
-    for (std::size_t k = 0; k < z.size(); ++k) {
-        if (std::isfinite(z[k])) continue;
-        throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
-                                    ode_.entry_name(k), std::isnan(z[k]) ? "nan" : "infinite", t));
-    }
+    const std::size_t k = first_not_finite(z);
+    if (k == z.size()) return;
+    throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
+                                ode_.entry_name(k), what_it_is(z[k]), t));
+}
+
+std::string Integrator::spoiled_rate(std::span<const double> y_dot, double t) const {
+    const std::size_t k = first_not_finite(y_dot);
+    if (k == y_dot.size()) return {};
+    return fmt::format("the rate of {} became {} at t = {:.6g}; a smaller step may help",
+                       ode_.entry_name(k), what_it_is(y_dot[k]), t);
 }
 
 void Integrator::remember(Archive& archive) {

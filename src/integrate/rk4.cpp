@@ -2,6 +2,7 @@
 #include "rk4.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/integrate/interrupt.hpp>
 
 #include <fmt/format.h>
 
@@ -36,7 +37,15 @@ std::span<const double> Rk4::advance(double h) {
     std::array<double, 5> c{1.0, h / 6.0, h / 3.0, h / 3.0, h / 6.0};
     std::array<N_Vector, 5> v{y_.get(), k_[0].get(), k_[1].get(), k_[2].get(), k_[3].get()};
     N_VLinearCombination(5, c.data(), v.data(), z_.get());
-    guard(z_.span(), t_ + h);
+    try {
+        guard(z_.span(), t_ + h);
+    } catch (const GuardStop&) {
+        const std::array<double, 4> times{t_, t_ + 0.5 * h, t_ + 0.5 * h, t_ + h};
+        for (std::size_t k = 0; k < k_.size(); ++k)
+            if (const auto reason = spoiled_rate(k_[k].span(), times[k]); !reason.empty())
+                throw GuardStop(reason);
+        throw;
+    }
     return z_.span();
 }
 
@@ -52,12 +61,14 @@ void Rk4::take_pieces(double h, double t_next) {
         t_ = length == h ? t_next : std::min(t_ + length, t_next);
         if (due) statistics_.events += watch_.apply(t_, y_.span());
         h = t_next - t_;
+        if (due && InterruptWatch::received() != 0) return;
     }
 }
 
 double Rk4::step(double t_stop) {
     const FixedGrid::Step next = grid_.next(t_, t_stop);
     take_pieces(next.length, next.to);
+    if (t_ < next.to) return t_;  // interrupted
     grid_.arrive(next);
     ++statistics_.steps;
     statistics_.last_step = next.length;

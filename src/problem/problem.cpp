@@ -54,7 +54,40 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
     options_.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
     options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
                     positive());
+    add_guard_options();
     options_.group("Problem");
+}
+
+void Problem::add_guard_options() {
+    auto& guard = common_.guard;
+    options_.group("Guard");
+    options_.choice<DriftAction>("guard", guard.action,
+                                 {DriftAction::off, DriftAction::warn, DriftAction::stop},
+                                 "what to do when an invariant changes by more than its limit");
+    const auto limit = [&](const char* name, std::optional<double>& target) {
+        options_.number(std::string("limit-") + name, target,
+                        "relative change at which it acts (what the scheme promises)", positive());
+    };
+    limit("mass", guard.mass);
+    limit("momentum", guard.momentum);
+    limit("angular-momentum", guard.angular_momentum);
+    limit("energy", guard.energy);
+}
+
+const std::vector<std::string>& Problem::guard_option_names() {
+    static const std::vector<std::string> names{"guard", "limit-mass", "limit-momentum",
+                                                "limit-angular-momentum", "limit-energy"};
+    return names;
+}
+
+void Problem::refuse_idle_limits() {
+    const auto& all = guard_option_names();
+    const std::vector<std::string> limits(all.begin() + 1, all.end());
+    options_.command_line_wins({"guard"}, limits);
+    if (common_.guard.action != DriftAction::off) return;
+    if (const auto name = options_.first_given(limits); !name.empty())
+        throw InputError(
+            fmt::format("{}: has no meaning with --guard off; use --guard warn or stop", name));
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
@@ -160,6 +193,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         if (!options_.parse(argc, argv)) return 0;
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const auto idle = idle_scheme_options();
+        refuse_idle_limits();
         const IntegratorOptions integrator = resolve_integrator();
         set_threads(common_.threads);
         Session session(*this, integrator, command);

@@ -63,6 +63,7 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
       promise_limit_(promise_limit(options)),
       y_(one.y0.size(), context_),
       recorder_(one.model, one.plan, folder),
+      guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
     std::copy(one.y0.begin(), one.y0.end(), y_.span().begin());
     record_.label = one.label;
@@ -100,6 +101,18 @@ void Run<Dim>::watch(double t, const Watchers& watchers) {
     }
 }
 
+/// After a row: has an invariant left its limit?
+template <int Dim>
+void Run<Dim>::guard(double t, const Watchers& watchers) {
+    if (guard_.action() == DriftAction::off) return;
+    for (const auto& beyond : guard_.look(drifts())) {
+        remember(t, {beyond.name + " beyond its limit", beyond.change});
+        const std::string text = fmt::format("{} at t = {:.6g}", beyond.describe(), t);
+        if (guard_.action() == DriftAction::stop) throw GuardStop(text);
+        if (watchers.warning) watchers.warning(t, text);
+    }
+}
+
 template <int Dim>
 void Run<Dim>::complete() {
     RunStatistics& s = record_.statistics;
@@ -118,7 +131,10 @@ template <int Dim>
 std::string Run<Dim>::drive(const Watchers& watchers) {
     const Plan<Dim>& plan = one_.plan;
     Observers observers;
-    observers.output = [&](double t) { recorder_.add(t, statistics().last_step, y_.span()); };
+    observers.output = [&](double t) {
+        recorder_.add(t, statistics().last_step, y_.span());
+        guard(t, watchers);
+    };
     observers.snapshot = [&](double t) {
         if (watchers.snapshot) watchers.snapshot(t);
         if (plan.on_snapshot) plan.on_snapshot(t, one_.model, y_.span());

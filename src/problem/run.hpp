@@ -26,6 +26,7 @@ class Run {
     struct Watchers {
         std::function<void(double t)> snapshot, step;
         std::function<void(double t, const Remark&)> remark;
+        std::function<void(double t, const std::string& text)> warning;
     };
     /// To the end, a signal, or a guard; only OutputError is thrown, with record() up to date.
     /// Returns why a guard stopped the run, else nothing.
@@ -41,6 +42,7 @@ class Run {
   private:
     void remember(double t, const Remark& remark);
     void watch(double t, const Watchers& watchers);
+    void guard(double t, const Watchers& watchers);
     void complete();
 
     Case<Dim>& one_;
@@ -51,6 +53,7 @@ class Run {
     Ode ode_;
     std::unique_ptr<Integrator> integrator_;
     Recorder<Dim> recorder_;
+    DriftGuard guard_;
     std::optional<std::filesystem::path> events_;
     std::chrono::steady_clock::time_point start_;
 };

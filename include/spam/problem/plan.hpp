@@ -3,6 +3,7 @@
 
 #include <spam/diagnostics/drift.hpp>
 #include <spam/io/results.hpp>
+#include <spam/problem/drift_guard.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <functional>
@@ -24,6 +25,8 @@ struct Plan {
     double output_every = 0.0;
     double snapshot_every = 0.0;
     std::vector<Column<Dim>> columns{};
+    /// Looked at after every row. Off unless the session's options say otherwise.
+    DriftLimits guard{};
     /// Called with every snapshot; may be empty.
     std::function<void(double t, const Model<Dim>& model, std::span<const double> y)> on_snapshot{};
     /// After every row: may change the state or the model's bodies, and returns whether it did. May be

@@ -4,6 +4,7 @@
 #include <spam/integrate/integrator.hpp>
 #include <spam/io/options.hpp>
 #include <spam/physics/scheme.hpp>
+#include <spam/problem/drift_guard.hpp>
 
 #include <functional>
 #include <string>
@@ -19,6 +20,7 @@ struct CommonOptions {
     bool force = false, dry_run = false, smoke = false, quiet = false, no_plots = false;
     int threads = 1;
     std::optional<double> t_end, output_every, snapshot_every;
+    DriftLimits guard{DriftAction::warn, {}, {}, {}, {}};
 };
 
 /// A problem executable: its options, and the exit status contract around its body.
@@ -35,13 +37,16 @@ class Problem {
     /// Adds the scheme and kernel options; `standard` holds their defaults.
     void use_scheme(const Scheme& standard = {});
     static const std::vector<std::string>& scheme_option_names();
+    static const std::vector<std::string>& guard_option_names();
 
     /// Parses, runs `body`, completes the results. Returns the exit status.
     int main(int argc, char** argv, const std::function<void(Session&)>& body);
 
   private:
     friend class Session;
+    void add_guard_options();
     std::vector<std::string> idle_scheme_options();
+    void refuse_idle_limits();
     IntegratorOptions resolve_integrator();
 
     std::string name_, summary_;
