@@ -13,6 +13,14 @@ namespace spam {
 
 void History::add(std::vector<double> row) {
     assert(row.size() == names_.size());
+    if (rows_.empty())
+        for (const double value : row) extents_.push_back({value, std::abs(value - value)});
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        Extent& extent = extents_[k];
+        if (extent.largest < row[k]) extent.largest = row[k];
+        const double change = rows_.empty() ? 0.0 : std::abs(row[k] - rows_.front()[k]);
+        if (!(change <= extent.change) && !std::isnan(extent.change)) extent.change = change;
+    }
     rows_.push_back(std::move(row));
 }
 
@@ -47,10 +55,7 @@ std::vector<double> History::column(std::string_view name) const {
 double History::first(std::string_view name) const { return rows_.front()[index(name)]; }
 double History::last(std::string_view name) const { return rows_.back()[index(name)]; }
 
-double History::largest(std::string_view name) const {
-    const auto values = column(name);
-    return *std::max_element(values.begin(), values.end());
-}
+double History::largest(std::string_view name) const { return extents_[index(name)].largest; }
 
 double History::smallest(std::string_view name) const {
     const auto values = column(name);
@@ -61,15 +66,8 @@ double History::relative_drift(std::string_view name) const {
     return std::abs(last(name) - first(name)) / std::abs(first(name));
 }
 
-double History::largest_change(std::string_view name) const {
-    double change = 0.0;
-    for (const double value : column(name)) {
-        const double here = std::abs(value - first(name));
-        if (!(here <= change)) change = here;  // NaN stays
-        if (std::isnan(change)) break;
-    }
-    return change;
-}
+/// NaN where there was one.
+double History::largest_change(std::string_view name) const { return extents_[index(name)].change; }
 
 double History::at(double t, std::string_view name) const {
     const std::size_t k = index(name);

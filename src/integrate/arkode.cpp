@@ -4,6 +4,7 @@
 
 #include "arkode_tables.hpp"
 #include <spam/core/error.hpp>
+#include <spam/integrate/interrupt.hpp>
 
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
@@ -130,6 +131,7 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     ++me.statistics_.rhs_evaluations;
     try {
         me.ode_.rates(t, entries(y), entries(y_dot));
+        if (me.spoiled_.empty()) me.spoiled_ = me.spoiled_rate(entries(y_dot), t);
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
         // ends here, before later stages cover the first reason by their own.
         std::string failure = me.ode_.failure();
@@ -144,6 +146,8 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
 
 void Arkode::stop(int flag) {
     if (error_) std::rethrow_exception(error_);
+    if (failure_.empty() && !spoiled_.empty())
+        throw GuardStop(fmt::format("{} (ARKODE {})", spoiled_, flag));
     std::string message = failure_.empty() ? messages_.text() : failure_;
     std::replace(message.begin(), message.end(), '\n', ' ');
     if (flag == ARK_ERR_FAILURE && failure_.empty()) {
@@ -168,9 +172,11 @@ double Arkode::evolve(double t_stop) {
     double reached = t_;
     const SundialsMessages::Scope scope(context_, messages_);
     failure_.clear();
+    spoiled_.clear();
     const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);
+        if (!spoiled_.empty() && dt_) throw GuardStop(spoiled_);
         guard(y_.span(), reached);
     } catch (const GuardStop&) {
         N_VScale(1.0, accepted_.get(), y_.get());
@@ -226,7 +232,10 @@ void Arkode::take_piece(double h, double t_next) {
 double Arkode::take_step(double t_stop) {
     if (dt_) {
         const FixedGrid::Step next = grid_.next(t_, t_stop);
-        for (double h = next.length; t_ < next.to; h = next.to - t_) take_piece(h, next.to);
+        for (double h = next.length; t_ < next.to; h = next.to - t_) {
+            take_piece(h, next.to);
+            if (t_ < next.to && InterruptWatch::received() != 0) return t_;
+        }
         grid_.arrive(next);
         statistics_.last_step = next.length;
     } else {

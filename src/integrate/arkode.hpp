@@ -54,6 +54,7 @@ class Arkode final : public Integrator {
     void* memory_ = nullptr;
     SundialsMessages messages_;
     std::string failure_;  ///< of the ode, the latest since the last accepted step
+    std::string spoiled_;  ///< the first rate of this step that was not finite
     std::exception_ptr error_;
 };
 

@@ -90,11 +90,11 @@ int drive(Integrator& integrator, const Schedule& schedule, const Observers& obs
             if (row && observers.revise && observers.revise(t)) integrator.reset(t);
             if (stops.checkpoint.reached(t, stops.slack)) checkpoint(t);
         }
+        finish(integrator.t());
     } catch (const GuardStop&) {
         finish(integrator.t());
         throw;
     }
-    finish(integrator.t());
     return InterruptWatch::received();
 }
 

@@ -2,6 +2,7 @@
 #include "fixed_steps.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/integrate/interrupt.hpp>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,12 @@ void FixedSteps::rates(double t, const Vector& at, Vector& y_dot) {
 
 std::span<const double> FixedSteps::guarded(double h) {
     advance(h);
-    guard(z_.span(), t_ + h);
+    try {
+        guard(z_.span(), t_ + h);
+    } catch (const GuardStop&) {
+        if (const std::string reason = spoiled(h); !reason.empty()) throw GuardStop(reason);
+        throw;
+    }
     return z_.span();
 }
 
@@ -47,12 +53,14 @@ void FixedSteps::take_pieces(double h, double t_next) {
             forget();
         }
         h = t_next - t_;
+        if (due && InterruptWatch::received() != 0) return;
     }
 }
 
 double FixedSteps::take_step(double t_stop) {
     const FixedGrid::Step next = grid_.next(t_, t_stop);
     take_pieces(next.length, next.to);
+    if (t_ < next.to) return t_;  // interrupted
     grid_.arrive(next);
     ++statistics_.steps;
     statistics_.last_step = next.length;

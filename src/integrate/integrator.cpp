@@ -4,9 +4,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
+namespace {
+
+/// z.size() where all are finite.
+std::size_t first_not_finite(std::span<const double> z) {
+    // Without branches: a NaN or an infinity survives in the sum of x - x. In many sums, or each
+    // addition would wait for the one before.
+    constexpr std::size_t sums = 16;
+    double spoiled[sums] = {};
+    std::size_t k = 0;
+    for (; k + sums <= z.size(); k += sums)
+        for (std::size_t l = 0; l < sums; ++l) spoiled[l] += z[k + l] - z[k + l];
+    for (; k < z.size(); ++k) spoiled[0] += z[k] - z[k];
+    if (std::all_of(spoiled, spoiled + sums, [](double s) { return s == 0.0; })) return z.size();
+    const auto bad = std::find_if(z.begin(), z.end(), [](double x) { return !std::isfinite(x); });
+    return static_cast<std::size_t>(bad - z.begin());
+}
+
+const char* what_it_is(double x) { return std::isnan(x) ? "nan" : "infinite"; }
+
+}  // namespace
 
 double Integrator::step(double t_stop) {
     if (most_steps_ && statistics_.steps >= *most_steps_)
@@ -18,15 +39,17 @@ double Integrator::step(double t_stop) {
 }
 
 void Integrator::guard(std::span<const double> z, double t) const {
-    // One pass without branches: a NaN or an infinity survives in the sum of x - x.
-    double spoiled = 0.0;
-    for (const double x : z) spoiled += x - x;
-    if (spoiled == 0.0) return;
-    for (std::size_t k = 0; k < z.size(); ++k) {
-        if (std::isfinite(z[k])) continue;
-        throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
-                                    ode_.entry_name(k), std::isnan(z[k]) ? "nan" : "infinite", t));
-    }
+    const std::size_t k = first_not_finite(z);
+    if (k == z.size()) return;
+    throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
+                                ode_.entry_name(k), what_it_is(z[k]), t));
+}
+
+std::string Integrator::spoiled_rate(std::span<const double> y_dot, double t) const {
+    const std::size_t k = first_not_finite(y_dot);
+    if (k == y_dot.size()) return {};
+    return fmt::format("the rate of {} became {} at t = {:.6g}; a smaller step may help",
+                       ode_.entry_name(k), what_it_is(y_dot[k]), t);
 }
 
 void Integrator::remember(Archive& archive) {

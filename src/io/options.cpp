@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options_entry.hpp"
+#include "option_entry.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -170,66 +168,6 @@ std::vector<std::string> Options::names() const {
     std::vector<std::string> result;
     for (const auto& entry : entries_) result.push_back(entry->name);
     return result;
-}
-
-bool Options::parse(int argc, const char* const* argv) {
-    CLI::App app(summary_, program_);
-    app.allow_extras();
-    app.set_help_flag("--help,-h", "print this help and exit");
-    std::vector<std::string> raw(entries_.size());
-    std::vector<CLI::Option*> registered;
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        const Entry& entry = *entries_[k];
-        CLI::Option* option = nullptr;
-        if (entry.is_flag) {
-            option = app.add_flag("--" + entry.name, entry.help);
-        } else {
-            std::string help = entry.help;
-            const std::string standard = entry.get();
-            if (!standard.empty()) help += fmt::format(" [{}]", standard);
-            option = app.add_option("--" + entry.name, raw[k], help)->type_name(entry.type);
-        }
-        registered.push_back(option->group(entry.group));
-    }
-    const auto* config =
-        app.add_option("--config", config_, "read options from a TOML file")->type_name("FILE");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(app.help().c_str(), stdout);
-        return false;
-    } catch (const CLI::ParseError& error) {
-        std::string message = error.what();
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError(message + "; see --help");
-    }
-    if (!app.remaining().empty()) {
-        const std::string word = app.remaining().front();
-        const std::string bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
-        auto known = names();
-        known.emplace_back("config");
-        throw InputError(fmt::format("unknown option '{}'{} See --help", word,
-                                     suggestion(bare.substr(0, bare.find('=')), known, "--")));
-    }
-    const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
-        if (value.starts_with("--"))
-            throw InputError(
-                fmt::format("{}: '{}' is an option, not a value; the value of --{} is "
-                            "missing",
-                            name, value, name));
-    };
-    refuse_option_as_value("config", config_);
-    if (config->count() > 0) read_config(config_);
-    const bool earlier = read_earlier_case(raw, config->count() > 0);
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        if (registered[k]->count() == 0) continue;
-        refuse_option_as_value(entries_[k]->name, raw[k]);
-        const std::string before = entries_[k]->get();
-        entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
-        if (earlier) refuse_change(*entries_[k], before);
-        entries_[k]->on_command = true;
-    }
-    return true;
 }
 
 bool Options::given(std::string_view name) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options from and to TOML: the file of --config, the case of an earlier run, case.toml.
-#include "options_entry.hpp"
+#include "option_entry.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
 

@@ -31,6 +31,7 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
       integrator_(default_dt),
       options_(name_, summary_) {
     common_.out = name_ + "-out";
+    options_.version(fmt::format("{}: spam {}, SUNDIALS {}", name_, version(), sundials_version()));
     options_.group("Running");
     options_.text("out", common_.out, "result folder");
     options_.flag("force", common_.force, "move an existing result folder aside");
@@ -58,52 +59,42 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
         "restart", [this](const std::string& file) { return recall_case(file); },
         {"t-end", "output-every", "snapshot-every", "checkpoint-every", "max-steps"});
     integrator_.add_to(options_);
+    add_guard_options();
     options_.group("Problem");
 }
 
 Problem::~Problem() = default;
 
-/// The case of a checkpoint; keeps the rest of it for the session.
-std::string Problem::recall_case(const std::string& name) {
-    std::string file = name;
-    std::error_code error;
-    if (std::filesystem::is_directory(name, error)) {
-        const auto newest = newest_checkpoint(name);
-        if (!newest)
-            throw InputError(fmt::format("restart: '{}' holds no complete checkpoint", name));
-        file = newest->string();
-    }
-    restart_file_ = file;
-    try {
-        earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("restart: {}", error.what()));
-    }
-    if (earlier_->problem != name_)
-        throw InputError(fmt::format("restart: '{}' is a checkpoint of {}, not of {}", file,
-                                     earlier_->problem, name_));
-    return earlier_->case_toml;
+void Problem::add_guard_options() {
+    auto& guard = common_.guard;
+    options_.group("Guard");
+    options_.choice<DriftAction>("guard", guard.action,
+                                 {DriftAction::off, DriftAction::warn, DriftAction::stop},
+                                 "what to do when an invariant changes by more than its limit");
+    const auto limit = [&](const char* name, std::optional<double>& target) {
+        options_.number(std::string("limit-") + name, target,
+                        "relative change at which it acts (what the scheme promises)", positive());
+    };
+    limit("mass", guard.mass);
+    limit("momentum", guard.momentum);
+    limit("angular-momentum", guard.angular_momentum);
+    limit("energy", guard.energy);
 }
 
-/// A run that is gone on with does so in the folder of its results, unless another is named.
-void Problem::settle_restart() {
-    if (!earlier_) return;
-    namespace fs = std::filesystem;
-    common_.restart = restart_file_;
-    if (common_.smoke && !earlier_->smoke)
-        throw InputError("smoke: --restart goes on with the same case, which was no smoke test");
-    common_.smoke = earlier_->smoke;
-    fs::path folder = fs::path(common_.restart).parent_path();
-    if (folder.empty()) folder = ".";
-    std::error_code error;
-    const bool results = fs::exists(folder / "run.log", error);
-    if (results && !options_.given("out")) common_.out = folder.string();
-    in_place_ = results && fs::equivalent(common_.out, folder, error) && !error;
-    if (in_place_ && common_.force)
+const std::vector<std::string>& Problem::guard_option_names() {
+    static const std::vector<std::string> names{"guard", "limit-mass", "limit-momentum",
+                                                "limit-angular-momentum", "limit-energy"};
+    return names;
+}
+
+void Problem::refuse_idle_limits() {
+    const auto& all = guard_option_names();
+    const std::vector<std::string> limits(all.begin() + 1, all.end());
+    options_.command_line_wins({"guard"}, limits);
+    if (common_.guard.action != DriftAction::off) return;
+    if (const auto name = options_.first_given(limits); !name.empty())
         throw InputError(
-            "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
-            "choose "
-            "another --out");
+            fmt::format("{}: has no meaning with --guard off; use --guard warn or stop", name));
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
@@ -180,6 +171,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const auto idle = idle_scheme_options();
+        refuse_idle_limits();
         const IntegratorOptions integrator = integrator_.resolve(options_);
         set_threads(common_.threads);
         Session session(*this, integrator, command);

@@ -57,6 +57,15 @@ class Recorder {
                               integrator_limit);
     }
 
+    /// Of the latest row against the first.
+    std::vector<Drift> latest_drifts(double integrator_limit) const {
+        History both(history_.names());
+        both.add(history_.rows().front());
+        both.add(history_.rows().back());
+        return measure_drifts(both, model_.promises(), momentum_scale_, angular_momentum_scale_,
+                              integrator_limit);
+    }
+
   private:
     std::vector<std::string> names() const {
         std::vector<std::string> result{"t", "dt", "mass"};

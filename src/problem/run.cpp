@@ -64,6 +64,7 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
       promise_limit_(promise_limit(options)),
       y_(one.y0.size(), context_),
       recorder_(one.model, one.plan, folder),
+      guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
     std::copy(one.y0.begin(), one.y0.end(), y_.span().begin());
     record_.label = one.label;
@@ -109,6 +110,7 @@ void Run<Dim>::remember_motion(Archive& archive) {
 template <int Dim>
 void Run<Dim>::remember_records(Archive& archive) {
     recorder_.remember(archive);
+    archive(guard_);
     double so_far = seconds();
     archive(record_.remarks, record_.statistics.pair_interactions, so_far, snapshot_times_);
     if (archive.reading()) seconds_before_ = so_far;
@@ -171,6 +173,18 @@ void Run<Dim>::watch(double t, const Watchers& watchers) {
     }
 }
 
+/// After a row: has an invariant left its limit?
+template <int Dim>
+void Run<Dim>::guard(double t, const Watchers& watchers) {
+    if (guard_.action() == DriftAction::off) return;
+    for (const auto& beyond : guard_.look(recorder_.latest_drifts(promise_limit_))) {
+        remember(t, {beyond.name + " beyond its limit", beyond.change});
+        const std::string text = fmt::format("{} at t = {:.6g}", beyond.describe(), t);
+        if (guard_.action() == DriftAction::stop) throw GuardStop(text);
+        if (watchers.warning) watchers.warning(t, text);
+    }
+}
+
 template <int Dim>
 std::string Run<Dim>::limiting() const {
     const auto block = statistics().limiting;
@@ -210,8 +224,9 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     Observers observers;
     observers.output = [&](double t) {
         const auto& rows = recorder_.history().rows();
-        if (rows.empty() || rows.back().front() != t)
-            recorder_.add(t, statistics().last_step, y_.span());
+        if (!rows.empty() && rows.back().front() == t) return;
+        recorder_.add(t, statistics().last_step, y_.span());
+        guard(t, watchers);
     };
     observers.snapshot = [&](double t) { snapshot(t, watchers); };
     if (watchers.checkpoint) observers.checkpoint = [&](double) { checkpoint(watchers); };

@@ -29,6 +29,7 @@ class Run {
         /// Whether to write memory(); where empty the run makes no barriers.
         std::function<void()> checkpoint;
         std::function<void(double t, const Remark&)> remark;
+        std::function<void(double t, const std::string& text)> warning;
     };
     /// To the end, a signal, or a guard; only OutputError is thrown, with record() up to date.
     /// Returns why a guard stopped the run, else nothing.
@@ -59,6 +60,7 @@ class Run {
     void remember_records(Archive& archive);
     void rewrite_events();
     std::vector<RunStatistics::Limit> limits() const;
+    void guard(double t, const Watchers& watchers);
     void complete();
 
     Case<Dim>& one_;
@@ -69,6 +71,7 @@ class Run {
     Ode ode_;
     std::unique_ptr<Integrator> integrator_;
     Recorder<Dim> recorder_;
+    DriftGuard guard_;
     std::optional<std::filesystem::path> events_;
     std::chrono::steady_clock::time_point start_;
     double seconds_before_ = 0.0;  ///< a restart

@@ -42,6 +42,19 @@ void draw_invariants(const RunFolder& folder, const History& history, const std:
     session.note_drawn(draw_curves(folder, "invariants", title, {energy, drift}));
 }
 
+/// Promises and limits before anything has moved.
+std::vector<Drift> drifts_at_start(const Promises& p, int dim, double integrator_limit) {
+    std::vector<Drift> drifts;
+    const auto add = [&](const char* name, Promise promise) {
+        drifts.push_back({name, promise, 0.0, allowed_change(promise, integrator_limit)});
+    };
+    add("mass", p.mass);
+    add("momentum", p.momentum);
+    if (dim > 1) add("angular momentum", p.angular_momentum);
+    add("energy", p.energy);
+    return drifts;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -72,6 +85,32 @@ void Session::settle_plan(Plan<Dim>& plan) {
     if (plan.checkpoint_every == 0.0)
         plan.checkpoint_every = std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every;
     settle(common.checkpoint_every, plan.checkpoint_every, 12.0);
+    plan.guard = common.guard;
+    if (Dim == 1 && common.guard.angular_momentum)
+        throw InputError("limit-angular-momentum: nothing turns in one dimension; leave it out");
+}
+
+/// What balances every body or all together: the same where there is one body, and always will be.
+template <int Dim>
+void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
+    for (const auto& one : cases)
+        if (one.model.particles().bodies() > 1 || one.plan.revise) return;
+    if (given("balance"))
+        throw InputError("balance: each body or all of them are the same for one; leave it out");
+    leave_out_of_case({"balance"});
+}
+
+/// Classical Runge-Kutta damps what decays at a rate below 2.785/dt, and makes what decays faster grow.
+template <int Dim>
+void Session::refuse_unstable(const Case<Dim>& one) const {
+    constexpr double limit = 2.785;
+    const double rate = one.model.fastest_damping();
+    if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
+    throw InputError(fmt::format(
+        "dt: friction ({}) takes fast motion away at a rate of about {:.3g}, which rk4 follows "
+        "with "
+        "steps below {:.2g} only, not {:g}; choose a smaller --dt or less friction",
+        given("viscosity") ? "--viscosity" : "of the model", rate, limit / rate, *integrator_.dt));
 }
 
 template <int Dim>
@@ -89,6 +128,14 @@ void Session::describe(const Case<Dim>& one) {
                               to_string(p.angular_momentum), to_string(p.energy)));
     terminal_.say(
         fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
+    terminal_.say(fmt::format("guard       {}", one.plan.guard.describe(drifts_at_start(
+                                                    p, Dim, promise_limit(integrator_)))));
+    for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
+                                         std::pair{"snapshot-every", one.plan.snapshot_every}})
+        if (given(name) && interval > one.plan.t_end)
+            terminal_.say(fmt::format(
+                "note        --{} {:g} is longer than the run: only its start and end are recorded",
+                name, interval));
     if (integrator_.adaptive()) {
         std::string tolerances;
         for (const auto& block : one.model.layout().blocks())
@@ -109,6 +156,8 @@ RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan
 template <int Dim>
 std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (auto& one : cases) settle_plan(one.plan);
+    refuse_idle_balance(cases);
+    for (const auto& one : cases) refuse_unstable(one);
     for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
         const SundialsContext context;
         Vector y(one.y0.size(), context);
@@ -195,6 +244,9 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
     };
     watchers.remark = [this](double t, const Remark& remark) {
         terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));
+    };
+    watchers.warning = [this](double, const std::string& text) {
+        terminal_.say(fmt::format("warning     {}", text));
     };
     return watchers;
 }

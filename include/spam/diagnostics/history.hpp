@@ -43,6 +43,11 @@ class History {
 
     std::vector<std::string> names_;
     std::vector<std::vector<double>> rows_;
+    /// Of each column so far: asked for at every row of a run.
+    struct Extent {
+        double largest, change;
+    };
+    std::vector<Extent> extents_;
 };
 
 }  // namespace spam

@@ -46,7 +46,7 @@ class DueTimes {
 
 /// Integrates to schedule.t_end, or until there is enough, calling observers at t = start, when due, and at the end.
 /// Returns the signal that interrupted the run (see InterruptWatch), 0 if it went to the end.
-/// GuardStop passes through.
+/// GuardStop, of a step or an observer, passes through.
 /// In every case the final accepted state has been given to `output` and `snapshot` exactly once.
 int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers);
 

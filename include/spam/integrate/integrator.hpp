@@ -71,7 +71,8 @@ struct IntegratorOptions {
 ///   are those of the last accepted step, or of the last event since;
 /// - an event of the ode is applied at its time, all that are due within a step one after the other.
 ///   An adaptive step ends at an event, a fixed one takes the rest of its way to the grid: what
-///   observers see lies after the events. Where events no longer let time go on, GuardStop;
+///   observers see lies after the events. Where events no longer let time go on, GuardStop. After a
+///   signal (InterruptWatch) step() returns at the next event; the next step() goes on from there;
 /// - lands_on_stops(): whether steps may be shortened to hit intermediate times (adaptive methods);
 ///   a fixed-step method keeps its grid t_n = t_0 + n dt and shortens only the step that reaches
 ///   t_stop;
@@ -121,6 +122,9 @@ class Integrator {
     /// Throws GuardStop when the state z (about to be accepted at time t) is not finite, or the
     /// latest rates had no meaning.
     void guard(std::span<const double> z, double t) const;
+    /// The first rate that is not finite, in words; empty where all are. The stage that spoils first
+    /// knows where it began: later ones have spread it.
+    std::string spoiled_rate(std::span<const double> y_dot, double t) const;
 
     const Ode& ode_;
     Vector& y_;

@@ -30,6 +30,8 @@ class Options {
     ~Options();
     Options(Options&&) noexcept;
 
+    /// What --version prints.
+    void version(std::string text) { version_ = std::move(text); }
     /// Heading under which the options added next appear in --help.
     void group(std::string title);
 
@@ -68,8 +70,8 @@ class Options {
     void case_from(std::string option, std::function<std::string(const std::string&)> read,
                    std::vector<std::string> may_change);
 
-    /// Reads the command line and, if --config was given, its file. Returns false when help was
-    /// asked for (and printed).
+    /// Reads the command line and, if --config was given, its file. Returns false when help or
+    /// the version was asked for (and printed).
     bool parse(int argc, const char* const* argv);
 
     /// Where one of `names` was given on the command line, `over` from the file no longer count: a
@@ -89,7 +91,6 @@ class Options {
 
   private:
     struct Entry;
-    struct Parser;
     Entry& add(std::string name, std::string help);
     void read_config(const std::string& path);
     void read_case(const std::string& text_of_case, const std::string& path);
@@ -97,7 +98,7 @@ class Options {
     void refuse_change(const Entry& entry, const std::string& before) const;
     std::vector<std::string> names() const;
 
-    std::string program_, summary_, group_;
+    std::string program_, summary_, version_, group_;
     std::string config_;
     struct {
         std::string option;

@@ -3,6 +3,7 @@
 
 #include <spam/diagnostics/drift.hpp>
 #include <spam/io/results.hpp>
+#include <spam/problem/drift_guard.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <functional>
@@ -26,6 +27,8 @@ struct Plan {
     double snapshot_every = 0.0;
     double checkpoint_every = 0.0;
     std::vector<Column<Dim>> columns{};
+    /// Looked at after every row. Off unless the session's options say otherwise.
+    DriftLimits guard{};
     /// Called with every snapshot; may be empty.
     std::function<void(double t, const Model<Dim>& model, std::span<const double> y)> on_snapshot{};
     /// What on_snapshot and revise gather outside the model, for checkpoints. May be empty.

@@ -3,6 +3,7 @@
 
 #include <spam/io/options.hpp>
 #include <spam/physics/scheme.hpp>
+#include <spam/problem/drift_guard.hpp>
 #include <spam/problem/integrator_settings.hpp>
 
 #include <functional>
@@ -22,6 +23,7 @@ struct CommonOptions {
     int threads = 1;
     std::optional<double> t_end, output_every, snapshot_every, checkpoint_every;
     std::string restart;
+    DriftLimits guard{DriftAction::warn, {}, {}, {}, {}};
 };
 
 /// A problem executable: its options, and the exit status contract around its body.
@@ -40,6 +42,7 @@ class Problem {
     /// Adds the scheme and kernel options; `standard` holds their defaults.
     void use_scheme(const Scheme& standard = {});
     static const std::vector<std::string>& scheme_option_names();
+    static const std::vector<std::string>& guard_option_names();
 
     /// Parses, runs `body`, completes the results. Returns the exit status.
     int main(int argc, char** argv, const std::function<void(Session&)>& body);
@@ -48,7 +51,9 @@ class Problem {
     friend class Session;
     std::string recall_case(const std::string& name);
     void settle_restart();
+    void add_guard_options();
     std::vector<std::string> idle_scheme_options();
+    void refuse_idle_limits();
 
     std::string name_, summary_;
     IntegratorSettings integrator_;

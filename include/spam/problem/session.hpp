@@ -90,6 +90,10 @@ class Session {
     template <int Dim>
     void settle_plan(Plan<Dim>& plan);
     template <int Dim>
+    void refuse_idle_balance(const std::vector<Case<Dim>>& cases);
+    template <int Dim>
+    void refuse_unstable(const Case<Dim>& one) const;
+    template <int Dim>
     void describe(const Case<Dim>& one);
     template <int Dim>
     RunRecord run_one(Case<Dim>& one, const RunFolder& folder);

@@ -32,6 +32,7 @@ class DampedModel final : public Model<2> {
     }
     std::size_t pairs() const override { return model_->pairs(); }
     double reach() const override { return model_->reach(); }
+    double fastest_damping() const override { return gamma_ + model_->fastest_damping(); }
 
     const Model<2>& undamped() const { return *model_; }
 

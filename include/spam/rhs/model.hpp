@@ -72,6 +72,10 @@ class Model {
     /// and dv/dt depends on x alone and y holds nothing else.
     virtual std::string inseparable() const;
 
+    /// Estimate of the rate at which friction takes the fastest motion away, 0 without: explicit steps
+    /// must be short of a few times its inverse.
+    virtual double fastest_damping() const { return 0.0; }
+
     /// Pairs (undirected) that the latest right-hand side summed over.
     virtual std::size_t pairs() const = 0;
     /// Distance up to which two particles act on each other.
