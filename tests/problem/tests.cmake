@@ -2,6 +2,8 @@
 # Tests that run the problem executables as a user would.
 find_package(nlohmann_json REQUIRED)
 spam_problem_test(problem/bad_input)
+spam_problem_test(problem/idle_options)
+spam_problem_test(problem/guards nlohmann_json::nlohmann_json)
 spam_problem_test(problem/results nlohmann_json::nlohmann_json)
 spam_problem_test(problem/snapshots nlohmann_json::nlohmann_json)
 spam_problem_test(problem/folders)
