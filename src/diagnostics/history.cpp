@@ -26,10 +26,15 @@ void History::add(std::vector<double> row) {
 
 void History::remember(Archive& archive) {
     std::vector<std::string> names = names_;
-    archive(names, rows_);
+    auto rows = archive.reading() ? std::vector<std::vector<double>>{} : rows_;
+    archive(names, rows);
     if (names != names_)
         throw InputError(fmt::format("remembered columns {}, not {}", fmt::join(names, ","),
                                      fmt::join(names_, ",")));
+    if (!archive.reading()) return;
+    rows_.clear();
+    extents_.clear();
+    for (auto& row : rows) add(std::move(row));
 }
 
 bool History::has(std::string_view name) const {
