@@ -2,6 +2,7 @@
 // Whole steps. share_outside_rhs: of the time. bytes_per_particle: by which the process has grown,
 // all told (state, vectors of the integrator, particles, list, records).
 #include "stepping.hpp"
+#include <spam/integrate/methods.hpp>
 
 #include <unistd.h>
 
@@ -40,6 +41,25 @@ void dormand_prince_step(benchmark::State& state) {
     options.method = "arkode:DORMAND_PRINCE_7_4_5";
     step(state, options);
 }
+
+/// Every method, elastic solid: steps of 0.01, adaptive ones where a method takes no others.
+const bool all_methods = [] {
+    for (const IntegrationMethod& method : integration_methods()) {
+        if (method.separable) continue;
+        IntegratorOptions options;
+        options.method = method.name;
+        for (const bool fixed : {true, false}) {
+            if (!(fixed ? method.fixed : method.adaptive)) continue;
+            options.dt = fixed ? std::optional(0.01) : std::nullopt;
+            const std::string name = "method_step:" + method.name + (fixed ? ",fixed" : "");
+            benchmark::RegisterBenchmark(
+                name.c_str(), [options](benchmark::State& state) { step(state, options); })
+                ->Arg(2000)
+                ->Arg(200000);
+        }
+    }
+    return true;
+}();
 
 }  // namespace
 
