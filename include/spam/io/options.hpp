@@ -85,6 +85,8 @@ class Options {
     struct Entry;
     struct Parser;
     Entry& add(std::string name, std::string help);
+    template <class Target>
+    void add_number(std::string name, Target& target, std::string help, Allowed allowed);
     void read_config(const std::string& path);
     std::vector<std::string> names() const;
 
