@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arkode_tables.hpp"
 
+#include <spam/core/nvector.hpp>
+
 #include <arkode/arkode_butcher_erk.h>
+#include <fmt/format.h>
 #include <sundials/sundials_config.h>
 
+#include <algorithm>
 #include <new>
 
 namespace spam {
@@ -36,12 +40,32 @@ Table load(const std::string& name) {
     return table;
 }
 
+/// The order whose conditions the coefficients fulfil, as far as SUNDIALS knows them: up to 6.
+/// VERNER_9_5_6 of 7.1.1, with a wrong coefficient, has 0.
+int order_fulfilled(const Table& table) {
+    int order = 0, embedded = 0;
+    ARKodeButcherTable_CheckOrder(table.get(), &order, &embedded, nullptr);
+    return order;
+}
+bool is_sound(const Table& table) { return order_fulfilled(table) >= std::min(table->q, 6); }
+
 }  // namespace
+
+std::string why_unsound(const std::string& name) {
+    const auto names = table_names();
+    if (std::find(names.begin(), names.end(), prefix + name) == names.end()) return {};
+    const Table table = load(prefix + name);
+    if (is_sound(table)) return {};
+    return fmt::format(
+        "{} of SUNDIALS {} has wrong coefficients: it claims order {}, they fulfil {}", name,
+        sundials_version(), table->q, order_fulfilled(table));
+}
 
 std::vector<IntegrationMethod> arkode_methods() {
     std::vector<IntegrationMethod> methods;
     for (const std::string& name : table_names()) {
         const Table table = load(name);
+        if (!is_sound(table)) continue;
         methods.push_back(
             {"arkode:" + name.substr(prefix.size()), table->q, table->d != nullptr, true});
     }

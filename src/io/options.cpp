@@ -113,7 +113,7 @@ Options::Entry& Options::add(std::string name, std::string help) {
 
 /// What numbers have in common, whole or not, with a default or without.
 template <class Target>
-void Options::add_number(std::string name, Target& target, std::string help, Allowed allowed) {
+void Options::number(std::string name, Target& target, std::string help, Allowed allowed) {
     constexpr bool whole =
         std::is_same_v<Target, int> || std::is_same_v<Target, std::optional<int>>;
     if (whole) allowed.words = "a whole number, " + allowed.words;
@@ -134,20 +134,10 @@ void Options::add_number(std::string name, Target& target, std::string help, All
     }
 }
 
-void Options::number(std::string name, double& target, std::string help, Allowed allowed) {
-    add_number(std::move(name), target, std::move(help), std::move(allowed));
-}
-void Options::number(std::string name, std::optional<double>& target, std::string help,
-                     Allowed allowed) {
-    add_number(std::move(name), target, std::move(help), std::move(allowed));
-}
-void Options::integer(std::string name, int& target, std::string help, Allowed allowed) {
-    add_number(std::move(name), target, std::move(help), std::move(allowed));
-}
-void Options::integer(std::string name, std::optional<int>& target, std::string help,
-                      Allowed allowed) {
-    add_number(std::move(name), target, std::move(help), std::move(allowed));
-}
+template void Options::number(std::string, double&, std::string, Allowed);
+template void Options::number(std::string, std::optional<double>&, std::string, Allowed);
+template void Options::number(std::string, int&, std::string, Allowed);
+template void Options::number(std::string, std::optional<int>&, std::string, Allowed);
 
 void Options::text(std::string name, std::string& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
