@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <sundials/sundials_config.h>
 
-#include <algorithm>
-#include <cmath>
 #include <new>
 
 namespace spam {
@@ -41,37 +39,25 @@ Table load(const std::string& name) {
     return table;
 }
 
-/// How far the weights are from adding up to 1, and rows of A to c: rounding errors, or wrong digits,
-/// which end convergence where errors come near them.
-double inconsistency(const ARKodeButcherTableMem& table) {
-    double weights = -1.0, worst = 0.0;
-    for (int i = 0; i < table.stages; ++i) {
-        double row = -table.c[i];
-        for (int j = 0; j < table.stages; ++j) row += table.A[i][j];
-        worst = std::max(worst, std::abs(row));
-        weights += table.b[i];
-    }
-    return std::max(worst, std::abs(weights));
+/// Measured with SUNDIALS 7.1.1 on the hexagon of tests/integrate/orders: errors stop to fall. The simple
+/// order conditions hold.
+bool loses_its_order(const std::string& name) {
+    return version == 701 && name == "ARKODE_VERNER_9_5_6";
 }
-bool is_sound(const Table& table) { return inconsistency(*table) < 1e-12; }
 
 }  // namespace
 
 std::string why_unsound(const std::string& name) {
-    const auto names = table_names();
-    if (std::find(names.begin(), names.end(), prefix + name) == names.end()) return {};
-    const Table table = load(prefix + name);
-    if (is_sound(table)) return {};
-    return fmt::format(
-        "{} of SUNDIALS {} has wrong digits: its coefficients are inconsistent by {:.1e}", name,
-        sundials_version(), inconsistency(*table));
+    if (!loses_its_order(prefix + name)) return {};
+    return fmt::format("{} of SUNDIALS {} does not have the order it claims", name,
+                       sundials_version());
 }
 
 std::vector<IntegrationMethod> arkode_methods() {
     std::vector<IntegrationMethod> methods;
     for (const std::string& name : table_names()) {
+        if (loses_its_order(name)) continue;
         const Table table = load(name);
-        if (!is_sound(table)) continue;
         methods.push_back(
             {"arkode:" + name.substr(prefix.size()), table->q, table->d != nullptr, true});
     }
