@@ -48,8 +48,7 @@ int parse_integer(const std::string& name, const std::string& text, const Allowe
     const char* last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, value);
     if (error != std::errc{} || end != last || !allowed.holds(value))
-        throw InputError(
-            fmt::format("{}: '{}' must be a whole number, {}", name, text, allowed.words));
+        throw InputError(fmt::format("{}: '{}' must be {}", name, text, allowed.words));
     return value;
 }
 
@@ -73,49 +72,33 @@ Options::Entry& Options::add(std::string name, std::string help) {
     return entry;
 }
 
-void Options::number(std::string name, double& target, std::string help, Allowed allowed) {
+/// What numbers have in common, whole or not, with a default or without.
+template <class Target>
+void Options::number(std::string name, Target& target, std::string help, Allowed allowed) {
+    constexpr bool whole =
+        std::is_same_v<Target, int> || std::is_same_v<Target, std::optional<int>>;
+    if (whole) allowed.words = "a whole number, " + allowed.words;
     Entry& entry = add(std::move(name), std::move(help));
-    entry.type = "NUMBER";
+    entry.type = whole ? "INTEGER" : "NUMBER";
     entry.allowed = allowed.words;
     entry.set = [&entry, &target, allowed](const std::string& text) {
-        target = parse_number(entry.name, text, allowed);
+        if constexpr (whole)
+            target = parse_integer(entry.name, text, allowed);
+        else
+            target = parse_number(entry.name, text, allowed);
     };
-    entry.get = [&target] { return fmt::format("{}", target); };
+    if constexpr (std::is_arithmetic_v<Target>) {
+        entry.get = [&target] { return fmt::format("{}", target); };
+    } else {
+        entry.unset = [&target] { target.reset(); };
+        entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
+    }
 }
 
-void Options::number(std::string name, std::optional<double>& target, std::string help,
-                     Allowed allowed) {
-    Entry& entry = add(std::move(name), std::move(help));
-    entry.type = "NUMBER";
-    entry.allowed = allowed.words;
-    entry.set = [&entry, &target, allowed](const std::string& text) {
-        target = parse_number(entry.name, text, allowed);
-    };
-    entry.unset = [&target] { target.reset(); };
-    entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
-}
-
-void Options::integer(std::string name, int& target, std::string help, Allowed allowed) {
-    Entry& entry = add(std::move(name), std::move(help));
-    entry.type = "INTEGER";
-    entry.allowed = "a whole number, " + allowed.words;
-    entry.set = [&entry, &target, allowed](const std::string& text) {
-        target = parse_integer(entry.name, text, allowed);
-    };
-    entry.get = [&target] { return fmt::format("{}", target); };
-}
-
-void Options::integer(std::string name, std::optional<int>& target, std::string help,
-                      Allowed allowed) {
-    Entry& entry = add(std::move(name), std::move(help));
-    entry.type = "INTEGER";
-    entry.allowed = "a whole number, " + allowed.words;
-    entry.set = [&entry, &target, allowed](const std::string& text) {
-        target = parse_integer(entry.name, text, allowed);
-    };
-    entry.unset = [&target] { target.reset(); };
-    entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
-}
+template void Options::number(std::string, double&, std::string, Allowed);
+template void Options::number(std::string, std::optional<double>&, std::string, Allowed);
+template void Options::number(std::string, int&, std::string, Allowed);
+template void Options::number(std::string, std::optional<int>&, std::string, Allowed);
 
 void Options::text(std::string name, std::string& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));

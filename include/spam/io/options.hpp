@@ -36,10 +36,13 @@ class Options {
     void group(std::string title);
 
     // `target` holds the default and receives the value; it must outlive parse().
-    void number(std::string name, double& target, std::string help, Allowed allowed);
-    void number(std::string name, std::optional<double>& target, std::string help, Allowed allowed);
-    void integer(std::string name, int& target, std::string help, Allowed allowed);
-    void integer(std::string name, std::optional<int>& target, std::string help, Allowed allowed);
+    // A number is a double or an int, or an optional one without default.
+    template <class Target>
+    void number(std::string name, Target& target, std::string help, Allowed allowed);
+    template <class Target>
+    void integer(std::string name, Target& target, std::string help, Allowed allowed) {
+        number(std::move(name), target, std::move(help), std::move(allowed));
+    }
     void text(std::string name, std::string& target, std::string help);
     void flag(std::string name, bool& target, std::string help);
     void choice(std::string name, std::vector<std::string> names, std::string help,
