@@ -317,6 +317,7 @@ int main(int argc, char** argv) {
         const bool single = session.given("polarization");
         if (!single) session.leave_out_of_case({"polarization"});
         refuse_blocks(session, p, single);
+        refuse_small(p, session.scheme().range);
         auto all = cases_of(p, single, session.scheme());
 
         double longest = 0.0, shortest = HUGE_VAL;
