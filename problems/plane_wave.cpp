@@ -33,7 +33,6 @@
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/setup/periodic_solid.hpp>
-#include <spam/setup/plane_wave.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
