@@ -33,7 +33,6 @@
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/setup/periodic_solid.hpp>
-#include <spam/setup/plane_wave.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -318,6 +317,7 @@ int main(int argc, char** argv) {
         const bool single = session.given("polarization");
         if (!single) session.leave_out_of_case({"polarization"});
         refuse_blocks(session, p, single);
+        refuse_small(p, session.scheme().range);
         auto all = cases_of(p, single, session.scheme());
 
         double longest = 0.0, shortest = HUGE_VAL;

@@ -40,6 +40,18 @@ inline void refuse_blocks(Session& session, const Parameters& p, bool single) {
             p.block, half, p.cells));
 }
 
+/// The smallest of three lattices has half the cells; it must be wider than twice the range.
+inline void refuse_small(const Parameters& p, double range) {
+    const int half = p.cells / 4 * 2;
+    if (!p.compare_sizes || half * std::sqrt(0.75) > 2.0 * range) return;
+    const int least = static_cast<int>(2.0 * range / std::sqrt(0.75)) + 1;
+    throw InputError(
+        fmt::format("cells: {} are too few for --compare-sizes with --range {}: half of them make "
+                    "a lattice not "
+                    "wider than twice the range; the least is {}, or leave --compare-sizes out",
+                    p.cells, range, 2 * (least + least % 2)));
+}
+
 /// Three zeros of the velocity make a period: the last at 3/2 of it.
 inline void refuse_too_short(const Parameters& p, double t_end, double longest) {
     const double least = 1.6 * longest;
