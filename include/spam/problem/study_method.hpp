@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/integrate/integrator.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spam {
+
+/// A method as studies of integrators see it.
+struct StudyMethod {
+    std::string name;  ///< as --integrator takes it
+    int order;         ///< nominal, of the solution that is advanced
+    bool adaptive, fixed;
+    bool separable_only = false;  ///< advances positions and velocities in turn
+
+    /// For pictures: "Dormand-Prince 5".
+    std::string title() const;
+    IntegratorOptions with_step(double dt) const;
+    /// Relative and absolute tolerance (times each field's scale) alike.
+    IntegratorOptions with_tolerance(double tolerance) const;
+};
+
+/// The methods of a comma-separated list, each once; an empty list means `standard`. Throws InputError
+/// (option `methods`) for one that does not exist.
+std::vector<StudyMethod> study_methods(std::string_view list,
+                                       const std::vector<std::string>& standard);
+
+/// Those of `names` that this build has.
+std::vector<std::string> available_methods(const std::vector<std::string>& names);
+
+}  // namespace spam

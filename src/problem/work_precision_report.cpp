@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "work_precision.hpp"
+#include <spam/io/gnuplot.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spam::work_precision {
+namespace {
+
+/// "arkode:VERNER_8_5_6" as part of a name in result.json: "verner_8_5_6".
+std::string json_name(const StudyMethod& method) {
+    std::string name = method.name;
+    if (name.starts_with("arkode:")) name.erase(0, name.find(':') + 1);
+    for (char& c : name)
+        c = c == ':' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return name;
+}
+
+ConvergenceFit order_of(const Measured& curve, double floor) {
+    std::vector<double> step, error;
+    for (const Sample& point : curve.points) {
+        step.push_back(point.dt);
+        error.push_back(point.error);
+    }
+    return fit_convergence(step, error, floor);
+}
+
+/// Orders of the methods with fixed steps: a table in words, orders.csv, and checks.
+void report_orders(Session& session, const std::vector<TrialWords>& trials,
+                   const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+    const ConvergenceRule rule;
+    auto& terminal = session.terminal();
+    std::string csv =
+        "problem,method,nominal,order,order_error,smallest_dt,largest_dt,points,claim\n";
+    terminal.say("");
+    terminal.say(fmt::format("{:<18}{:<32}{:>7}  {:<15}{:<22}{}", "problem", "fixed steps",
+                             "nominal", "observed", "for dt", "claimed"));
+    for (const Measured& curve : curves) {
+        if (!curve.curve.fixed) continue;
+        const TrialWords& trial = trials[curve.curve.trial];
+        const StudyMethod& method = methods[curve.curve.method];
+        const ConvergenceFit fit = order_of(curve, trial.floor);
+        const std::string claim = trial.rough.empty() ? "within 0.1" : "no claim";
+        csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", trial.name, method.name, method.order,
+                           fit.known() ? fmt::format("{:.4f}", fit.order) : "",
+                           fit.known() ? fmt::format("{:.4f}", fit.order_error) : "",
+                           fit.smallest_step, fit.largest_step, fit.points, claim);
+        terminal.say(fmt::format(
+            "{:<18}{:<32}{:>7}  {:<15}{:<22}{}", trial.name, method.name, method.order,
+            fit.known() ? fmt::format("{:.2f} +- {:.2f}", fit.order, fit.order_error) : "no range",
+            fit.known() ? fmt::format("{:.3g} to {:.3g}", fit.smallest_step, fit.largest_step) : "",
+            claim));
+        if (!fit.known()) continue;
+        Check check{trial.name + "_order_" + json_name(method), fit.order, {}, 0.0, trial.rough};
+        if (trial.rough.empty())
+            check = {
+                check.name, fit.order, static_cast<double>(method.order), 0.1,
+                fmt::format("nominal; errors {:g} floors to {:g}", rule.above_floor, rule.below)};
+        session.check(check);
+    }
+    session.folder().write("orders.csv", csv);
+}
+
+/// For three errors: which curve reaches it with the fewest right-hand sides.
+void report_cheapest(Session& session, const std::vector<TrialWords>& trials,
+                     const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+    auto& terminal = session.terminal();
+    terminal.say("");
+    terminal.say(fmt::format("{:<18}{:<8}{:<42}{:>8}  {}", "problem", "error",
+                             "fewest right-hand sides", "calls", "per time"));
+    for (std::size_t t = 0; t < trials.size(); ++t)
+        for (const double error : {1e-3, 1e-6, 1e-9}) {
+            const Measured* best = nullptr;
+            double least = HUGE_VAL;
+            for (const Measured& curve : curves) {
+                if (curve.curve.trial != t) continue;
+                const double calls = work_for(curve, error, &Sample::calls);
+                if (calls < least) {
+                    least = calls;
+                    best = &curve;
+                }
+            }
+            if (best == nullptr) continue;
+            const std::string name = fmt::format("{}, {} steps", methods[best->curve.method].name,
+                                                 best->curve.fixed ? "fixed" : "adaptive");
+            terminal.say(fmt::format("{:<18}{:<8.0e}{:<42}{:>8.0f}  {:.3g}", trials[t].name, error,
+                                     name, least, least / trials[t].t_end));
+            session.check({fmt::format("{}_calls_for_{:.0e}", trials[t].name, error),
+                           least,
+                           {},
+                           0.0,
+                           "fewest: " + name});
+        }
+}
+
+void report_floor(Session& session, const TrialWords& trial, double smallest, double largest) {
+    Check floor{trial.name + "_reference_error", trial.floor, {}, 0.0, "measured: two references"};
+    if (trial.rough.empty())
+        floor = {floor.name, trial.floor, 0.0, 1e-10, "two references by different methods"};
+    session.check(floor);
+    session.check({trial.name + "_decades_of_error",
+                   std::log10(largest / smallest),
+                   {},
+                   0.0,
+                   "measured, of errors that are known"});
+}
+
+void draw(Session& session, const TrialWords& trial, std::size_t t,
+          const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+    LogLogPanel calls{"", "right-hand sides", "error", {}, trial.floor, {}};
+    LogLogPanel seconds{"", "seconds", "error", {}, trial.floor, {}};
+    calls.words = fmt::format("dotted: error of the reference, {:.0e}", trial.floor);
+    for (const Measured& curve : curves) {
+        if (curve.curve.trial != t) continue;
+        LogLogCurve one{curve.curve.method, curve.curve.fixed, {}, {}};
+        LogLogCurve other = one;
+        for (const Sample& point : curve.points) {
+            if (!point.known || point.error > 1.0) continue;
+            one.x.push_back(point.calls);
+            other.x.push_back(point.seconds);
+            one.y.push_back(point.error);
+            other.y.push_back(point.error);
+        }
+        calls.curves.push_back(std::move(one));
+        seconds.curves.push_back(std::move(other));
+    }
+    LogLogPicture picture{
+        fmt::format("{}, {} particles, to t = {:.4g}", trial.title, trial.particles, trial.t_end),
+        {std::move(calls), std::move(seconds)},
+        2,
+        {},
+        "Filled marks, full lines: steps chosen by the method for a tolerance. Open marks, dashed: "
+        "fixed steps. In brackets: nominal order."};
+    for (const StudyMethod& method : methods) picture.key.push_back(method.title());
+    session.note_drawn(draw_log_log(session.plots_folder(), "accuracy_" + trial.name, picture));
+}
+
+}  // namespace
+
+double work_for(const Measured& curve, double error, double Sample::*work) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
+        const Sample &a = curve.points[k], &b = curve.points[k + 1];
+        if (!b.known || !(a.error >= error && error >= b.error)) continue;
+        const double part =
+            a.error == b.error ? 0.0 : std::log(a.error / error) / std::log(a.error / b.error);
+        least = std::min(least, a.*work * std::pow(b.*work / a.*work, part));
+    }
+    return least;
+}
+
+void report(Session& session, const std::vector<TrialWords>& trials,
+            const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+        double smallest = 1.0, largest = trials[t].floor;
+        for (const Measured& curve : curves)
+            for (const Sample& point : curve.points) {
+                if (curve.curve.trial != t || !point.known || point.error > 1.0) continue;
+                smallest = std::min(smallest, point.error);
+                largest = std::max(largest, point.error);
+            }
+        report_floor(session, trials[t], smallest, largest);
+    }
+    report_orders(session, trials, methods, curves);
+    report_cheapest(session, trials, methods, curves);
+    if (session.plots())
+        for (std::size_t t = 0; t < trials.size(); ++t)
+            draw(session, trials[t], t, methods, curves);
+}
+
+}  // namespace spam::work_precision
