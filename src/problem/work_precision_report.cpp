@@ -20,43 +20,46 @@ std::string json_name(const StudyMethod& method) {
     return name;
 }
 
-ConvergenceFit order_of(const Measured& curve, double floor) {
+ConvergenceFit order_of(const Branch& branch, double floor) {
     std::vector<double> step, error;
-    for (const Sample& point : curve.points) {
-        step.push_back(point.dt);
-        error.push_back(point.error);
+    for (const Sample& sample : branch.samples) {
+        step.push_back(sample.dt);
+        error.push_back(sample.error);
     }
     return fit_convergence(step, error, floor);
 }
 
 /// Orders of the methods with fixed steps: a table in words, orders.csv, and checks.
 void report_orders(Session& session, const std::vector<TrialWords>& trials,
-                   const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+                   const std::vector<StudyMethod>& methods, const std::vector<Branch>& branches) {
     const ConvergenceRule rule;
     auto& terminal = session.terminal();
     std::string csv =
         "problem,method,nominal,order,order_error,smallest_dt,largest_dt,points,claim\n";
     terminal.say("");
-    terminal.say(fmt::format("{:<18}{:<32}{:>7}  {:<15}{:<22}{}", "problem", "fixed steps",
-                             "nominal", "observed", "for dt", "claimed"));
-    for (const Measured& curve : curves) {
-        if (!curve.curve.fixed) continue;
-        const TrialWords& trial = trials[curve.curve.trial];
-        const StudyMethod& method = methods[curve.curve.method];
-        const ConvergenceFit fit = order_of(curve, trial.floor);
-        const std::string claim = trial.rough.empty() ? "within 0.1" : "no claim";
+    const char* line = "{:<17}{:<22}{:>7}  {:<15}{}";
+    terminal.say(
+        fmt::format(fmt::runtime(line), "problem", "fixed steps", "nominal", "observed", "for dt"));
+    for (const Branch& branch : branches) {
+        if (!branch.fixed) continue;
+        const TrialWords& trial = trials[branch.trial];
+        const StudyMethod& method = methods[branch.method];
+        const ConvergenceFit fit = order_of(branch, trial.floor);
+        const bool claimed = trial.rough.empty();
         csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", trial.name, method.name, method.order,
                            fit.known() ? fmt::format("{:.4f}", fit.order) : "",
                            fit.known() ? fmt::format("{:.4f}", fit.order_error) : "",
-                           fit.smallest_step, fit.largest_step, fit.points, claim);
+                           fit.smallest_step, fit.largest_step, fit.points,
+                           claimed ? "within 0.1" : "no claim");
         terminal.say(fmt::format(
-            "{:<18}{:<32}{:>7}  {:<15}{:<22}{}", trial.name, method.name, method.order,
+            fmt::runtime(line), trial.name, method.title(),
+            fmt::format(fmt::runtime(claimed ? "{}" : "({})"), method.order),
             fit.known() ? fmt::format("{:.2f} +- {:.2f}", fit.order, fit.order_error) : "no range",
-            fit.known() ? fmt::format("{:.3g} to {:.3g}", fit.smallest_step, fit.largest_step) : "",
-            claim));
+            fit.known() ? fmt::format("{:.2g} to {:.2g}", fit.smallest_step, fit.largest_step)
+                        : ""));
         if (!fit.known()) continue;
         Check check{trial.name + "_order_" + json_name(method), fit.order, {}, 0.0, trial.rough};
-        if (trial.rough.empty())
+        if (claimed)
             check = {
                 check.name, fit.order, static_cast<double>(method.order), 0.1,
                 fmt::format("nominal; errors {:g} floors to {:g}", rule.above_floor, rule.below)};
@@ -67,27 +70,27 @@ void report_orders(Session& session, const std::vector<TrialWords>& trials,
 
 /// For three errors: which curve reaches it with the fewest right-hand sides.
 void report_cheapest(Session& session, const std::vector<TrialWords>& trials,
-                     const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+                     const std::vector<StudyMethod>& methods, const std::vector<Branch>& branches) {
     auto& terminal = session.terminal();
     terminal.say("");
-    terminal.say(fmt::format("{:<18}{:<8}{:<42}{:>8}  {}", "problem", "error",
-                             "fewest right-hand sides", "calls", "per time"));
+    terminal.say(fmt::format("{:<17}{:<7}{:<42}{:>6}  {}", "problem", "error",
+                             "fewest right-hand sides", "calls", "/ t"));
     for (std::size_t t = 0; t < trials.size(); ++t)
         for (const double error : {1e-3, 1e-6, 1e-9}) {
-            const Measured* best = nullptr;
+            const Branch* best = nullptr;
             double least = HUGE_VAL;
-            for (const Measured& curve : curves) {
-                if (curve.curve.trial != t) continue;
-                const double calls = work_for(curve, error, &Sample::calls);
+            for (const Branch& branch : branches) {
+                if (branch.trial != t) continue;
+                const double calls = work_for(branch, error, &Sample::calls);
                 if (calls < least) {
                     least = calls;
-                    best = &curve;
+                    best = &branch;
                 }
             }
             if (best == nullptr) continue;
-            const std::string name = fmt::format("{}, {} steps", methods[best->curve.method].name,
-                                                 best->curve.fixed ? "fixed" : "adaptive");
-            terminal.say(fmt::format("{:<18}{:<8.0e}{:<42}{:>8.0f}  {:.3g}", trials[t].name, error,
+            const std::string name = fmt::format("{}, {} steps", methods[best->method].name,
+                                                 best->fixed ? "fixed" : "adaptive");
+            terminal.say(fmt::format("{:<17}{:<7.0e}{:<42}{:>6.0f}  {:.3g}", trials[t].name, error,
                                      name, least, least / trials[t].t_end));
             session.check({fmt::format("{}_calls_for_{:.0e}", trials[t].name, error),
                            least,
@@ -110,20 +113,20 @@ void report_floor(Session& session, const TrialWords& trial, double smallest, do
 }
 
 void draw(Session& session, const TrialWords& trial, std::size_t t,
-          const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+          const std::vector<StudyMethod>& methods, const std::vector<Branch>& branches) {
     LogLogPanel calls{"", "right-hand sides", "error", {}, trial.floor, {}};
     LogLogPanel seconds{"", "seconds", "error", {}, trial.floor, {}};
     calls.words = fmt::format("dotted: error of the reference, {:.0e}", trial.floor);
-    for (const Measured& curve : curves) {
-        if (curve.curve.trial != t) continue;
-        LogLogCurve one{curve.curve.method, curve.curve.fixed, {}, {}};
+    for (const Branch& branch : branches) {
+        if (branch.trial != t) continue;
+        LogLogCurve one{branch.method, branch.fixed, {}, {}};
         LogLogCurve other = one;
-        for (const Sample& point : curve.points) {
-            if (!point.known || point.error > 1.0) continue;
-            one.x.push_back(point.calls);
-            other.x.push_back(point.seconds);
-            one.y.push_back(point.error);
-            other.y.push_back(point.error);
+        for (const Sample& sample : branch.samples) {
+            if (!sample.known || sample.error > 1.0) continue;
+            one.x.push_back(sample.calls);
+            other.x.push_back(sample.seconds);
+            one.y.push_back(sample.error);
+            other.y.push_back(sample.error);
         }
         calls.curves.push_back(std::move(one));
         seconds.curves.push_back(std::move(other));
@@ -141,10 +144,10 @@ void draw(Session& session, const TrialWords& trial, std::size_t t,
 
 }  // namespace
 
-double work_for(const Measured& curve, double error, double Sample::*work) {
+double work_for(const Branch& branch, double error, double Sample::*work) {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
-        const Sample &a = curve.points[k], &b = curve.points[k + 1];
+    for (std::size_t k = 0; k + 1 < branch.samples.size(); ++k) {
+        const Sample &a = branch.samples[k], &b = branch.samples[k + 1];
         if (!b.known || !(a.error >= error && error >= b.error)) continue;
         const double part =
             a.error == b.error ? 0.0 : std::log(a.error / error) / std::log(a.error / b.error);
@@ -154,22 +157,22 @@ double work_for(const Measured& curve, double error, double Sample::*work) {
 }
 
 void report(Session& session, const std::vector<TrialWords>& trials,
-            const std::vector<StudyMethod>& methods, const std::vector<Measured>& curves) {
+            const std::vector<StudyMethod>& methods, const std::vector<Branch>& branches) {
     for (std::size_t t = 0; t < trials.size(); ++t) {
         double smallest = 1.0, largest = trials[t].floor;
-        for (const Measured& curve : curves)
-            for (const Sample& point : curve.points) {
-                if (curve.curve.trial != t || !point.known || point.error > 1.0) continue;
-                smallest = std::min(smallest, point.error);
-                largest = std::max(largest, point.error);
+        for (const Branch& branch : branches)
+            for (const Sample& sample : branch.samples) {
+                if (branch.trial != t || !sample.known || sample.error > 1.0) continue;
+                smallest = std::min(smallest, sample.error);
+                largest = std::max(largest, sample.error);
             }
         report_floor(session, trials[t], smallest, largest);
     }
-    report_orders(session, trials, methods, curves);
-    report_cheapest(session, trials, methods, curves);
+    report_orders(session, trials, methods, branches);
+    report_cheapest(session, trials, methods, branches);
     if (session.plots())
         for (std::size_t t = 0; t < trials.size(); ++t)
-            draw(session, trials[t], t, methods, curves);
+            draw(session, trials[t], t, methods, branches);
 }
 
 }  // namespace spam::work_precision

@@ -16,9 +16,10 @@ std::string_view to_string(StepKind);
 /// A study of integrators: error against work. Every method integrates every system with a ladder of
 /// fixed steps and of tolerances; the errors at the end of the time are those against a reference.
 ///
-/// reference   arkode:FEHLBERG_13_7_8 with the tolerance 1e-13. A second one, by another method, says
-///             how well it is known: the difference of the two is the floor, and errors below it are
-///             marked unknown
+/// reference   arkode:FEHLBERG_13_7_8, with the tolerance 1e-13, or with as many fixed steps as make
+///             twice `calls` right-hand sides (better where dy/dt is smooth). Of each there is a twin
+///             by arkode:VERNER_8_5_6; the pair that differs less is used, and its difference is the
+///             floor: errors below it are marked unknown
 /// error       of a field: root mean square over its entries, and the largest, both over the field's
 ///             scale (positions: the spacing; others: the larger of its root mean squares at the start
 ///             and at the end). `error` is the largest root mean square of all fields
