@@ -19,7 +19,7 @@ using namespace spam;
 struct Parameters {
     std::string problem = "all";
     int size = 5, cells = 12, gas = 14;
-    double speed = 0.1;
+    double speed = 0.1, shake = 0.1;
 };
 
 std::vector<Trial<2>> systems(const Parameters& p) {
@@ -30,22 +30,22 @@ std::vector<Trial<2>> systems(const Parameters& p) {
     reflected.transport = Transport::plain;
     reflected.closest_approach = 0.85;
     const int n = p.size;
-    const double v = p.speed;
+    const double v = p.speed, k = p.shake;
     return {
         {"hexagon", "Smooth particles, averaged velocities",
-         [=] { return smooth_hexagon(n, v, averaged); }, 20.0},
+         [=] { return shaken(smooth_hexagon(n, v, averaged), k); }, 20.0},
         {"wave", "Standing wave", [=, c = p.cells] { return ringing_lattice(c, 0.1, averaged); },
          20.0},
-        {"total_lagrangian", "Total-Lagrangian hexagon", [=] { return lagrangian_hexagon(n, v); },
+        {"total_lagrangian", "Total-Lagrangian hexagon", [=] { return shaken(lagrangian_hexagon(n, v), k); },
          20.0},
-        {"md", "Molecular dynamics", [=] { return bonded_hexagon(n, v); }, 20.0},
+        {"md", "Molecular dynamics", [=] { return shaken(bonded_hexagon(n, v), k); }, 20.0},
         {"border", "Neighbours at the border of the range",
-         [=] { return smooth_hexagon(n, v, border); }, 20.0, "border"},
+         [=] { return shaken(smooth_hexagon(n, v, border), k); }, 20.0, "border"},
         {"expansion", "Expanding gas", [=, c = p.gas] { return expanding_gas(c); }, 10.0,
          "particles pass the range, where Lucy's force has a kink in its slope"},
-        {"torque_particle", "Particle torques", [=] { return smooth_hexagon(n, v, particle); },
+        {"torque_particle", "Particle torques", [=] { return shaken(smooth_hexagon(n, v, particle), k); },
          20.0, "forces jump where the torque of a particle changes sign"},
-        {"reflection", "Reflection", [=] { return shaken_hexagon(n, v, reflected); }, 10.0,
+        {"reflection", "Reflection", [=] { return shaken(smooth_hexagon(n, v, reflected), k); }, 10.0,
          "pairs are reflected"},
     };
 }
@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
         });
     options.integer("size", p.size, "of hexagons: 1 + 3n + 3n^2 particles", between(2, 50));
     options.number("speed", p.speed, "of their corners", positive());
+    options.number("shake", p.shake, "random speeds", positive());
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {

@@ -55,14 +55,13 @@ Start<2> lagrangian_hexagon(int size, double speed) {
                  rigid_rotation(speed / size));
 }
 
-Start<2> shaken_hexagon(int size, double speed, const Scheme& scheme) {
+Start<2> shaken(Start<2> start, double speed) {
     std::mt19937_64 random(7);
-    Start<2> start = begun(smooth_model(size, scheme), [&](const Point<2>&) {
-        const double x = drawn(random), y = drawn(random);
-        return Point<2>(speed * x, speed * y);
-    });
     auto v = State<2>(start.model->layout(), start.y0).velocity();
-    v.colwise() -= v.rowwise().mean().eval();
+    Points<2> more(2, v.cols());
+    for (Eigen::Index i = 0; i < v.cols(); ++i)
+        for (int a = 0; a < 2; ++a) more(a, i) = speed * drawn(random);
+    v += more.colwise() - more.rowwise().mean();
     return start;
 }
 

@@ -23,9 +23,9 @@ Start<2> smooth_hexagon(int size, double speed, const Scheme& scheme);
 Start<2> bonded_hexagon(int size, double speed);
 Start<2> lagrangian_hexagon(int size, double speed);
 
-/// The same hexagon, not turning: every component of its velocities is drawn evenly between -speed and
-/// speed (momentum zero, the same numbers every time).
-Start<2> shaken_hexagon(int size, double speed, const Scheme& scheme);
+/// Adds to every velocity component a number drawn evenly between -speed and speed (the same numbers
+/// every time), their mean taken off: all modes of the body ring.
+Start<2> shaken(Start<2> start, double speed);
 
 /// A standing transverse wave, cells x cells particles, setup/plane_wave.hpp.
 Start<2> ringing_lattice(int cells, double amplitude, const Scheme& scheme);
