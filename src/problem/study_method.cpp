@@ -50,6 +50,13 @@ std::string StudyMethod::title() const {
     return fmt::format("{} ({})", words, order);
 }
 
+std::string StudyMethod::word() const {
+    std::string text = name.starts_with("arkode:") ? name.substr(name.find(':') + 1) : name;
+    for (char& c : text)
+        c = c == ':' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
 IntegratorOptions StudyMethod::with_step(double dt) const {
     IntegratorOptions options;
     options.method = name;

@@ -11,28 +11,18 @@
 namespace spam::work_precision {
 namespace {
 
-/// "arkode:VERNER_8_5_6" as part of a name in result.json: "verner_8_5_6".
-std::string json_name(const StudyMethod& method) {
-    std::string name = method.name;
-    if (name.starts_with("arkode:")) name.erase(0, name.find(':') + 1);
-    for (char& c : name)
-        c = c == ':' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return name;
-}
-
-ConvergenceFit order_of(const Branch& branch, double floor) {
+ConvergenceFit order_of(const Branch& branch, double floor, const ConvergenceRule& rule) {
     std::vector<double> step, error;
     for (const Sample& sample : branch.samples) {
         step.push_back(sample.dt);
         error.push_back(sample.error);
     }
-    return fit_convergence(step, error, floor);
+    return fit_convergence(step, error, floor, rule);
 }
 
 /// Orders of the methods with fixed steps: a table in words, orders.csv, and checks.
 void report_orders(Session& session, const std::vector<TrialWords>& trials,
                    const std::vector<StudyMethod>& methods, const std::vector<Branch>& branches) {
-    const ConvergenceRule rule;
     auto& terminal = session.terminal();
     std::string csv =
         "problem,method,nominal,order,order_error,smallest_dt,largest_dt,points,claim\n";
@@ -44,8 +34,9 @@ void report_orders(Session& session, const std::vector<TrialWords>& trials,
         if (!branch.fixed) continue;
         const TrialWords& trial = trials[branch.trial];
         const StudyMethod& method = methods[branch.method];
-        const ConvergenceFit fit = order_of(branch, trial.floor);
         const bool claimed = trial.rough.empty();
+        const auto rule = claimed ? ConvergenceRule::smooth() : ConvergenceRule::rough();
+        const ConvergenceFit fit = order_of(branch, trial.floor, rule);
         csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", trial.name, method.name, method.order,
                            fit.known() ? fmt::format("{:.4f}", fit.order) : "",
                            fit.known() ? fmt::format("{:.4f}", fit.order_error) : "",
@@ -58,7 +49,7 @@ void report_orders(Session& session, const std::vector<TrialWords>& trials,
             fit.known() ? fmt::format("{:.2g} to {:.2g}", fit.smallest_step, fit.largest_step)
                         : ""));
         if (!fit.known()) continue;
-        Check check{trial.name + "_order_" + json_name(method), fit.order, {}, 0.0, trial.rough};
+        Check check{trial.name + "_order_" + method.word(), fit.order, {}, 0.0, trial.rough};
         if (claimed)
             check = {
                 check.name, fit.order, static_cast<double>(method.order), 0.1,

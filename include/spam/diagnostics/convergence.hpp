@@ -9,7 +9,7 @@ namespace spam {
 
 /// Order of a method as runs with smaller and smaller steps show it.
 struct ConvergenceFit {
-    double order = 0.0;        ///< slope of log error against log step
+    double order = 0.0;
     double order_error = 0.0;  ///< its standard error
     double largest_step = 0.0, smallest_step = 0.0;
     std::size_t points = 0;  ///< in that range; 0: no range serves, nothing is known
@@ -17,22 +17,28 @@ struct ConvergenceFit {
     bool known() const { return points > 0; }
 };
 
-/// What counts as the range of steps in which an order shows.
+/// Which range of steps shows an order, and how it is fitted.
 struct ConvergenceRule {
-    double above_floor = 100.0;  ///< errors at least this many times the floor
-    double below = 1e-2;         ///< errors at most this: larger ones are not asymptotic
-    double spread = 0.15;        ///< slopes between neighbours from their mean
-    std::size_t points = 4;      ///< at least
-    double span = 2.0;           ///< largest over smallest step, at least
+    double above_floor;  ///< errors at least this many times the floor
+    double below;        ///< errors at most this: larger ones tell nothing of small steps
+    double spread;  ///< slopes between neighbours, from the slope before (from the mean of those
+                    ///< before, where the power is pure)
+    std::size_t points;  ///< at least
+    double span;         ///< largest over smallest step, at most
+    bool pure;  ///< error = C step^p; else C step^p exp(c step): the first correction as well
+
+    /// For equations as smooth as the method wants: slopes change steadily towards the order.
+    static constexpr ConvergenceRule smooth() { return {30.0, 1e-2, 0.3, 5, 8.1, false}; }
+    /// For others: slopes scatter, an average order is all there is.
+    static constexpr ConvergenceRule rough() { return {3.0, 1e-2, 2.0, 5, 1e3, true}; }
 };
 
-/// Fits error ~ step^order where errors tell it. The range begins at the smallest step whose error is
-/// far enough above `floor` (round-off, or what the reference is known to) and whose slope agrees with
-/// the next one; it takes in larger steps as long as the error is small enough and the slope between
-/// neighbours stays within `spread` of the mean of those before. The nominal order does not enter.
-/// Steps descending; what is not finite ends a range.
+/// Fits the order where errors tell it. The range begins at the smallest step whose error is far enough
+/// above `floor` (what the reference is known to, or round-off) and takes in larger steps as long as
+/// the rule allows; where too few come together it begins one step later. The nominal order does not
+/// enter. Steps descending; what is not finite ends a range.
 ConvergenceFit fit_convergence(std::span<const double> step, std::span<const double> error,
-                               double floor, const ConvergenceRule& rule = {});
+                               double floor, const ConvergenceRule& rule);
 
 /// How a drift grows: its envelope (the largest change so far) as a power of time.
 struct GrowthFit {

@@ -16,8 +16,10 @@ struct StudyMethod {
     bool adaptive, fixed;
     bool separable_only = false;  ///< advances positions and velocities in turn
 
-    /// For pictures: "Dormand-Prince 5".
+    /// For pictures: "Dormand-Prince (5)".
     std::string title() const;
+    /// For names in result.json: "dormand_prince_7_4_5", "gsl_rk8pd".
+    std::string word() const;
     IntegratorOptions with_step(double dt) const;
     /// Relative and absolute tolerance (times each field's scale) alike.
     IntegratorOptions with_tolerance(double tolerance) const;
