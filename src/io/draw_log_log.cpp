@@ -31,16 +31,18 @@ bool shown(double x, double y) {
     return std::isfinite(x) && std::isfinite(y) && x > 0.0 && y > 0.0;
 }
 
-/// A range over whole decades, a tick at each (or every second, third where they are many).
+/// A range with a tick at each decade (or every second, third where they are many).
 std::string axis(char name, double low, double high, double most_labels) {
     if (!(low <= high)) low = 0.1, high = 1.0;
     double from = std::floor(std::log10(low) + 1e-9), to = std::ceil(std::log10(high) - 1e-9);
     if (to <= from) to = from + 1.0;
     const double every = std::max(1.0, std::ceil((to - from) / most_labels));
+    const bool decades = high >= 20.0 * low;  // else the whole decade, or no tick would be seen
     return fmt::format(
-        "set {0}range [1e{1:.0f}:1e{2:.0f}]\nset {0}tics 1e{1:.0f},1e{3:.0f}\nset m{0}tics {4}\n"
+        "set {0}range [{1:.4g}:{2:.4g}]\nset {0}tics 1e{3:.0f},1e{4:.0f}\nset m{0}tics {5}\n"
         "set format {0} '10^{{%L}}'\n",
-        name, from, to, every, every > 1.0 ? 1 : 10);
+        name, decades ? low / 1.5 : std::pow(10.0, from), decades ? high * 1.5 : std::pow(10.0, to),
+        from, every, every > 1.0 ? 1 : 10);
 }
 
 std::string ranges(const LogLogPanel& panel) {
@@ -149,7 +151,7 @@ bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPi
         script += "unset label\nunset arrow\n";
         if (k == 0) script += key(picture, width, height, per_row);
         if (!panel.words.empty())
-            script += fmt::format("set label 98 \"{}\" at graph 0.03,0.05 left tc rgb '#555555'\n",
+            script += fmt::format("set label 98 \"{}\" at graph 0.98,0.95 right tc rgb '#555555'\n",
                                   escaped(panel.words));
         data += data_of(panel);
         script += plots(picture, panel, name, block);

@@ -51,7 +51,7 @@ TrialRun integrate_trial(const Start<Dim>& start, const IntegratorOptions& optio
         while (integrator.t() < t_end && !run.interrupted && run.stopped.empty()) {
             integrator.step(t_end);
             const auto calls = static_cast<double>(integrator.statistics().rhs_evaluations);
-            const double part = std::max(integrator.t() / t_end, 0.05);
+            const double part = std::max(integrator.t() / t_end, 0.25);
             if (calls > most * part && integrator.t() < t_end)
                 run.stopped = "too many right-hand sides";
             run.interrupted = InterruptWatch::received() != 0;

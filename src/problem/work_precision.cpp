@@ -132,7 +132,7 @@ class Agenda {
         const Trial<Dim>& trial = trials_[branch.trial];
         const StudyMethod& method = methods_[branch.method];
         Reference<Dim>& reference = references_.back();
-        const auto most = static_cast<std::size_t>(1.1 * calls_);
+        const auto most = static_cast<std::size_t>(1.5 * calls_);
         branch.tasks.push_back({fmt::format("{}/{}/{}", trial.name, method.name, name),
                                 [&trial, &method, &reference, options, most] {
                                     return measure<Dim>(trial, reference, method, options, most);

@@ -11,6 +11,9 @@
 namespace spam::work_precision {
 namespace {
 
+/// Above this order hardly any steps are left between those too large and round-off.
+constexpr int highest_claimed = 6;
+
 ConvergenceFit order_of(const Branch& branch, double floor, const ConvergenceRule& rule) {
     std::vector<double> step, error;
     for (const Sample& sample : branch.samples) {
@@ -34,8 +37,9 @@ void report_orders(Session& session, const std::vector<TrialWords>& trials,
         if (!branch.fixed) continue;
         const TrialWords& trial = trials[branch.trial];
         const StudyMethod& method = methods[branch.method];
-        const bool claimed = trial.rough.empty();
-        const auto rule = claimed ? ConvergenceRule::smooth() : ConvergenceRule::rough();
+        const bool smooth = trial.rough.empty();
+        const bool claimed = smooth && method.order <= highest_claimed;
+        const auto rule = smooth ? ConvergenceRule::smooth() : ConvergenceRule::rough();
         const ConvergenceFit fit = order_of(branch, trial.floor, rule);
         csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", trial.name, method.name, method.order,
                            fit.known() ? fmt::format("{:.4f}", fit.order) : "",
@@ -49,7 +53,11 @@ void report_orders(Session& session, const std::vector<TrialWords>& trials,
             fit.known() ? fmt::format("{:.2g} to {:.2g}", fit.smallest_step, fit.largest_step)
                         : ""));
         if (!fit.known()) continue;
-        Check check{trial.name + "_order_" + method.word(), fit.order, {}, 0.0, trial.rough};
+        Check check{trial.name + "_order_" + method.word(),
+                    fit.order,
+                    {},
+                    0.0,
+                    smooth ? "measured: few steps between too large and round-off" : trial.rough};
         if (claimed)
             check = {
                 check.name, fit.order, static_cast<double>(method.order), 0.1,
@@ -113,7 +121,8 @@ void draw(Session& session, const TrialWords& trial, std::size_t t,
         LogLogCurve one{branch.method, branch.fixed, {}, {}};
         LogLogCurve other = one;
         for (const Sample& sample : branch.samples) {
-            if (!sample.known || sample.error > 1.0) continue;
+            if (sample.error < 2.0 * trial.floor) break;  // from here on it tells nothing
+            if (!(sample.error <= 1.0)) continue;
             one.x.push_back(sample.calls);
             other.x.push_back(sample.seconds);
             one.y.push_back(sample.error);
@@ -127,8 +136,9 @@ void draw(Session& session, const TrialWords& trial, std::size_t t,
         {std::move(calls), std::move(seconds)},
         2,
         {},
-        "Filled marks, full lines: steps chosen by the method for a tolerance. Open marks, dashed: "
-        "fixed steps. In brackets: nominal order."};
+        "Filled, full lines: steps chosen by the method. Open, dashed: fixed steps. In brackets: "
+        "nominal "
+        "order."};
     for (const StudyMethod& method : methods) picture.key.push_back(method.title());
     session.note_drawn(draw_log_log(session.plots_folder(), "accuracy_" + trial.name, picture));
 }

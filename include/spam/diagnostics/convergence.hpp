@@ -28,7 +28,7 @@ struct ConvergenceRule {
     bool pure;  ///< error = C step^p; else C step^p exp(c step): the first correction as well
 
     /// For equations as smooth as the method wants: slopes change steadily towards the order.
-    static constexpr ConvergenceRule smooth() { return {30.0, 1e-2, 0.3, 5, 8.1, false}; }
+    static constexpr ConvergenceRule smooth() { return {30.0, 1e-2, 0.3, 5, 4.1, false}; }
     /// For others: slopes scatter, an average order is all there is.
     static constexpr ConvergenceRule rough() { return {3.0, 1e-2, 2.0, 5, 1e3, true}; }
 };

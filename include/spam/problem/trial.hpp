@@ -31,8 +31,8 @@ struct TrialRun {
     bool interrupted = false;  ///< by a signal
 };
 
-/// Integrates to `t_end`. `most_calls`: a run that would need more right-hand sides (as after a
-/// twentieth of the time can be told) is given up; 0: no limit. Throws InputError as make_integrator().
+/// Integrates to `t_end`. `most_calls`: a run that would need more right-hand sides (as can be told
+/// when a quarter of them are used up) is given up; 0: no limit. Throws InputError as make_integrator().
 template <int Dim>
 TrialRun integrate_trial(const Start<Dim>& start, const IntegratorOptions& options, double t_end,
                          std::size_t most_calls = 0);

@@ -28,10 +28,11 @@ std::string_view to_string(StepKind);
 ///             jobs disturb it through shared caches only; --jobs 1 leaves that out as well
 /// steps       t_end/n with ever larger n: from 1/256 of `calls` right-hand sides to `calls`, in
 ///             factors of sqrt 2, for all methods alike. Tolerances 1e-2, 1e-3, ... `tightest`,
-///             relative and (times the scale of a field) absolute. A run that needs more than `calls`
-///             is given up
+///             relative and (times the scale of a field) absolute. A run that needs half as many
+///             again as `calls` is given up
 /// order       fit_convergence() of each method's fixed steps; claimed within 0.1 of the nominal one
-///             where the system is smooth
+///             where the system is smooth and the nominal order at most 6: above, hardly any steps are
+///             left between those too large and round-off
 ///
 /// Leaves integrator_accuracy.csv (a row a run; a study that was stopped goes on), orders.csv, a
 /// picture a system, and checks in result.json.
