@@ -177,6 +177,10 @@ int main(int argc, char** argv) {
         plan.on_snapshot = [&sights](double t, const Model<2>& m, std::span<const double> y) {
             for (Sight& sight : sights) sight.look(t, m, y);
         };
+        plan.memory = [&](Archive& archive) {
+            archive(ledger);
+            remember(archive, sights);
+        };
         const auto run = session.run(model, std::move(y0), std::move(plan));
 
         ledger.close(run.statistics.t_end, model, run.y);

@@ -113,6 +113,7 @@ Plan<2> plan_of(Ringing& one, const Parameters& p, double t_end, double shortest
         one.turned_at = t;
         one.turned.assign(y.begin(), y.end());
     };
+    plan.memory = [&one](Archive& archive) { archive(one.turned_at, one.turned); };
     return plan;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/diagnostics/history.hpp>
 
 #include <fmt/format.h>
@@ -13,6 +14,14 @@ namespace spam {
 void History::add(std::vector<double> row) {
     assert(row.size() == names_.size());
     rows_.push_back(std::move(row));
+}
+
+void History::remember(Archive& archive) {
+    std::vector<std::string> names = names_;
+    archive(names, rows_);
+    if (names != names_)
+        throw InputError(fmt::format("remembered columns {}, not {}", fmt::join(names, ","),
+                                     fmt::join(names_, ",")));
 }
 
 bool History::has(std::string_view name) const {

@@ -1,44 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "arkode.hpp"
-#include "rk4.hpp"
 #include <spam/core/error.hpp>
+#include <spam/integrate/integrator.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace spam {
-namespace {
 
-void require_positive(const char* option, double value, const char* fix) {
-    if (!(value > 0.0) || !std::isfinite(value))
-        throw InputError(fmt::format("{}: {} is not a positive number; {}", option, value, fix));
-}
-
-}  // namespace
-
-void IntegratorOptions::validate() const {
-    if (method == "rk4") {
-        require_positive("dt", dt.value_or(0.0), "rk4 needs a fixed step, e.g. --dt 0.1");
-    } else if (!method.starts_with("arkode:")) {
-        throw InputError(
-            fmt::format("integrator: '{}' is unknown; use rk4 or arkode:<table>, e.g. "
-                        "arkode:DORMAND_PRINCE_7_4_5",
-                        method));
-    }
-    if (dt) require_positive("dt", *dt, "give a positive time step");
-    require_positive("rtol", rtol, "try --rtol 1e-8");
-    require_positive("atol", atol, "try --atol 1e-10");
-    if (rtol < 1e-15)
-        throw InputError(fmt::format(
-            "rtol: {} is finer than double precision; the least is 1e-15, try 1e-10", rtol));
-    if (rtol >= 1.0)
-        throw InputError(fmt::format("rtol: {} must be below 1; try --rtol 1e-8", rtol));
-}
-
-std::string IntegratorOptions::describe() const {
-    if (dt) return fmt::format("{}, fixed step dt = {:g}", method, *dt);
-    return fmt::format("{}, adaptive, rtol = {:g}, atol = {:g} x field scale", method, rtol, atol);
+double Integrator::step(double t_stop) {
+    if (most_steps_ && statistics_.steps >= *most_steps_)
+        throw GuardStop(
+            fmt::format("too many steps: {} have come to t = {:.6g}, --max-steps allows "
+                        "no more",
+                        statistics_.steps, t_));
+    return take_step(t_stop);
 }
 
 void Integrator::guard(std::span<const double> z, double t) const {
@@ -57,13 +33,6 @@ void Integrator::remember(Archive& archive) {
     archive(t_, statistics_);
     for (const Event& event : ode_.events)
         if (event.remember) event.remember(archive);
-}
-
-std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Ode& ode,
-                                            Vector& y, double t0, const SundialsContext& context) {
-    options.validate();
-    if (options.method == "rk4") return std::make_unique<Rk4>(ode, y, t0, *options.dt);
-    return std::make_unique<Arkode>(options, ode, y, t0, context);
 }
 
 }  // namespace spam

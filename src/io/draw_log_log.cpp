@@ -13,7 +13,7 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double frame_width = 600.0, frame_height = 440.0, top = 50.0, key_line = 26.0;
+constexpr double frame_width = 600.0, frame_height = 430.0, top = 56.0, key_line = 26.0;
 
 /// Distinct without colour vision, together with the marks (gnuplot's open ones; filled: one more).
 constexpr std::array colours{"#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7",

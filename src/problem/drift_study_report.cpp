@@ -71,34 +71,36 @@ LogLogCurve envelope(std::size_t key, const std::vector<double>& t,
     return curve;
 }
 
-void draw(Session& session, const std::vector<TrialWords>& trials,
+/// One picture of an invariant, a panel for every system that keeps it.
+void draw(Session& session, std::string_view invariant, const std::vector<TrialWords>& trials,
           const std::vector<StudyMethod>& methods, const std::vector<LongRun>& runs,
           double calls_per_time) {
+    const bool energy = invariant == "energy";
+    const auto place = static_cast<std::size_t>(
+        std::find(invariants.begin(), invariants.end(), invariant) - invariants.begin());
     LogLogPicture picture{
-        fmt::format("Largest change so far, {:g} right-hand sides per unit of time",
-                    calls_per_time),
+        fmt::format("Largest change of {} so far, {:g} right-hand sides per unit of time",
+                    energy ? "energy" : "angular momentum", calls_per_time),
         {},
         2,
         {},
         "In brackets: nominal order.",
         false};
     const RunFolder folder = session.folder().inside("drifts");
-    for (std::size_t t = 0; t < trials.size(); ++t)
-        for (const auto invariant : {"energy", "angular_momentum"}) {
-            const auto place = static_cast<std::size_t>(
-                std::find(invariants.begin(), invariants.end(), invariant) - invariants.begin());
-            if (promise_of(trials[t].promises, invariant) == Promise::not_kept) continue;
-            LogLogPanel panel{
-                trials[t].title, "t", place == 2 ? "energy" : "angular momentum", {}, 0.0, {}};
-            for (const LongRun& run : runs) {
-                if (run.trial != t) continue;
-                const Drifts drifts = read_drifts(folder / run.file());
-                panel.curves.push_back(envelope(run.method, drifts.t, drifts.change[place]));
-            }
-            picture.panels.push_back(std::move(panel));
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+        if (promise_of(trials[t].promises, invariant) == Promise::not_kept) continue;
+        LogLogPanel panel{trials[t].title, "t", energy ? "|ΔE|/E" : "|ΔL|/L", {}, 0.0, {}};
+        for (const LongRun& run : runs) {
+            if (run.trial != t) continue;
+            const Drifts drifts = read_drifts(folder / run.file());
+            panel.curves.push_back(envelope(run.method, drifts.t, drifts.change[place]));
         }
+        picture.panels.push_back(std::move(panel));
+    }
+    if (picture.panels.empty()) return;
     for (const StudyMethod& method : methods) picture.key.push_back(method.title());
-    session.note_drawn(draw_log_log(session.plots_folder(), "invariant_drift", picture));
+    session.note_drawn(
+        draw_log_log(session.plots_folder(), fmt::format("{}_drift", invariant), picture));
 }
 
 }  // namespace
@@ -109,7 +111,9 @@ void report(Session& session, const std::vector<TrialWords>& trials,
     say_table(session, trials, methods, runs, rows);
     for (std::size_t k = 0; k < runs.size(); ++k)
         check(session, trials[runs[k].trial], methods[runs[k].method], rows[k]);
-    if (session.plots()) draw(session, trials, methods, runs, calls_per_time);
+    if (!session.plots()) return;
+    for (const auto invariant : {"energy", "angular_momentum"})
+        draw(session, invariant, trials, methods, runs, calls_per_time);
 }
 
 }  // namespace spam::drift_study

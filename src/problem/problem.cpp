@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint.hpp"
 #include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
@@ -27,7 +28,7 @@ void keep_standard_descriptors() {
 Problem::Problem(std::string name, std::string summary, double default_dt)
     : name_(std::move(name)),
       summary_(std::move(summary)),
-      default_dt_(default_dt),
+      integrator_(default_dt),
       options_(name_, summary_) {
     common_.out = name_ + "-out";
     options_.group("Running");
@@ -44,16 +45,65 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
                     positive());
     options_.number("snapshot-every", common_.snapshot_every, "interval between .vtp snapshots",
                     positive());
+    options_.number(
+        "checkpoint-every", common_.checkpoint_every,
+        "interval between checkpoint_0.h5 and _1.h5, in turn; one is always left at the "
+        "end",
+        positive());
+    options_.text("restart", common_.restart,
+                  "checkpoint to go on from, with its case; a result folder: its newest");
     options_.exclude_from_case(
-        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads"});
-    options_.group("Integrator");
-    options_.text("integrator", method_,
-                  "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
-    options_.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt), positive());
-    options_.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
-    options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
-                    positive());
+        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
+    options_.case_from(
+        "restart", [this](const std::string& file) { return recall_case(file); },
+        {"t-end", "output-every", "snapshot-every", "checkpoint-every", "max-steps"});
+    integrator_.add_to(options_);
     options_.group("Problem");
+}
+
+Problem::~Problem() = default;
+
+/// The case of a checkpoint; keeps the rest of it for the session.
+std::string Problem::recall_case(const std::string& name) {
+    std::string file = name;
+    std::error_code error;
+    if (std::filesystem::is_directory(name, error)) {
+        const auto newest = newest_checkpoint(name);
+        if (!newest)
+            throw InputError(fmt::format("restart: '{}' holds no complete checkpoint", name));
+        file = newest->string();
+    }
+    restart_file_ = file;
+    try {
+        earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("restart: {}", error.what()));
+    }
+    if (earlier_->problem != name_)
+        throw InputError(fmt::format("restart: '{}' is a checkpoint of {}, not of {}", file,
+                                     earlier_->problem, name_));
+    return earlier_->case_toml;
+}
+
+/// A run that is gone on with does so in the folder of its results, unless another is named.
+void Problem::settle_restart() {
+    if (!earlier_) return;
+    namespace fs = std::filesystem;
+    common_.restart = restart_file_;
+    if (common_.smoke && !earlier_->smoke)
+        throw InputError("smoke: --restart goes on with the same case, which was no smoke test");
+    common_.smoke = earlier_->smoke;
+    fs::path folder = fs::path(common_.restart).parent_path();
+    if (folder.empty()) folder = ".";
+    std::error_code error;
+    const bool results = fs::exists(folder / "run.log", error);
+    if (results && !options_.given("out")) common_.out = folder.string();
+    in_place_ = results && fs::equivalent(common_.out, folder, error) && !error;
+    if (in_place_ && common_.force)
+        throw InputError(
+            "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
+            "choose "
+            "another --out");
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
@@ -115,36 +165,6 @@ std::vector<std::string> Problem::idle_scheme_options() {
     return idle;
 }
 
-/// The integrator that the options mean; an option without effect is refused.
-IntegratorOptions Problem::resolve_integrator() {
-    options_.command_line_wins({"integrator"}, {"dt", "rtol", "atol"});
-    options_.command_line_wins({"dt"}, {"rtol", "atol"});
-    options_.command_line_wins({"rtol", "atol"}, {"dt"});
-    IntegratorOptions integrator;
-    integrator.method = method_;
-    const bool rk4 = method_ == "rk4";
-    const std::string tolerance = options_.first_given({"rtol", "atol"});
-    if (rk4 && !tolerance.empty())
-        throw InputError(
-            fmt::format("{}: rk4 has a fixed step and no tolerance; use --dt, or --integrator "
-                        "arkode:DORMAND_PRINCE_7_4_5",
-                        tolerance));
-    if (!rk4 && dt_ && !tolerance.empty())
-        throw InputError(
-            fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
-                        tolerance, tolerance));
-    if (rk4 && !dt_) dt_ = default_dt_;
-    integrator.dt = dt_;
-    if (rtol_) integrator.rtol = *rtol_;
-    if (atol_) integrator.atol = *atol_;
-    if (integrator.adaptive()) {
-        rtol_ = integrator.rtol;
-        atol_ = integrator.atol;
-    }
-    integrator.validate();
-    return integrator;
-}
-
 int Problem::main(int argc, char** argv, const std::function<void(Session&)>& body) {
     std::string command = name_;
     for (int k = 1; k < argc; ++k) command += fmt::format(" {}", argv[k]);
@@ -157,9 +177,10 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     const InterruptWatch watch;
     try {
         if (!options_.parse(argc, argv)) return 0;
+        settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const auto idle = idle_scheme_options();
-        const IntegratorOptions integrator = resolve_integrator();
+        const IntegratorOptions integrator = integrator_.resolve(options_);
         set_threads(common_.threads);
         Session session(*this, integrator, command);
         session.leave_out_of_case(idle);

@@ -61,8 +61,10 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
 }
 
 RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {
-    const std::vector<std::string> of_runs{
-        "t-end", "output-every", "snapshot-every", "integrator", "dt", "rtol", "atol"};
+    std::vector<std::string> of_runs{"t-end", "output-every", "snapshot-every", "checkpoint-every",
+                                     "restart"};
+    of_runs.insert(of_runs.end(), IntegratorSettings::names().begin(),
+                   IntegratorSettings::names().end());
     if (const auto name = problem_.options_.first_given(of_runs); !name.empty())
         throw InputError(
             fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
@@ -72,9 +74,20 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
 }
 
 StudyTable Session::begin_study(const std::string& table, const std::vector<std::string>& columns,
+<<<<<<< HEAD
                                 const std::vector<std::string>& description, bool of_integrators) {
     std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every"};
     if (of_integrators) of_one_run.insert(of_one_run.end(), {"integrator", "dt", "rtol", "atol"});
+=======
+                                const std::vector<std::string>& description) {
+    const std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every",
+                                              "checkpoint-every"};
+    if (problem_.options_.given("restart"))
+        throw InputError(
+            "restart: a study goes on from its table when it is started again with the same "
+            "options; "
+            "leave --restart out");
+>>>>>>> main
     if (problem_.options_.given("threads"))
         throw InputError(fmt::format(
             "threads: {} computes many small runs at a time, each in one thread; use --jobs",

@@ -254,6 +254,13 @@ std::vector<Remark> SmoothParticleModel<Dim>::watch(double t, std::span<const do
 }
 
 template <int Dim>
+void SmoothParticleModel<Dim>::remember(Archive& archive) {
+    Model<Dim>::remember(archive);
+    archive(gauss_works_);
+    if (archive.reading()) packed_ = packed_with(ListUse::again_and_again);
+}
+
+template <int Dim>
 double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) const {
     const auto e = ConstState<Dim>(this->layout(), y).energy();
     CompensatedSum sum;

@@ -80,6 +80,11 @@ BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
         {{"--integrator", "arkode:ARKODE_ERK_NONE"}, {"integrator", "ARKODE_ERK_NONE"}},
         {{"--integrator", "arkode:"}, {"integrator", "DORMAND_PRINCE_7_4_5"}},
         {{"--integrator", "a\nb"}, {"integrator"}},
+        {{"--integrator", "gsl:rk9"}, {"integrator", "rk9", "gsl:rk8pd"}},
+        {{"--integrator", "gsl:bsimp"}, {"integrator", "gsl:bsimp", "Jacobian"}},
+        {{"--integrator", "cvode:bdf"}, {"integrator", "cvode:bdf", "cvode:adams"}},
+        {{"--integrator", "sprk:LEAPFROG"}, {"integrator", "sprk:", "LEAPFROG"}},
+        {{"--integrator", dormand, "--controller", "pdi"}, {"controller", "pdi", "pid"}},
     });
 }
 
@@ -88,8 +93,6 @@ BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
         {{"--restart", "checkpoint_0001.h5"}, {"--restart"}},
         {{"--kernel", "monaghan"}, {"kernel", "monaghan", "lucy"}},
         {{"--kernel", "w4"}, {"kernel", "w4", "lucy"}},
-        {{"--integrator", "gsl:rk8pd"}, {"integrator", "gsl:rk8pd", "rk4"}},
-        {{"--integrator", "cvode:adams"}, {"integrator", "cvode:adams", "rk4"}},
     });
 }
 
@@ -133,6 +136,13 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--size", "4\n5"}, {"size", "whole number"}},
         {{"--threads", "0"}, {"threads", "0", "between 1 and"}},
         {{"--rtol", "1", "--integrator", dormand}, {"rtol", "1", "below 1"}},
+        {{"--safety", "1.5", "--integrator", dormand}, {"safety", "1.5", "below 1"}},
+        {{"--max-step", "1e-13", "--integrator", dormand}, {"max-step", "min-step"}},
+        {{"--min-step", "0", "--integrator", dormand}, {"min-step", "0", "above 0"}},
+        {{"--initial-step", "2", "--max-step", "1", "--integrator", dormand},
+         {"initial-step", "2", "max-step"}},
+        {{"--atol-energy", "-1", "--integrator", dormand}, {"atol-energy", "-1", "above 0"}},
+        {{"--max-steps", "0"}, {"max-steps", "0", "between 1"}},
         {{"--quiet=maybe"}, {"quiet", "maybe", "true or false"}},
     });
 }
@@ -155,6 +165,20 @@ BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
         {{"--atol", "1e-6", "--integrator", "rk4"}, {"atol", "rk4"}},
         {{"--dt", "0.1", "--rtol", "1e-6", "--integrator", dormand}, {"rtol", "--dt", "leave"}},
         {{"--integrator", "arkode:KNOTH_WOLKE_3_3"}, {"integrator", "KNOTH_WOLKE", "--dt"}},
+        {{"--integrator", "cvode:adams", "--dt", "0.1"}, {"dt", "cvode:adams", "leave"}},
+        {{"--integrator", "gsl:msadams", "--dt", "0.1"}, {"dt", "gsl:msadams", "leave"}},
+        {{"--integrator", "cvode:adams", "--safety", "0.5"}, {"safety", "cvode:adams", "arkode:"}},
+        {{"--integrator", "gsl:rk8pd", "--controller", "pi"}, {"controller", "gsl:rk8pd"}},
+        {{"--controller", "pi"}, {"controller", "rk4", "fixed step"}},
+        {{"--integrator", dormand, "--dt", "0.1", "--max-step", "1"}, {"max-step", "--dt"}},
+        {{"--integrator", dormand, "--model", "md", "--atol-stress", "1"},
+         {"atol-stress", "no stress"}},
+        {{"--integrator", "cvode:adams", "--closest-approach", "0.5"},
+         {"integrator", "cvode:adams", "closest approach"}},
+        {{"--integrator", "leapfrog"}, {"dt", "leapfrog", "fixed step"}},
+        {{"--integrator", "leapfrog", "--dt", "0.1"}, {"leapfrog", "density", "rk4"}},
+        {{"--model", "md", "--integrator", "leapfrog", "--dt", "0.1", "--rtol", "1e-6"},
+         {"rtol", "leapfrog"}},
         {{"--density", "chain_rule"}, {"chain_rule", "--transport"}},
         {{"--density", "chain_rule", "--transport", "plain"}, {"chain_rule", "--transport"}},
         {{"--turns", "1", "--t-end", "5"}, {"turns", "t-end", "leave"}},

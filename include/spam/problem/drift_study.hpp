@@ -20,7 +20,7 @@ namespace spam {
 ///         below 0.25, a random walk below 0.75, secular above; round-off below 1e-13
 ///
 /// Leaves invariant_drift.csv (a row a run; a study that was stopped goes on), the drifts of every run
-/// in drifts/, one picture, and checks in result.json: momentum to round-off where that is promised,
+/// in drifts/, a picture an invariant, and checks in result.json: momentum to round-off where that is promised,
 /// and for methods that advance positions and velocities in turn an energy that stays bounded where it
 /// derives from a smooth potential.
 class DriftStudy {

@@ -18,6 +18,8 @@ struct Remark {
     std::string what;
     double value;
     bool stop = false;  ///< the run must not go on
+
+    void remember(Archive& archive) { archive(what, value, stop); }
 };
 
 /// A mechanical system as an ordinary differential equation dy/dt = f(t, y): what integrators,

@@ -60,6 +60,7 @@ class SmoothParticleModel final : public Model<Dim> {
     /// denominator (physics/gauss_constraint.hpp).
     std::vector<Remark> watch(double t, std::span<const double> y) override;
     void set_bodies(std::vector<std::int32_t> bodies) override;
+    void remember(Archive& archive) override;
     std::size_t list_builds() const;
 
   private:

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_descriptor.hpp"
+#include "hdf5_handle.hpp"
+#include "sealed_file.hpp"
+#include <spam/core/error.hpp>
+#include <spam/io/checkpoint_file.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+namespace spam {
+namespace {
+
+using namespace hdf5;
+
+File empty_file() {
+    const Silence silence;
+    File file(H5Fcreate(no_file().c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), in_memory()));
+    if (!file) throw std::bad_alloc();
+    return file;
+}
+
+[[noreturn]] void cannot_hold(std::string_view path) {
+    throw OutputError(fmt::format("checkpoint: HDF5 cannot hold '{}' (no memory?)", path));
+}
+
+/// Makes the groups above `path`, whose name must be free.
+void make_way(hid_t file, const std::string& path) {
+    if (path.size() < 2 || path.front() != '/' || path.back() == '/')
+        throw std::logic_error(fmt::format("checkpoint: '{}' is no path like '/a/b'", path));
+    for (std::size_t end = path.find('/', 1); end != std::string::npos;
+         end = path.find('/', end + 1)) {
+        const std::string above = path.substr(0, end);
+        if (Group(H5Gopen2(file, above.c_str(), H5P_DEFAULT))) continue;
+        const Properties creation = timeless(H5P_GROUP_CREATE);
+        if (!Group(H5Gcreate2(file, above.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT)))
+            throw std::logic_error(
+                fmt::format("checkpoint: '{}' cannot be above '{}'", above, path));
+    }
+    if (H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0)
+        throw std::logic_error(fmt::format("checkpoint: '{}' is given twice", path));
+}
+
+/// Chunks have checksums. At most 1 MiB, the size of HDF5's cache, and as equal as rows allow: the
+/// last is filled up.
+void set_chunks(hid_t creation, std::span<const hsize_t> shape, std::size_t element) {
+    std::vector<hsize_t> chunk(shape.begin(), shape.end());
+    hsize_t row = element;
+    for (const hsize_t n : shape.subspan(1)) row *= n;
+    const hsize_t most = std::max<hsize_t>(1, (1 << 20) / row);
+    const hsize_t chunks = (shape[0] + most - 1) / most;
+    chunk[0] = (shape[0] + chunks - 1) / chunks;
+    H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_fletcher32(creation);
+}
+
+/// An array of `type` in the file as `stored`, both of the same size.
+void store(hid_t file, std::string_view path, hid_t type, hid_t stored, const void* values,
+           std::span<const hsize_t> shape) {
+    const std::string name(path);
+    make_way(file, name);
+    const Properties creation = timeless(H5P_DATASET_CREATE);
+    const bool empty = shape[0] == 0;  // then there are no chunks
+    if (!empty) set_chunks(creation, shape, H5Tget_size(stored));
+    const Space space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
+    const Dataset dataset(
+        H5Dcreate2(file, name.c_str(), stored, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+    if (!dataset) cannot_hold(path);
+    if (!empty && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        cannot_hold(path);
+}
+
+}  // namespace
+
+struct CheckpointWriter::Image {
+    Image() : file(empty_file()) {}
+    File file;
+};
+
+CheckpointWriter::CheckpointWriter() : image_(std::make_unique<Image>()) {}
+CheckpointWriter::~CheckpointWriter() {
+    const Silence silence;
+    image_.reset();
+}
+CheckpointWriter::CheckpointWriter(CheckpointWriter&&) noexcept = default;
+CheckpointWriter& CheckpointWriter::operator=(CheckpointWriter&& other) noexcept {
+    std::swap(image_, other.image_);
+    return *this;
+}
+
+void CheckpointWriter::text(std::string_view path, std::string_view value) {
+    const Silence silence;
+    const std::string name(path), terminated(value);
+    make_way(image_->file, name);
+    const Type type(H5Tcopy(H5T_C_S1));
+    H5Tset_size(type, terminated.size() + 1);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    const Space space(H5Screate(H5S_SCALAR));
+    const Properties creation = timeless(H5P_DATASET_CREATE);
+    const Dataset dataset(
+        H5Dcreate2(image_->file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+    if (!dataset || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, terminated.c_str()) < 0)
+        cannot_hold(path);
+}
+
+void CheckpointWriter::numbers(std::string_view path, std::span<const double> values,
+                               std::size_t columns) {
+    if (columns == 0 || values.size() % columns != 0)
+        throw std::logic_error(fmt::format("checkpoint: '{}' has {} values in {} columns", path,
+                                           values.size(), columns));
+    const Silence silence;
+    const hsize_t shape[] = {values.size() / columns, columns};
+    store(image_->file, path, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values.data(), shape);
+}
+
+void CheckpointWriter::integers(std::string_view path, std::span<const std::int64_t> values) {
+    const Silence silence;
+    const hsize_t shape[] = {values.size()};
+    store(image_->file, path, H5T_NATIVE_INT64, H5T_STD_I64LE, values.data(), shape);
+}
+
+void CheckpointWriter::bytes(std::string_view path, std::span<const std::byte> values) {
+    const Silence silence;
+    const hsize_t shape[] = {values.size()};
+    store(image_->file, path, H5T_NATIVE_UINT8, H5T_STD_U8LE, values.data(), shape);
+}
+
+void CheckpointWriter::save(const std::filesystem::path& target) const {
+    std::vector<std::byte> contents;
+    {
+        const Silence silence;
+        const File& file = image_->file;
+        const bool flushed = H5Fflush(file, H5F_SCOPE_LOCAL) >= 0;
+        const ssize_t size = flushed ? H5Fget_file_image(file, nullptr, 0) : -1;
+        if (size > 0) contents.resize(static_cast<std::size_t>(size));
+        if (size <= 0 || H5Fget_file_image(file, contents.data(), contents.size()) != size)
+            throw OutputError(fmt::format("cannot write '{}': HDF5 gives no image (no memory?)",
+                                          target.string()));
+    }
+    seal(contents);
+    replace_file(target, contents);
+}
+
+}  // namespace spam

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sealed_file.hpp"
+
+#include "file_descriptor.hpp"
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+namespace spam {
+namespace {
+
+constexpr std::string_view magic = "SPAMckpt";
+constexpr std::uint64_t format = 1;
+constexpr std::size_t digest_size = 32;
+constexpr std::size_t seal_size = magic.size() + 8 + 8 + digest_size;
+
+constexpr const char* advice = "a run keeps two checkpoints, try the other";
+
+using Digest = std::array<std::byte, digest_size>;
+
+/// OpenSSL, because HDF5's package brings it along, and for the processor's SHA instructions.
+Digest sha256(std::span<const std::byte> bytes) {
+    Digest digest;
+    if (EVP_Digest(bytes.data(), bytes.size(), reinterpret_cast<unsigned char*>(digest.data()),
+                   nullptr, EVP_sha256(), nullptr) != 1)
+        throw OutputError("OpenSSL cannot compute SHA-256 (its configuration, or no memory)");
+    return digest;
+}
+
+void append_number(std::vector<std::byte>& bytes, std::uint64_t number) {
+    for (int k = 0; k < 8; ++k) bytes.push_back(static_cast<std::byte>(number >> (8 * k)));
+}
+
+std::uint64_t number_at(const std::byte* bytes) {
+    std::uint64_t number = 0;
+    for (int k = 0; k < 8; ++k) number |= static_cast<std::uint64_t>(bytes[k]) << (8 * k);
+    return number;
+}
+
+std::uint64_t size_of(const FileDescriptor& file, const std::string& name) {
+    struct stat status;
+    if (::fstat(file.get(), &status) != 0)
+        throw InputError(fmt::format("checkpoint '{}': {}", name, system_reason()));
+    if (S_ISDIR(status.st_mode))
+        throw InputError(fmt::format(
+            "checkpoint '{}' is a folder; name a file in it, e.g. checkpoint_0.h5", name));
+    if (!S_ISREG(status.st_mode))
+        throw InputError(fmt::format("checkpoint '{}' is not a regular file", name));
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+void read_at(const FileDescriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
+             const std::string& name) {
+    const std::size_t got = file.read_at(offset, bytes);
+    if (got != bytes.size())
+        throw InputError(fmt::format("checkpoint '{}' cannot be read: {}; {}", name,
+                                     errno != 0 ? system_reason() : "it became shorter", advice));
+}
+
+/// What the seal says without a look at the contents.
+void check_form(std::span<const std::byte> seal, std::uint64_t length, const std::string& name) {
+    if (std::memcmp(seal.data(), magic.data(), magic.size()) != 0)
+        throw InputError(
+            fmt::format("'{}' is not a SPAM checkpoint: its end bears no seal (a file "
+                        "of another program, or a checkpoint cut short); {}",
+                        name, advice));
+    const std::uint64_t its_format = number_at(&seal[magic.size()]);
+    if (its_format != format)
+        throw InputError(fmt::format(
+            "checkpoint '{}' has format {}, and this version of SPAM reads format {} only; use the "
+            "version that wrote it",
+            name, its_format, format));
+    const std::uint64_t its_length = number_at(&seal[magic.size() + 8]);
+    if (its_length != length)
+        throw InputError(
+            fmt::format("checkpoint '{}' is damaged: {} bytes where its seal says {}; {}", name,
+                        length, its_length, advice));
+}
+
+}  // namespace
+
+void seal(std::vector<std::byte>& contents) {
+    const std::uint64_t length = contents.size();
+    contents.reserve(contents.size() + seal_size);
+    for (const char c : magic) contents.push_back(static_cast<std::byte>(c));
+    append_number(contents, format);
+    append_number(contents, length);
+    const Digest digest = sha256(contents);
+    contents.insert(contents.end(), digest.begin(), digest.end());
+}
+
+std::vector<std::byte> read_sealed(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    const FileDescriptor file = FileDescriptor::open_to_read(path);
+    if (!file.is_open())
+        throw InputError(fmt::format("checkpoint '{}': {}", name, system_reason()));
+    const std::uint64_t size = size_of(file, name);
+    if (size < seal_size)
+        throw InputError(
+            fmt::format("'{}' is not a SPAM checkpoint: {} bytes only (a file of "
+                        "another program, or a checkpoint cut short); {}",
+                        name, size, advice));
+    std::array<std::byte, seal_size> end;
+    read_at(file, size - seal_size, end, name);
+    check_form(end, size - seal_size, name);
+
+    std::vector<std::byte> contents(size);
+    read_at(file, 0, contents, name);
+    const std::span all(contents);
+    check_form(all.last(seal_size), size - seal_size, name);
+    const Digest digest = sha256(all.first(size - digest_size));
+    if (std::memcmp(digest.data(), all.last(digest_size).data(), digest_size) != 0)
+        throw InputError(
+            fmt::format("checkpoint '{}' is damaged: its SHA-256 is not the one of its seal; {}",
+                        name, advice));
+    contents.resize(size - seal_size);
+    return contents;
+}
+
+}  // namespace spam
