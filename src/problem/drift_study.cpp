@@ -66,7 +66,7 @@ void DriftStudy::add_options(Options& options) {
 template <int Dim>
 void DriftStudy::run(Session& session, const std::vector<Trial<Dim>>& trials) {
     if (session.common().smoke && !session.given("methods")) methods_ = "rk4,arkode:VERNER_8_5_6";
-    const auto methods = study_methods(methods_, available_methods(standard_methods));
+    const auto methods = study_methods(methods_, standard_methods);
     std::vector<std::string> description{
         fmt::format("integrator  {} methods, {:g} right-hand sides per unit of time, {} at a time",
                     methods.size(), calls_per_time_, jobs_)};

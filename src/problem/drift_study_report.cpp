@@ -35,7 +35,7 @@ void check(Session& session, const TrialWords& trial, const StudyMethod& method,
         const auto& growth = cell(row, std::string(invariant) + "_growth");
         if (growth == "round-off") continue;
         Check exponent{name + "_exponent", value(row, invariant, "_exponent"), {}, 0.0, growth};
-        if (method.separable_only && trial.smooth && invariant == "energy")
+        if (method.separable && trial.smooth && invariant == "energy")
             exponent = {exponent.name, exponent.value, 0.0, 0.25, "symplectic: bounded"};
         session.check(exponent);
     }

@@ -74,20 +74,17 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
 }
 
 StudyTable Session::begin_study(const std::string& table, const std::vector<std::string>& columns,
-<<<<<<< HEAD
                                 const std::vector<std::string>& description, bool of_integrators) {
-    std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every"};
-    if (of_integrators) of_one_run.insert(of_one_run.end(), {"integrator", "dt", "rtol", "atol"});
-=======
-                                const std::vector<std::string>& description) {
-    const std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every",
-                                              "checkpoint-every"};
+    std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every",
+                                        "checkpoint-every"};
+    if (of_integrators)
+        of_one_run.insert(of_one_run.end(), IntegratorSettings::names().begin(),
+                          IntegratorSettings::names().end());
     if (problem_.options_.given("restart"))
         throw InputError(
             "restart: a study goes on from its table when it is started again with the same "
             "options; "
             "leave --restart out");
->>>>>>> main
     if (problem_.options_.given("threads"))
         throw InputError(fmt::format(
             "threads: {} computes many small runs at a time, each in one thread; use --jobs",

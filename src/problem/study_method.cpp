@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
-#include <spam/core/text.hpp>
 #include <spam/problem/study_method.hpp>
 
 #include <fmt/format.h>
@@ -11,18 +10,15 @@
 namespace spam {
 namespace {
 
-/// SUNDIALS' names end in stages, order of the embedded solution, order; one number fewer means that
-/// nothing is embedded.
-StudyMethod of_table(const std::string& table) {
-    const std::string name = "arkode:" + table.substr(std::string_view("ARKODE_").size());
-    const bool embedded = table.find("KNOTH_WOLKE") == std::string::npos;
-    return {name, table.back() - '0', embedded, true};
-}
-
-std::vector<StudyMethod> all_methods() {
-    std::vector<StudyMethod> all{{"rk4", 4, false, true}};
-    for (const auto& table : arkode_tables()) all.push_back(of_table(table));
-    return all;
+/// As integration_method() finds it, complaints under the name of the option that was given.
+const IntegrationMethod& method_of_list(const std::string& name) {
+    try {
+        return integration_method(name);
+    } catch (const InputError& error) {
+        const std::string_view text = error.what(), prefix = "integrator";
+        throw InputError("methods" +
+                         std::string(text.substr(text.starts_with(prefix) ? prefix.size() : 0)));
+    }
 }
 
 }  // namespace
@@ -40,14 +36,19 @@ std::string StudyMethod::title() const {
         }
         word.clear();
     };
-    if (!name.starts_with("arkode:")) return fmt::format("{} ({})", name, order);
+    const std::string orders = (multistep ? "1-" : "") + std::to_string(order);
+    if (!name.starts_with("arkode:")) {
+        words = name;
+        std::replace(words.begin(), words.end(), ':', ' ');
+        return fmt::format("{} ({})", words, orders);
+    }
     for (const char c : name.substr(name.find(':') + 1))
         if (c == '_')
             finish();
         else
             word += c;
     finish();
-    return fmt::format("{} ({})", words, order);
+    return fmt::format("{} ({})", words, orders);
 }
 
 std::string StudyMethod::word() const {
@@ -71,15 +72,6 @@ IntegratorOptions StudyMethod::with_tolerance(double tolerance) const {
     return options;
 }
 
-std::vector<std::string> available_methods(const std::vector<std::string>& names) {
-    const auto all = all_methods();
-    std::vector<std::string> known;
-    for (const auto& name : names)
-        if (std::any_of(all.begin(), all.end(), [&](const auto& m) { return m.name == name; }))
-            known.push_back(name);
-    return known;
-}
-
 std::vector<StudyMethod> study_methods(std::string_view list,
                                        const std::vector<std::string>& standard) {
     std::vector<std::string> wanted;
@@ -91,21 +83,14 @@ std::vector<StudyMethod> study_methods(std::string_view list,
         begin = end + 1;
     }
     if (wanted.empty()) wanted = standard;
-    const auto all = all_methods();
-    std::vector<std::string> names;
-    for (const auto& method : all) names.push_back(method.name);
     std::vector<StudyMethod> chosen;
     for (const auto& name : wanted) {
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end())
-            throw InputError(fmt::format("methods: there is no '{}'{} Separate with commas: {}",
-                                         name, suggestion(name, names), fmt::join(names, ",")));
-        const auto& method = all[static_cast<std::size_t>(found - names.begin())];
-        const auto same = [&](const StudyMethod& m) { return m.name == method.name; };
-        if (std::any_of(chosen.begin(), chosen.end(), same))
-            throw InputError(
-                fmt::format("methods: '{}' is there twice; name every method once", name));
-        chosen.push_back(method);
+        const IntegrationMethod& method = method_of_list(name);
+        for (const StudyMethod& other : chosen)
+            if (other.name == method.name)
+                throw InputError(
+                    fmt::format("methods: '{}' is there twice; name every method once", name));
+        chosen.push_back({method});
     }
     return chosen;
 }

@@ -30,7 +30,7 @@ struct Bound {
 
     Bound(const Start<Dim>& start, const IntegratorOptions& options)
         : y(start.y0.size(), context),
-          ode(as_ode(*start.model, options.atol, pairs)) {
+          ode(as_ode(*start.model, options, pairs)) {
         std::copy(start.y0.begin(), start.y0.end(), y.span().begin());
         integrator = make_integrator(options, ode, y, 0.0, context);
     }

@@ -190,7 +190,7 @@ void WorkPrecision::run(Session& session, const std::vector<Trial<Dim>>& trials)
         if (!session.given("tightest")) tightest_ = 1e-8;
         if (!session.given("methods")) methods_ = "rk4,arkode:DORMAND_PRINCE_7_4_5";
     }
-    const auto methods = study_methods(methods_, available_methods(standard_methods));
+    const auto methods = study_methods(methods_, standard_methods);
     Agenda<Dim> agenda(trials, methods, steps_, calls_, tightest_);
     const auto tasks = agenda.tasks();
     std::vector<std::string> description{

@@ -78,10 +78,6 @@ class Session {
 
     [[noreturn]] void end_dry_run();
     void open_folder();
-<<<<<<< HEAD
-    void begin(const std::vector<std::string>& description, const char* study,
-               bool of_integrators = false);
-=======
     void save_checkpoint();
     const CaseMemory* earlier_case(std::size_t number) const;
     template <int Dim>
@@ -89,8 +85,8 @@ class Session {
     template <int Dim>
     void resume(Run<Dim>& run, const CaseMemory& earlier, const RunFolder& folder,
                 SnapshotSeries<Dim>& snapshots);
-    void begin(const std::vector<std::string>& description, const char* study);
->>>>>>> main
+    void begin(const std::vector<std::string>& description, const char* study,
+               bool of_integrators = false);
     bool continues(const char* study) const;
     void describe_environment();
     int finish();

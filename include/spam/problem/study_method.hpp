@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/integrate/integrator.hpp>
+#include <spam/integrate/methods.hpp>
 
 #include <string>
 #include <string_view>
@@ -10,13 +11,8 @@
 namespace spam {
 
 /// A method as studies of integrators see it.
-struct StudyMethod {
-    std::string name;  ///< as --integrator takes it
-    int order;         ///< nominal, of the solution that is advanced
-    bool adaptive, fixed;
-    bool separable_only = false;  ///< advances positions and velocities in turn
-
-    /// For pictures: "Dormand-Prince (5)".
+struct StudyMethod : IntegrationMethod {
+    /// For pictures: "Dormand-Prince (5)", "gsl rk8pd (8)".
     std::string title() const;
     /// For names in result.json: "dormand_prince_7_4_5", "gsl_rk8pd".
     std::string word() const;
@@ -29,8 +25,5 @@ struct StudyMethod {
 /// (option `methods`) for one that does not exist.
 std::vector<StudyMethod> study_methods(std::string_view list,
                                        const std::vector<std::string>& standard);
-
-/// Those of `names` that this build has.
-std::vector<std::string> available_methods(const std::vector<std::string>& names);
 
 }  // namespace spam

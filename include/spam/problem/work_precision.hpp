@@ -46,7 +46,7 @@ class WorkPrecision {
     template <int Dim>
     void run(Session& session, const std::vector<Trial<Dim>>& trials);
 
-    /// Methods used where --methods is not given: those of this list that the library has.
+    /// Methods used where --methods is not given.
     std::vector<std::string> standard_methods;
 
   private:
