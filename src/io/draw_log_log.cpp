@@ -113,6 +113,7 @@ std::string plots(const LogLogPicture& picture, const LogLogPanel& panel, std::s
     for (const auto& curve : panel.curves)
         text += fmt::format("'{}.dat' index {} with {} notitle, ", name, block++,
                             look(picture, curve.key, curve.open));
+    if (panel.curves.empty() && !(panel.floor > 0.0)) return "plot NaN notitle\n";
     text.resize(text.size() - 2);
     return text + "\n";
 }
