@@ -34,11 +34,13 @@ bool Session::continues(const char* study) const {
 }
 
 /// `study`: the name of its table, or null.
-void Session::begin(const std::vector<std::string>& description, const char* study) {
+void Session::begin(const std::vector<std::string>& description, const char* study,
+                    bool of_integrators) {
     const auto describe = [&] {
         for (const auto& line : description) terminal_.say(line);
-        terminal_.say(fmt::format(
-            "integrator  {}", study != nullptr ? integrator_.describe() : "none: nothing moves"));
+        if (!of_integrators)
+            terminal_.say(fmt::format("integrator  {}", study != nullptr ? integrator_.describe()
+                                                                         : "none: nothing moves"));
     };
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
@@ -77,11 +79,14 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
 }
 
 StudyTable Session::begin_study(const std::string& table, const std::vector<std::string>& columns,
-                                const std::vector<std::string>& description) {
+                                const std::vector<std::string>& description, bool of_integrators) {
     std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every",
                                         "checkpoint-every"};
     const auto& of_guard = Problem::guard_option_names();
     of_one_run.insert(of_one_run.end(), of_guard.begin(), of_guard.end());
+    if (of_integrators)
+        of_one_run.insert(of_one_run.end(), IntegratorSettings::names().begin(),
+                          IntegratorSettings::names().end());
     if (problem_.options_.given("restart"))
         throw InputError(
             "restart: a study goes on from its table when it is started again with the same "
@@ -94,7 +99,7 @@ StudyTable Session::begin_study(const std::string& table, const std::vector<std:
         throw InputError(fmt::format("{}: has no meaning for the many runs of {}; leave it out",
                                      name, problem_.name_));
     leave_out_of_case(of_one_run);
-    begin(description, table.c_str());
+    begin(description, table.c_str(), of_integrators);
     return {*folder_, table, columns};
 }
 

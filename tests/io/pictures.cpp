@@ -122,6 +122,25 @@ BOOST_AUTO_TEST_CASE(heat_maps) {
     check_picture(folder, draw_heat_map(plots(folder), "picture", "nothing known", map), 276, 176);
 }
 
+BOOST_AUTO_TEST_CASE(logarithmic_axes) {
+    const Scratch folder;
+    const LogLogPanel panel{awkward,
+                            "calls",
+                            "error",
+                            {{0, false, {10, 100, 1000}, {1e-2, missing, 1e-9}},
+                             {1, true, {10, 20, -1}, {1e-3, 0.0, 1e-4}},
+                             {7, false, {}, {}}},
+                            1e-13,
+                            awkward};
+    const LogLogPanel one{"one point", "t", "drift", {{0, false, {3}, {4}}}};
+    const LogLogPanel none{"none", "t", "drift", {}};
+    for (const bool marks : {true, false}) {
+        LogLogPicture picture{awkward, {panel, one, none}, 2, {"rk4", awkward}, awkward, marks};
+        for (int k = 0; k < 9; ++k) picture.key.push_back("method");
+        check_picture(folder, draw_log_log(plots(folder), "picture", picture), 1200, 900);
+    }
+}
+
 /// What the other tests rely on: a script that is wrong (its file name ends a string) is noticed.
 BOOST_AUTO_TEST_CASE(a_wrong_script_is_no_picture) {
     const Scratch folder;

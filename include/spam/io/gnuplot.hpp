@@ -47,6 +47,33 @@ struct CurvePanel {
 bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
                  const std::vector<CurvePanel>& panels);
 
+/// One curve between logarithmic axes; what is not above 0 is left out. `key`: its entry of the
+/// picture's key, that is colour and mark (10 of them). Open: dashed, with open marks.
+struct LogLogCurve {
+    std::size_t key = 0;
+    bool open = false;
+    std::vector<double> x, y;
+};
+
+struct LogLogPanel {
+    std::string title, x_label, y_label;
+    std::vector<LogLogCurve> curves;
+    double floor = 0.0;   ///< above 0: a line across, below which nothing is known
+    std::string words{};  ///< in the frame's corner
+};
+
+/// Frames in rows of `columns`, one key for all of them under the last row.
+struct LogLogPicture {
+    std::string title;
+    std::vector<LogLogPanel> panels;
+    std::size_t columns = 2;
+    std::vector<std::string> key;
+    std::string note;   ///< a line under the key
+    bool marks = true;  ///< at every point; else lines alone
+};
+
+bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPicture& picture);
+
 /// One frame of a grid of configurations: particles coloured by a value, and outlines.
 struct ConfigurationPanel {
     std::string title;

@@ -49,9 +49,11 @@ class Session {
 
     /// For a study of many small runs, in place of run(): likewise, and opens its table. A study of the
     /// same case that was stopped, by whatever, is gone on with; throws InputError where the folder
-    /// holds an unfinished one of another case.
+    /// holds an unfinished one of another case. `of_integrators`: the study says itself how it
+    /// integrates, options of the integrator must not be given.
     StudyTable begin_study(const std::string& table, const std::vector<std::string>& columns,
-                           const std::vector<std::string>& description);
+                           const std::vector<std::string>& description,
+                           bool of_integrators = false);
     /// StudyTable::run() with a progress line. False after a signal.
     bool run_study(StudyTable& table, const std::vector<StudyTask>& tasks, int threads);
 
@@ -83,7 +85,8 @@ class Session {
     template <int Dim>
     void resume(Run<Dim>& run, const CaseMemory& earlier, const RunFolder& folder,
                 SnapshotSeries<Dim>& snapshots);
-    void begin(const std::vector<std::string>& description, const char* study);
+    void begin(const std::vector<std::string>& description, const char* study,
+               bool of_integrators = false);
     bool continues(const char* study) const;
     void describe_environment();
     int finish();

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: error against work of many integrators on many systems; 3 min on 2 cores
+//
+// Which integrator for which accuracy? Every method integrates every system with smaller and smaller
+// steps, fixed ones and those it chooses itself; the error at the end is that against a reference
+// (problem/work_precision.hpp says how it is found, and how errors and seconds are measured).
+#include <spam/problem/work_precision.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+
+struct Parameters {
+    std::string problem = "all";
+    int size = 5;
+    double speed = 0.1;
+};
+
+/// Lattice distances are 3 and sqrt(12): nothing passes a range of 3.23 where particles stay near
+/// their sites.
+std::vector<Trial<2>> systems(const Parameters& p) {
+    const int n = p.size;
+    const double v = p.speed;
+    const auto hexagon = [=](double range, AngularMomentum law) {
+        const Scheme scheme{
+            .transport = Transport::monaghan, .angular_momentum = law, .range = range};
+        return [=] { return shaken(smooth_hexagon(n, v, scheme), 0.2 * v); };
+    };
+    const Scheme wave{.transport = Transport::monaghan, .range = 3.23};
+    const Scheme reflected{.transport = Transport::plain, .closest_approach = 0.9, .range = 3.23};
+    const char* kink = "pairs pass the range, where the slope of Lucy's force jumps";
+    return {
+        {"hexagon", "Smooth particles, averaged velocities, range 3.23",
+         hexagon(3.23, AngularMomentum::free), 20.0},
+        {"wave", "Standing wave, range 3.23", [=] { return ringing_lattice(12, 0.1, wave); }, 20.0},
+        {"total_lagrangian", "Total-Lagrangian hexagon",
+         [=] { return shaken(lagrangian_hexagon(n, v), v); }, 20.0},
+        {"md", "Molecular dynamics: springs", [=] { return shaken(bonded_hexagon(n, v), v); },
+         20.0},
+        {"range_at_shell", "Smooth particles, range 3: a shell of neighbours",
+         hexagon(3.0, AngularMomentum::free), 20.0, kink},
+        {"expansion", "Expanding gas", [=] { return expanding_gas(14); }, 10.0, kink},
+        {"torque_particle", "Particle torques", hexagon(3.23, AngularMomentum::torque_particle),
+         20.0, "forces jump where the torque of a particle changes sign"},
+        {"reflection", "Reflection at 0.9",
+         [=] { return shaken(smooth_hexagon(n, v, reflected), 0.2 * v); }, 20.0,
+         "velocities of pairs jump, at times found to 1e-12 of a length"},
+    };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("integrator_accuracy", "error against work of many integrators");
+    Parameters p;
+    WorkPrecision study;
+    study.standard_methods = {"rk4",
+                              "leapfrog",
+                              "arkode:BOGACKI_SHAMPINE_4_2_3",
+                              "arkode:CASH_KARP_6_4_5",
+                              "arkode:DORMAND_PRINCE_7_4_5",
+                              "arkode:VERNER_8_5_6",
+                              "arkode:FEHLBERG_13_7_8",
+                              "gsl:rk8pd",
+                              "cvode:adams"};
+    auto& options = problem.options();
+    std::vector<std::string> names{"all"};
+    for (const auto& system : systems(p)) names.push_back(system.name);
+    options.choice(
+        "problem", names, "which system, or all of them",
+        [&p, names](std::size_t k) { p.problem = names[k]; },
+        [&p, names] {
+            return static_cast<std::size_t>(std::find(names.begin(), names.end(), p.problem) -
+                                            names.begin());
+        });
+    options.integer("size", p.size, "of hexagons: 1 + 3n + 3n^2 particles", between(2, 50));
+    options.number("speed", p.speed, "of their corners", positive());
+    study.add_options(options);
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke && !session.given("problem")) p.problem = "md";
+        auto trials = systems(p);
+        if (p.problem != "all")
+            std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });
+        study.run<2>(session, trials);
+    });
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: long runs by many integrators: do energy and angular momentum drift for ever; 1 min on 2 cores
+//
+// Every method integrates for a long time, all with the same number of right-hand sides per time
+// (problem/drift_study.hpp). Whose energy keeps drifting, whose stays near what it was?
+//
+//     total_lagrangian   the hexagon of [HHM04] VI as a total-Lagrangian solid, `turns` turns
+//     md                 the same of points and springs
+//     wave               a standing wave in smooth particles, `periods` periods
+//     hexagon            smooth particles, torques of pairs balanced: one turn, they last no longer
+#include <spam/problem/drift_study.hpp>
+#include <spam/setup/plane_wave.hpp>
+#include <spam/spam.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+using std::numbers::pi;
+
+struct Parameters {
+    std::string problem = "all";
+    int size = 8, cells = 12;
+    double speed = 0.1, turns = 10.0, periods = 100.0;
+    double turn() const { return 2.0 * pi * size / speed; }
+};
+
+std::vector<Trial<2>> systems(const Parameters& p) {
+    const int n = p.size;
+    const double v = p.speed;
+    const Scheme ringing{.transport = Transport::monaghan};
+    const Scheme balanced{.transport = Transport::monaghan,
+                          .angular_momentum = AngularMomentum::torque_pair};
+    const auto wave = [c = p.cells, ringing] { return ringing_lattice(c, 0.1, ringing); };
+    // Of linear elasticity: a wave as long as `cells` rows are high.
+    const double period = p.cells * std::sqrt(0.75) / std::sqrt(3.0 / 8.0);
+    return {
+        {"total_lagrangian", "Total-Lagrangian hexagon", [=] { return lagrangian_hexagon(n, v); },
+         p.turns * p.turn()},
+        {"md", "Molecular dynamics: springs", [=] { return bonded_hexagon(n, v); },
+         p.turns * p.turn()},
+        {"wave", "Standing wave", wave, p.periods * period, "the border of the range is passed"},
+        {"hexagon", "Smooth particles, pair torques",
+         [=] { return smooth_hexagon(n, v, balanced); }, std::min(1.0, p.turns) * p.turn(),
+         "the border of the range is passed"},
+    };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("invariant_drift", "drifts of energy and angular momentum in long runs");
+    Parameters p;
+    DriftStudy study;
+    study.standard_methods = {"rk4",
+                              "leapfrog",
+                              "arkode:BOGACKI_SHAMPINE_4_2_3",
+                              "arkode:CASH_KARP_6_4_5",
+                              "arkode:DORMAND_PRINCE_7_4_5",
+                              "arkode:VERNER_8_5_6",
+                              "arkode:FEHLBERG_13_7_8",
+                              "gsl:rk8pd",
+                              "cvode:adams"};
+    auto& options = problem.options();
+    std::vector<std::string> names{"all"};
+    for (const auto& system : systems(p)) names.push_back(system.name);
+    options.choice(
+        "problem", names, "which system, or all of them",
+        [&p, names](std::size_t k) { p.problem = names[k]; },
+        [&p, names] {
+            return static_cast<std::size_t>(std::find(names.begin(), names.end(), p.problem) -
+                                            names.begin());
+        });
+    options.integer("size", p.size, "of hexagons: 1 + 3n + 3n^2 particles", between(2, 50));
+    options.number("speed", p.speed, "of their corners", positive());
+    options.number("turns", p.turns, "nominal turns of hexagons", positive());
+    options.integer("cells", p.cells, "cells x cells particles of the wave (an even number)",
+                    between(8, 200));
+    options.number("periods", p.periods, "of the wave", positive());
+    study.add_options(options);
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke) {
+            if (!session.given("size")) p.size = 3;
+            if (!session.given("turns")) p.turns = 0.2;
+            if (!session.given("periods")) p.periods = 2.0;
+        }
+        auto trials = systems(p);
+        if (p.problem != "all")
+            std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });
+        study.run<2>(session, trials);
+    });
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The studies of integrators as a user runs them: what their tables hold, what their options refuse, and
+// that one which was killed goes on.
+#include "problem/result_files.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <set>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+Outcome run_in(const Scratch& folder, const std::string& name, const Words& arguments) {
+    return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(600));
+}
+
+std::set<std::string> values(const Csv& table, const std::string& column) {
+    const auto at = std::find(table.names.begin(), table.names.end(), column);
+    std::set<std::string> all;
+    for (const auto& row : table.cells)
+        all.insert(row.at(static_cast<std::size_t>(at - table.names.begin())));
+    return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_smoke_run_of_accuracy_fills_its_table) {
+    const Scratch folder;
+    const Outcome outcome =
+        run_in(folder, "integrator_accuracy", {"--smoke", "--no-plots", "--out", "out"});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.out << outcome.err);
+    const Csv table(folder / "out/integrator_accuracy.csv");
+    BOOST_TEST((values(table, "problem") == std::set<std::string>{"md"}));
+    BOOST_TEST(
+        (values(table, "method") == std::set<std::string>{"rk4", "arkode:DORMAND_PRINCE_7_4_5"}));
+    BOOST_TEST((values(table, "steps") == std::set<std::string>{"fixed", "adaptive"}));
+    BOOST_TEST(values(table, "end").contains("measured"));
+    BOOST_TEST(values(table, "floor").size() == 1u);
+    const Csv orders(folder / "out/orders.csv");
+    BOOST_TEST((values(orders, "nominal") == std::set<std::string>{"4", "5"}));
+    for (const double order : orders.column("points")) BOOST_TEST(order >= 5.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_smoke_run_of_drifts_fills_its_table) {
+    const Scratch folder;
+    const Outcome outcome =
+        run_in(folder, "invariant_drift", {"--smoke", "--no-plots", "--out", "out"});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.out << outcome.err);
+    const Csv table(folder / "out/invariant_drift.csv");
+    BOOST_TEST((values(table, "problem") ==
+                std::set<std::string>{"hexagon", "md", "total_lagrangian", "wave"}));
+    for (const double drift : table.column("momentum_drift")) BOOST_TEST(drift < 1e-12);
+    for (const double drift : table.column("energy_drift")) BOOST_TEST(drift < 1e-3);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out/drifts")) {
+        BOOST_TEST(Csv(entry.path()).cells.size() > 50u);
+        ++files;
+    }
+    BOOST_TEST(files == table.cells.size());
+}
+
+BOOST_AUTO_TEST_CASE(killed_it_goes_on) {
+    const Words arguments{"--problem",  "md",     "--methods", "rk4",   "--calls", "20000",
+                          "--no-plots", "--jobs", "1",         "--out", "out"};
+    const Scratch folder;
+    Child child(problem("integrator_accuracy", arguments), {folder.path()});
+    const auto part = folder / "out/integrator_accuracy.part.csv";
+    child.wait_for([&](const Outcome&) {
+        if (!std::filesystem::exists(part)) return false;
+        const std::string text = contents_of(part);
+        return std::count(text.begin(), text.end(), '\n') > 4;
+    });
+    child.send(SIGKILL);
+    BOOST_TEST(child.finish().signal == SIGKILL);
+    const Outcome again = run_in(folder, "integrator_accuracy", arguments);
+    BOOST_TEST(again.status == 0, again.out << again.err);
+    BOOST_TEST(again.out.find("are known already") != std::string::npos);
+    BOOST_TEST(Csv(folder / "out/integrator_accuracy.csv").cells.size() == 17u);
+}
+
+BOOST_AUTO_TEST_CASE(options_that_make_no_sense_are_refused) {
+    struct Bad {
+        std::string name;
+        Words arguments, says;
+    };
+    const std::vector<Bad> all{
+        {"integrator_accuracy", {"--problem", "sun"}, {"problem", "sun"}},
+        {"integrator_accuracy", {"--methods", "rk5"}, {"methods", "rk5"}},
+        {"integrator_accuracy", {"--methods", "rk4,rk4"}, {"methods", "twice"}},
+        {"integrator_accuracy", {"--calls", "3"}, {"calls", "3", "between 500 and"}},
+        {"integrator_accuracy", {"--tightest", "1e-20"}, {"tightest", "1e-20"}},
+        {"integrator_accuracy", {"--dt", "0.1"}, {"dt", "no meaning"}},
+        {"integrator_accuracy",
+         {"--problem", "hexagon", "--methods", "leapfrog"},
+         {"methods", "hexagon", "leapfrog"}},
+        {"invariant_drift", {"--calls-per-time", "0"}, {"calls-per-time", "0"}},
+        {"invariant_drift", {"--turns", "-1"}, {"turns", "-1"}},
+        {"invariant_drift", {"--integrator", "leapfrog"}, {"no meaning"}},
+    };
+    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.name << " " << bad.arguments.back()) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, bad.name, bad.arguments);
+            BOOST_TEST(outcome.status == 2);
+            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+            for (const auto& word : bad.says)
+                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
+            BOOST_TEST(folder.listing().empty());
+        }
+}

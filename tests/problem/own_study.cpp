@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Studies of integrators on a system of one's own: a chain of masses and springs in the plane, as a
+// user's problem file would have it.
+#include "problem/result_files.hpp"
+#include <spam/material/harmonic_spring.hpp>
+#include <spam/problem/drift_study.hpp>
+#include <spam/problem/work_precision.hpp>
+#include <spam/spam.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+using namespace spam;
+using spam::test::Csv;
+using spam::test::json_of;
+using spam::test::Scratch;
+
+namespace {
+
+/// Eight masses on a line, the first one pushed.
+Start<1> chain() {
+    Start<1> start{std::make_unique<BondedModel<1>>(make_particles<1>(square_lattice<1>({8}), 1.0),
+                                                    HarmonicSpring{}),
+                   {}};
+    start.y0 = initial_state<1>(*start.model, 1.0, 1.0, [](const Point<1>& x) {
+        return Point<1>(x[0] == 0.0 ? 0.3 : 0.0);
+    });
+    return start;
+}
+
+const Trial<1> ringing{"chain", "Chain of springs", chain, 10.0};
+
+template <class Study>
+int run(Study& study, const Scratch& folder, std::vector<std::string> words) {
+    Problem problem("my_chain", "a chain of springs");
+    study.standard_methods = {"rk4", "arkode:DORMAND_PRINCE_7_4_5"};
+    study.add_options(problem.options());
+    words.insert(words.begin(), "my_chain");
+    words.insert(words.end(), {"--quiet", "--no-plots", "--out", (folder / "out").string()});
+    std::vector<char*> arguments;
+    for (auto& word : words) arguments.push_back(word.data());
+    return problem.main(static_cast<int>(arguments.size()), arguments.data(),
+                        [&](Session& session) { study.template run<1>(session, {ringing}); });
+}
+
+/// Value of what was measured under that name.
+double measured(const nlohmann::json& results, const std::string& name) {
+    for (const auto& item : results)
+        if (item.at("name") == name) return item.at("value").get<double>();
+    BOOST_FAIL("nothing named " << name);
+    return 0.0;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(errors_against_work) {
+    const Scratch folder;
+    WorkPrecision study;
+    BOOST_TEST(run(study, folder, {"--calls", "20000"}) == 0);
+    const auto results = json_of(folder / "out/result.json");
+    BOOST_TEST(std::abs(measured(results, "chain_order_rk4") - 4.0) < 0.1);
+    BOOST_TEST(std::abs(measured(results, "chain_order_dormand_prince_7_4_5") - 5.0) < 0.1);
+    BOOST_TEST(measured(results, "chain_reference_error") < 1e-11);
+    BOOST_TEST(measured(results, "chain_decades_of_error") > 6.0);
+
+    const Csv table(folder / "out/integrator_accuracy.csv");
+    std::size_t fixed = 0, adaptive = 0;
+    double last = 0.0;
+    for (std::size_t r = 0; r < table.cells.size(); ++r) {
+        const auto cell = [&](const char* name) {
+            const auto at = std::find(table.names.begin(), table.names.end(), name);
+            return table.cells[r].at(static_cast<std::size_t>(at - table.names.begin()));
+        };
+        (cell("steps") == "fixed" ? fixed : adaptive) += 1;
+        BOOST_TEST(Csv::number(cell("rhs_evaluations")) <= 22'000.0);
+        BOOST_TEST(Csv::number(cell("seconds")) > 0.0);
+        if (cell("end") != "measured") continue;
+        const double error = Csv::number(cell("error"));
+        BOOST_TEST(error >= Csv::number(cell("floor")));
+        // The largest of the fields' errors, of those that there are.
+        BOOST_TEST(
+            error == std::max(Csv::number(cell("position_rms")), Csv::number(cell("velocity_rms"))),
+            boost::test_tools::tolerance(1e-5));
+        BOOST_TEST(cell("density_rms") == "");
+        BOOST_TEST(Csv::number(cell("position_max")) >= Csv::number(cell("position_rms")));
+        BOOST_TEST(Csv::number(cell("momentum_drift")) < 1e-13);
+        last = error;
+    }
+    BOOST_TEST(fixed == 34u);     // two methods, factors of sqrt 2 from 1/256
+    BOOST_TEST(adaptive == 11u);  // one of them, 1e-2 to 1e-12
+    BOOST_TEST(last < 1e-9);
+}
+
+/// A force that is not what the others are: with a kink in it the orders claimed do not come out, and the
+/// study says so.
+BOOST_AUTO_TEST_CASE(a_claim_that_does_not_hold_fails) {
+    struct Kinked final : Model<1> {
+        explicit Kinked(Particles<1> particles)
+            : Model<1>(std::move(particles), {}, {Field::position, Field::velocity}) {}
+        void rates(double, std::span<const double> y, std::span<double> y_dot) override {
+            y_dot[0] = y[1];
+            y_dot[1] = -y[0] - (y[0] > 0.1 ? 0.7 : 0.0);
+        }
+        double internal_energy(std::span<const double> y) const override {
+            return 0.5 * y[0] * y[0] + (y[0] > 0.1 ? 0.7 * (y[0] - 0.1) : 0.0);
+        }
+        Promises promises() const override { return {}; }
+        std::string describe() const override { return "a force that jumps"; }
+        std::size_t pairs() const override { return 0; }
+        double reach() const override { return 1.0; }
+    };
+    const auto jumping = [] {
+        return Start<1>{std::make_unique<Kinked>(make_particles<1>(square_lattice<1>({1}), 1.0)),
+                        {0.0, 1.0}};
+    };
+    for (const std::string rough : {"", "its force jumps"}) {
+        const Scratch folder;
+        Problem problem("my_jump", "a force that jumps");
+        WorkPrecision study;
+        study.standard_methods = {"rk4"};
+        study.add_options(problem.options());
+        std::vector<std::string> words{
+            "my_jump", "--quiet", "--no-plots", "--out", (folder / "out").string(),
+            "--steps", "fixed"};
+        std::vector<char*> arguments;
+        for (auto& word : words) arguments.push_back(word.data());
+        const int status =
+            problem.main(static_cast<int>(arguments.size()), arguments.data(), [&](Session& s) {
+                study.run<1>(s, {{"jump", "Jump", jumping, 20.0, rough}});
+            });
+        BOOST_TEST(status == (rough.empty() ? 1 : 0));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(drifts_in_long_runs) {
+    const Scratch folder;
+    DriftStudy study;
+    BOOST_TEST(run(study, folder, {"--calls-per-time", "10"}) == 0);
+    const auto results = json_of(folder / "out/result.json");
+    BOOST_TEST(measured(results, "chain_rk4_momentum_drift") < 1e-14);
+    BOOST_TEST(measured(results, "chain_rk4_energy_drift") < 1e-2);
+    const Csv table(folder / "out/invariant_drift.csv");
+    BOOST_TEST(table.cells.size() == 2u);
+    for (const double calls : table.column("calls_per_time"))
+        BOOST_TEST(calls == 10.0, boost::test_tools::tolerance(0.1));
+    const Csv drifts(folder / "out/drifts/chain_rk4.csv");
+    BOOST_TEST(drifts.column("t").back() == 10.0, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(drifts.column("energy").front() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(methods_that_do_not_exist_are_refused) {
+    for (const std::string list : {"rk5", "rk4,rk4", "rk4,,", "arkode:VERNER"}) {
+        const Scratch folder;
+        WorkPrecision study;
+        BOOST_TEST(run(study, folder, {"--methods", list}) == 2, list);
+        BOOST_TEST(folder.listing().empty());
+    }
+    const Scratch folder;
+    WorkPrecision study;  // nothing left: rk4 has no steps of its own choice
+    BOOST_TEST(run(study, folder, {"--methods", "rk4", "--steps", "adaptive"}) == 2);
+    WorkPrecision another;  // steps are what is studied
+    BOOST_TEST(run(another, folder, {"--dt", "0.1"}) == 2);
+    BOOST_TEST(folder.listing().empty());
+}
