@@ -73,9 +73,10 @@ bool Options::parse(int argc, const char* const* argv) {
             throw InputError(fmt::format("{}: given {} times; leave all but one out",
                                          option->get_name().substr(2), option->count()));
     if (config->count() > 1)
-        throw InputError(fmt::format("config: given {} times; leave all but one out; a file "
-                                     "cannot add to another",
-                                     config->count()));
+        throw InputError(
+            fmt::format("config: given {} times; leave all but one out; a file "
+                        "cannot add to another",
+                        config->count()));
     const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
         if (value.starts_with("--"))
             throw InputError(
