@@ -3,7 +3,6 @@
 // refused, or changes the results and is part of case.toml.
 #include "problem/result_files.hpp"
 
-#include <boost/algorithm/string/join.hpp>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -141,7 +140,9 @@ void check_option(const std::string& program, const Words& base, const Ran& befo
     words.push_back("--" + option);
     if (another_value.contains(option)) words.push_back(another_value.at(option));
     const Ran ran = run_with(program, words);
-    BOOST_TEST_CONTEXT(program << " " << boost::algorithm::join(words, " ")) {
+    std::string shown = program;
+    for (const auto& word : words) shown.append(" ").append(word);
+    BOOST_TEST_CONTEXT(shown) {
         if (ran.outcome.status == 2) {
             BOOST_TEST(ran.outcome.err.find(option) != std::string::npos, ran.outcome.err);
             return;
