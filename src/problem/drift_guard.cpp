@@ -38,8 +38,9 @@ std::vector<DriftGuard::Exceeded> DriftGuard::look(const std::vector<Drift>& dri
     for (const Drift& drift : drifts) {
         const auto limit = limits_.limit_of(drift);
         if (!limit || drift.change <= *limit) continue;
-        if (std::find(known_.begin(), known_.end(), drift.name) != known_.end()) continue;
-        known_.push_back(drift.name);
+        const bool known = std::find(known_.begin(), known_.end(), drift.name) != known_.end();
+        if (known && limits_.action == DriftAction::warn) continue;  // a restart is stopped again
+        if (!known) known_.push_back(drift.name);
         beyond.push_back({drift.name, drift.change, *limit});
     }
     return beyond;

@@ -210,6 +210,38 @@ BOOST_AUTO_TEST_CASE(a_signal_leaves_a_checkpoint_that_goes_on) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_guard_leaves_a_checkpoint) {
+    struct Stop {
+        Words arguments;
+        std::string says;
+    };
+    const std::vector<Stop> all{
+        {{"--dt", "2.5"}, "t = "},  // beyond what rk4 is stable with
+        {with(adaptive, {"--rtol", "1e-14", "--atol", "1e-16", "--min-step", "0.3"}), "step"},
+        {with(adaptive, {"--max-steps", "20"}), "too many steps"},
+        {{"--guard", "stop", "--limit-energy", "1e-14"}, "energy changed by"},
+    };
+    for (const Stop& stop : all) BOOST_TEST_CONTEXT(stop.says) {
+            const Scratch folder;
+            const Words common = hexagon("3", {"--t-end", "400", "--output-every", "1"});
+            const Outcome outcome = run_in(folder, "rotating_hexagon",
+                                           with(common, with(stop.arguments, {"--out", "o"})));
+            BOOST_TEST(outcome.status == 3, outcome.out << outcome.err);
+            BOOST_TEST(outcome.err.find(stop.says) != std::string::npos, outcome.err);
+            BOOST_REQUIRE(newest_checkpoint(folder / "o"));
+            // What stopped it stops it again, and leaves a checkpoint again.
+            const Outcome again =
+                run_in(folder, "rotating_hexagon", {"--restart", "o", "--no-plots"});
+            BOOST_TEST(again.status == 3, again.out << again.err);
+        }
+    const Scratch folder;
+    const Words common = hexagon("3", with({"--t-end", "8", "--checkpoint-every", "2"}, adaptive));
+    BOOST_TEST(run_in(folder, "rotating_hexagon", with(common, {"--max-steps", "4", "--out", "o"}))
+                   .status == 3);
+    require_ran(run_in(folder, "rotating_hexagon",
+                       {"--restart", "o", "--max-steps", "1000", "--no-plots"}));
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_restarted_is_refused_in_one_line) {
     const Scratch folder;
     require_ran(run_in(folder, "rotating_hexagon", hexagon("3", {"--t-end", "4", "--out", "out"})));
