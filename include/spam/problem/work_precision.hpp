@@ -61,7 +61,7 @@ class WorkPrecision {
   private:
     std::string methods_;
     StepKind steps_ = StepKind::both;
-    int calls_ = 40'000;
+    int calls_ = 20'000;
     double tightest_ = 1e-12;
     int jobs_ = 1;
 };
