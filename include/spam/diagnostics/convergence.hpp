@@ -28,7 +28,7 @@ struct ConvergenceRule {
     /// For equations as smooth as the method wants: the smallest steps, four in factors of sqrt 2.
     static constexpr ConvergenceRule smooth() { return {30.0, 1e-2, 0.3, 4, 2.9}; }
     /// For others: slopes scatter, an average order is all there is.
-    static constexpr ConvergenceRule rough() { return {3.0, 1e-2, 2.0, 5, 1e3}; }
+    static constexpr ConvergenceRule rough() { return {10.0, 1e-2, 2.0, 5, 1e3}; }
 };
 
 /// Fits error ~ step^order where errors tell it. The range begins at the smallest step whose error is far enough
