@@ -2,8 +2,6 @@
 #include <spam/diagnostics/convergence.hpp>
 #include <spam/diagnostics/fits.hpp>
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,36 +18,15 @@ std::size_t first_of_range(std::span<const double> step, std::span<const double>
                            std::span<const char> serves, std::size_t last,
                            const ConvergenceRule& rule) {
     std::size_t first = last;
-    double sum = 0.0, before = 0.0;
+    double sum = 0.0;
     for (; first > 0 && serves[first - 1] != 0; --first) {
         if (step[first - 1] > rule.span * step[last]) break;
         const double here = slope(step, error, first - 1);
         const auto n = static_cast<double>(last - first);
-        if (n > 0.0 && std::abs(here - (rule.pure ? sum / n : before)) > rule.spread) break;
+        if (n > 0.0 && std::abs(here - sum / n) > rule.spread) break;
         sum += here;
-        before = here;
     }
     return first;
-}
-
-/// log error = a + p log step + c step, by least squares: p and its standard error.
-ConvergenceFit fit_range(std::span<const double> step, std::span<const double> error, bool pure) {
-    const auto n = static_cast<Eigen::Index>(step.size());
-    Eigen::MatrixXd terms(n, pure ? 2 : 3);
-    Eigen::VectorXd values(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-        const double h = step[static_cast<std::size_t>(k)];
-        terms(k, 0) = 1.0;
-        terms(k, 1) = std::log(h / step.back());
-        if (!pure) terms(k, 2) = h / step.back();
-        values(k) = std::log(error[static_cast<std::size_t>(k)]);
-    }
-    const Eigen::VectorXd best = terms.householderQr().solve(values);
-    const double variance =
-        (terms * best - values).squaredNorm() / static_cast<double>(n - terms.cols());
-    const Eigen::MatrixXd covariance = (terms.transpose() * terms).inverse();
-    return {best(1), std::sqrt(variance * covariance(1, 1)), step.front(), step.back(),
-            step.size()};
 }
 
 }  // namespace
@@ -64,8 +41,14 @@ ConvergenceFit fit_convergence(std::span<const double> step, std::span<const dou
         if (serves[last] == 0) continue;
         const std::size_t first = first_of_range(step, error, serves, last, rule);
         const std::size_t n = last - first + 1;
-        if (n >= rule.points)
-            return fit_range(step.subspan(first, n), error.subspan(first, n), rule.pure);
+        if (n < rule.points) continue;
+        std::vector<double> x, y;
+        for (std::size_t k = first; k <= last; ++k) {
+            x.push_back(std::log(step[k]));
+            y.push_back(std::log(error[k]));
+        }
+        const LineFit line = fit_line(x, y);
+        return {line.slope, line.slope_error, step[first], step[last], n};
     }
     return {};
 }

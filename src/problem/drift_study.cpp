@@ -15,7 +15,7 @@ using namespace drift_study;
 
 namespace {
 
-constexpr double part_for_tolerance = 0.02;  // of the time
+constexpr double part_for_tolerance = 0.1;  // of the time
 
 /// The tolerance with which a method costs so many right-hand sides per time: halving in its logarithm,
 /// to a tenth of a decade.

@@ -123,7 +123,6 @@ BOOST_AUTO_TEST_CASE(heat_maps) {
 }
 
 BOOST_AUTO_TEST_CASE(logarithmic_axes) {
-    const Scratch folder;
     const LogLogPanel panel{awkward,
                             "calls",
                             "error",
@@ -135,6 +134,7 @@ BOOST_AUTO_TEST_CASE(logarithmic_axes) {
     const LogLogPanel one{"one point", "t", "drift", {{0, false, {3}, {4}}}};
     const LogLogPanel none{"none", "t", "drift", {}};
     for (const bool marks : {true, false}) {
+        const Scratch folder;
         LogLogPicture picture{awkward, {panel, one, none}, 2, {"rk4", awkward}, awkward, marks};
         for (int k = 0; k < 9; ++k) picture.key.push_back("method");
         check_picture(folder, draw_log_log(plots(folder), "picture", picture), 1200, 900);

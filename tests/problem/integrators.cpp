@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(a_smoke_run_of_accuracy_fills_its_table) {
     BOOST_TEST(values(table, "floor").size() == 1u);
     const Csv orders(folder / "out/orders.csv");
     BOOST_TEST((values(orders, "nominal") == std::set<std::string>{"4", "5"}));
-    for (const double order : orders.column("points")) BOOST_TEST(order >= 5.0);
+    for (const double order : orders.column("points")) BOOST_TEST(order == 4.0);
 }
 
 BOOST_AUTO_TEST_CASE(a_smoke_run_of_drifts_fills_its_table) {
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(options_that_make_no_sense_are_refused) {
          {"methods", "hexagon", "leapfrog"}},
         {"invariant_drift", {"--calls-per-time", "0"}, {"calls-per-time", "0"}},
         {"invariant_drift", {"--turns", "-1"}, {"turns", "-1"}},
-        {"invariant_drift", {"--integrator", "leapfrog"}, {"no meaning"}},
+        {"invariant_drift", {"--integrator", "rk4"}, {"no meaning"}},
     };
     for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.name << " " << bad.arguments.back()) {
             const Scratch folder;

@@ -17,23 +17,21 @@ struct ConvergenceFit {
     bool known() const { return points > 0; }
 };
 
-/// Which range of steps shows an order, and how it is fitted.
+/// Which range of steps shows an order.
 struct ConvergenceRule {
     double above_floor;  ///< errors at least this many times the floor
     double below;        ///< errors at most this: larger ones tell nothing of small steps
-    double spread;  ///< slopes between neighbours, from the slope before (from the mean of those
-                    ///< before, where the power is pure)
+    double spread;       ///< of slopes between neighbours from the mean of those at smaller steps
     std::size_t points;  ///< at least
     double span;         ///< largest over smallest step, at most
-    bool pure;  ///< error = C step^p; else C step^p exp(c step): the first correction as well
 
-    /// For equations as smooth as the method wants: slopes change steadily towards the order.
-    static constexpr ConvergenceRule smooth() { return {30.0, 1e-2, 0.3, 5, 4.1, false}; }
+    /// For equations as smooth as the method wants: the smallest steps, four in factors of sqrt 2.
+    static constexpr ConvergenceRule smooth() { return {30.0, 1e-2, 0.3, 4, 2.9}; }
     /// For others: slopes scatter, an average order is all there is.
-    static constexpr ConvergenceRule rough() { return {3.0, 1e-2, 2.0, 5, 1e3, true}; }
+    static constexpr ConvergenceRule rough() { return {10.0, 1e-2, 2.0, 5, 1e3}; }
 };
 
-/// Fits the order where errors tell it. The range begins at the smallest step whose error is far enough
+/// Fits error ~ step^order where errors tell it. The range begins at the smallest step whose error is far enough
 /// above `floor` (what the reference is known to, or round-off) and takes in larger steps as long as
 /// the rule allows; where too few come together it begins one step later. The nominal order does not
 /// enter. Steps descending; what is not finite ends a range.

@@ -14,7 +14,7 @@ namespace spam {
 /// at the same cost, and whether they grow for ever.
 ///
 /// cost    right-hand sides per time: `calls-per-time`. Methods take fixed steps of that cost; those
-///         that cannot, steps for the tolerance that costs as much in the first fiftieth of the time
+///         that cannot, steps for the tolerance that costs as much in the first tenth of the time
 /// drift   change since t = 0 over the invariant's size (conserved_scales()), at 601 times
 /// growth  fit_growth(): exponent of the envelope between a tenth of the time and its end; bounded
 ///         below 0.25, a random walk below 0.75, secular above; round-off below 1e-13

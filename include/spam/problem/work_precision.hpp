@@ -34,6 +34,15 @@ std::string_view to_string(StepKind);
 ///             where the system is smooth and the nominal order at most 6: above, hardly any steps are
 ///             left between those too large and round-off
 ///
+/// A problem of one's own:
+///     WorkPrecision study;
+///     study.standard_methods = {"rk4", "arkode:DORMAND_PRINCE_7_4_5"};
+///     study.add_options(problem.options());
+///     return problem.main(argc, argv, [&](Session& session) {
+///         study.run<1>(session, {{"chain", "Chain of springs", chain, 10.0}});
+///     });
+/// where chain() makes a Start<1>: a model and the state it starts from (tests/problem/own_study.cpp).
+///
 /// Leaves integrator_accuracy.csv (a row a run; a study that was stopped goes on), orders.csv, a
 /// picture a system, and checks in result.json.
 class WorkPrecision {
@@ -52,7 +61,7 @@ class WorkPrecision {
   private:
     std::string methods_;
     StepKind steps_ = StepKind::both;
-    int calls_ = 40'000;
+    int calls_ = 20'000;
     double tightest_ = 1e-12;
     int jobs_ = 1;
 };
