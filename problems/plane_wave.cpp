@@ -22,10 +22,9 @@
 // so are, expanded in derivatives of the stress, the torques T_i = 1/2 sum_j T_ij, [HHM04] III:
 //     T_i = -(m/rho) (<r^2>/4) curl div sigma,     <r^2> = integral w r^2 = 5 h^2/28 (Lucy).
 // The rho d^2 particles of a block with d^2 = 15 h^2/14 exert just the rate, with the other sign.
-// Without --polarization it draws the figure: both (names in result.json without a prefix: the
-// transverse one). --compare-sizes runs half, once and twice as many cells at the same strain
-// (amplitude 0.01 for 24 cells, unless given) and fits the order at which the error falls to that of
-// long waves (0.8 %: sums for integrals).
+// Without --polarization it draws the figure: both (no prefix in result.json: transverse).
+// --compare-sizes runs half, once and twice as many cells at the same strain (amplitude 0.01 for 24
+// cells, unless given) and fits the order at which the error falls to that of long waves (0.8 %).
 #include "plane_wave/input.hpp"
 #include <spam/diagnostics/block_rotation.hpp>
 #include <spam/diagnostics/fits.hpp>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace spam {
 namespace {
@@ -59,16 +60,28 @@ std::string ranges(const LogLogPanel& panel) {
     return axis('x', x0, x1, 8.0) + axis('y', y0, y1, 9.0);
 }
 
+/// Entries of the key that have a curve.
+std::vector<std::size_t> keys_drawn(const LogLogPicture& picture) {
+    std::set<std::size_t> drawn;
+    for (const auto& panel : picture.panels)
+        for (const auto& curve : panel.curves)
+            if (!curve.x.empty()) drawn.insert(curve.key);
+    return {drawn.begin(), drawn.end()};
+}
+
 /// Entries in rows under the frames, each with its line and mark.
 std::string key(const LogLogPicture& picture, double width, double height, std::size_t per_row) {
     std::string script;
-    const std::size_t rows = (picture.key.size() + per_row - 1) / per_row;
+    const auto drawn = keys_drawn(picture);
+    const std::size_t rows = (drawn.size() + per_row - 1) / per_row;
     const double base = key_line * (picture.note.empty() ? 0.5 : 1.5);
-    for (std::size_t k = 0; k < picture.key.size(); ++k) {
-        const double x = (40.0 + (width - 60.0) * static_cast<double>(k % per_row) /
+    for (std::size_t place = 0; place < drawn.size(); ++place) {
+        const std::size_t k = drawn[place];
+        const double x = (40.0 + (width - 60.0) * static_cast<double>(place % per_row) /
                                      static_cast<double>(per_row)) /
                          width;
-        const double y = (base + key_line * static_cast<double>(rows - 1 - k / per_row)) / height;
+        const double y =
+            (base + key_line * static_cast<double>(rows - 1 - place / per_row)) / height;
         script += fmt::format(
             "set arrow {0} from screen {1:.4f},{2:.4f} to screen {3:.4f},{2:.4f} nohead lw 2 lc "
             "rgb "
@@ -126,7 +139,7 @@ bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPi
     const std::size_t rows = (picture.panels.size() + columns - 1) / columns;
     const std::size_t per_row = 2 * columns;
     const double bottom =
-        key_line * (static_cast<double>((picture.key.size() + per_row - 1) / per_row) +
+        key_line * (static_cast<double>((keys_drawn(picture).size() + per_row - 1) / per_row) +
                     (picture.note.empty() ? 0.0 : 1.0)) +
         10.0;
     const double width = frame_width * static_cast<double>(columns);
