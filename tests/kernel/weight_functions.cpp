@@ -2,7 +2,9 @@
 // Every weight function is normalised, zero from its range on, and has the derivatives it says it
 // has, in numbers and in lanes; and where a constant, a slope or the claimed smoothness is wrong,
 // that is noticed.
+#include <spam/core/error.hpp>
 #include <spam/core/lanes.hpp>
+#include <spam/kernel/any_weight.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/kernel/monaghan_cubic.hpp>
 #include <spam/kernel/wn.hpp>
@@ -217,4 +219,26 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_noticed) {
     check_mutations<MonaghanCubic<2>>();
     check_mutations<W5<2>>();
     BOOST_TEST(smoothness(OuterPieceOnly{}) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(any_weight_by_name) {
+    const auto same = [](const AnyWeight<2>& a, const auto& b) {
+        double worst = std::abs(a.range() - b.range());
+        for (double r = 0.0; r < 3.5; r += 0.25)
+            worst = std::max({worst, std::abs(a.value(r) - b.value(r)),
+                              std::abs(a.minus_slope_over_r(r) - b.minus_slope_over_r(r)),
+                              std::abs(a.second_derivative(r) - b.second_derivative(r)),
+                              std::abs(a.third_derivative(r) - b.third_derivative(r))});
+        return worst == 0.0 && a.continuous_derivatives == b.continuous_derivatives;
+    };
+    BOOST_TEST(same(weight_function<2>("lucy", 3.0), Lucy<2>(3.0)));
+    BOOST_TEST(same(weight_function<2>("monaghan", 3.0), MonaghanCubic<2>(3.0)));
+    BOOST_TEST(same(weight_function<2>("w2", 3.0), Wn<2, 2>(3.0)));
+    BOOST_TEST(same(weight_function<2>("w5", 3.0), Wn<2, 5>(3.0)));
+    BOOST_TEST(same(weight_function<2>("w8", 3.0), Wn<2, 8>(3.0)));
+    BOOST_TEST(!same(weight_function<2>("w5", 3.0), Wn<2, 4>(3.0)));
+    for (const char* name : {"gauss", "w1", "w9", "w", "w12", "Lucy", ""})
+        BOOST_CHECK_THROW(weight_function<2>(name, 3.0), InputError);
+    for (const double range : {0.0, -1.0, std::nan(""), double(INFINITY)})
+        BOOST_CHECK_THROW(weight_function<2>("lucy", range), InputError);
 }
