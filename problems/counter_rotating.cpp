@@ -142,6 +142,7 @@ int main(int argc, char** argv) {
             plan.on_snapshot = [&pair](double t, const Model<2>& model, std::span<const double> y) {
                 pair.sight.look(t, model, y);
             };
+            plan.memory = [&pair](Archive& archive) { archive(pair.sight); };
             auto y0 = initial_state<2>(pair.model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
                                        against_each_other(omega, size + 0.5 * gap));
             cases.push_back({pair.model, std::move(y0), std::move(plan),

@@ -122,6 +122,20 @@ bool is_standard(const Session& session, const Parameters& p) {
            !session.given("t-end");
 }
 
+/// Bodies meet when one comes within the other's range: it must not step, or be looked for, beyond.
+void refuse_tunnelling(const Session& session, const Parameters& p, double row_interval) {
+    const auto refuse = [&](const char* name, double interval, const char* what) {
+        const double range = session.scheme().range;
+        if (p.speed * interval <= range) return;
+        throw InputError(fmt::format(
+            "speed: at {:g} the projectile moves {:.3g} in {} {} = {:g}, more than the range {:g}, "
+            "and would pass through the bar; lower it, or choose --{} below {:.2g}",
+            p.speed, p.speed * interval, what, name, interval, range, name, range / p.speed));
+    };
+    if (session.integrator().dt) refuse("dt", *session.integrator().dt, "a step");
+    refuse("output-every", row_interval, "the time between two looks for bodies,");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -144,6 +158,8 @@ int main(int argc, char** argv) {
             if (!session.given("projectile")) p.projectile = 2;
             if (!session.given("offset")) p.offset = 2.0;
         }
+        const double row_interval = session.common().output_every.value_or(0.5);
+        refuse_tunnelling(session, p, row_interval);
         SmoothParticleModel<2> model(
             make_particles<2>(bar_and_projectile(p, session.scheme().range), 1.0),
             ElasticSolid::triangular_lattice(), session.scheme());
@@ -156,7 +172,6 @@ int main(int argc, char** argv) {
                 start.velocity()(0, static_cast<Eigen::Index>(i)) = p.speed;
 
         BodyLedger ledger;
-        const double row_interval = session.common().output_every.value_or(0.5);
         ledger.look(0.0, model, y0, row_interval);
         Plan<2> plan;
         plan.t_end = session.common().t_end.value_or(session.common().smoke ? 20.0 : 200.0);
@@ -176,6 +191,10 @@ int main(int argc, char** argv) {
         for (const double part : {0.0, 0.15, 0.5, 1.0}) sights.push_back({part * plan.t_end});
         plan.on_snapshot = [&sights](double t, const Model<2>& m, std::span<const double> y) {
             for (Sight& sight : sights) sight.look(t, m, y);
+        };
+        plan.memory = [&](Archive& archive) {
+            archive(ledger);
+            remember(archive, sights);
         };
         const auto run = session.run(model, std::move(y0), std::move(plan));
 

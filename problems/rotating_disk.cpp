@@ -171,8 +171,9 @@ std::vector<Column<2>> deviation_columns(const Body& body) {
 /// The case whose numbers are known.
 bool is_standard(const Session& session, const Parameters& p) {
     auto options = Problem::scheme_option_names();
-    options.insert(options.end(),
-                   {"damping", "range", "t-end", "dt", "rtol", "atol", "integrator"});
+    options.insert(options.end(), {"damping", "range", "t-end"});
+    options.insert(options.end(), IntegratorSettings::names().begin(),
+                   IntegratorSettings::names().end());
     for (const auto& option : options)
         if (session.given(option)) return false;
     return p.shape == Shape::disk && p.radius == 12.0 && p.speed == 0.1;
@@ -273,7 +274,9 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
         throw InputError(fmt::format(
             "radius: {} must be a whole number of spacings for --shape hexagon", p.radius));
     if (p.model != Which::md) return;
-    const std::string name = options.first_given(Problem::scheme_option_names());
+    auto names = Problem::scheme_option_names();
+    names.emplace_back("kernel");  // --range says how wide the rim is
+    const std::string name = options.first_given(names);
     if (!name.empty())
         throw InputError(fmt::format(
             "{}: has no meaning for --model md (springs between initial neighbours); leave it out",
@@ -303,7 +306,10 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         refuse_contradictions(options, p);
         if (session.common().smoke && !session.given("radius")) p.radius = 7.0;
-        if (p.model == Which::md) session.leave_out_of_case(Problem::scheme_option_names());
+        if (p.model == Which::md) {
+            session.leave_out_of_case(Problem::scheme_option_names());
+            session.leave_out_of_case({"kernel"});
+        }
         if (!p.damping) p.damping = 3.0 * c_L / p.radius;
 
         std::vector<Body> bodies;

@@ -288,6 +288,7 @@ int main(int argc, char** argv) {
                                           std::span<const double> y) {
                 for (Sight& sight : hexagon.sights) sight.look(t, model, y);
             };
+            plan.memory = [&hexagon](Archive& archive) { remember(archive, hexagon.sights); };
             cases.push_back({*hexagon.model, std::move(y0), std::move(plan), hexagon.label});
         }
         const auto runs = session.run_all(std::move(cases));

@@ -202,6 +202,8 @@ struct Snapshot {
     double t;
     Points<2> position;
     std::vector<double> shear_stress;
+
+    void remember(Archive& archive) { archive(t, position, shear_stress); }
 };
 
 /// The square's outline through particles at these positions.
@@ -297,6 +299,7 @@ int main(int argc, char** argv) {
             const Eigen::VectorXd stress = state.stress().row(2) / (eta * p.shear);
             snapshots.push_back({t, state.position(), {stress.begin(), stress.end()}});
         };
+        plan.memory = [&snapshots](Archive& archive) { archive(snapshots); };
         const auto run = session.run(*model, sheared_state(*model, p.shear), std::move(plan));
         check(session, p, *model, run, period);
         if (!session.plots()) return;

@@ -245,6 +245,11 @@ int main(int argc, char** argv) {
                 "closest-approach: a linear analysis of a lattice at rest knows no events; leave "
                 "it "
                 "out");
+        if (session.given("mean-density"))
+            throw InputError(
+                "mean-density: both means are the same to first order about a lattice of equal "
+                "densities; leave it out");
+        session.leave_out_of_case({"mean-density"});
         const auto scheme_options = Problem::scheme_option_names();
         const bool single = !options.first_given(scheme_options).empty();
         if (!single) session.leave_out_of_case(scheme_options);

@@ -15,6 +15,8 @@ namespace spam {
 SundialsContext::SundialsContext() {
 #if SUNDIALS_VERSION_MAJOR >= 7
     const int flag = SUNContext_Create(SUN_COMM_NULL, &context_);
+    // Handlers add up there, and the first prints: integrators say themselves what went wrong.
+    if (flag == 0) SUNContext_ClearErrHandlers(context_);
 #else
     const int flag = SUNContext_Create(nullptr, &context_);
 #endif

@@ -94,11 +94,11 @@ N_Vector clone(N_Vector like) {
     return nullptr;
 }
 
-void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
     const double *p = of(x).p, *q = of(y).p;
     fill(z, [=](std::size_t k) { return a * p[k] + b * q[k]; });
 }
-void constant(realtype c, N_Vector z) {
+void constant(double c, N_Vector z) {
     fill(z, [=](std::size_t) { return c; });
 }
 void product(N_Vector x, N_Vector y, N_Vector z) {
@@ -109,7 +109,7 @@ void quotient(N_Vector x, N_Vector y, N_Vector z) {
     const double *p = of(x).p, *q = of(y).p;
     fill(z, [=](std::size_t k) { return p[k] / q[k]; });
 }
-void scale(realtype c, N_Vector x, N_Vector z) {
+void scale(double c, N_Vector x, N_Vector z) {
     const double* p = of(x).p;
     fill(z, [=](std::size_t k) { return c * p[k]; });
 }
@@ -121,23 +121,23 @@ void inverse(N_Vector x, N_Vector z) {
     const double* p = of(x).p;
     fill(z, [=](std::size_t k) { return 1.0 / p[k]; });
 }
-void add_constant(N_Vector x, realtype b, N_Vector z) {
+void add_constant(N_Vector x, double b, N_Vector z) {
     const double* p = of(x).p;
     fill(z, [=](std::size_t k) { return p[k] + b; });
 }
-realtype dot_product(N_Vector x, N_Vector y) {
+double dot_product(N_Vector x, N_Vector y) {
     return sum(x, y, [](const auto& a, const auto& b) { return a * b; });
 }
-realtype weighted_rms_norm(N_Vector x, N_Vector w) {
+double weighted_rms_norm(N_Vector x, N_Vector w) {
     const double total = sum(x, w, [](const auto& a, const auto& b) { return (a * b) * (a * b); });
     return std::sqrt(total / static_cast<double>(of(x).n));
 }
-realtype largest_magnitude(N_Vector x) {
+double largest_magnitude(N_Vector x) {
     double largest = 0.0;
     for (std::size_t k = 0; k < of(x).n; ++k) largest = std::max(largest, std::abs(of(x).p[k]));
     return largest;
 }
-realtype smallest(N_Vector x) {
+double smallest(N_Vector x) {
     double least = std::numeric_limits<double>::max();
     for (std::size_t k = 0; k < of(x).n; ++k) least = std::min(least, of(x).p[k]);
     return least;
@@ -167,7 +167,7 @@ constexpr Combine combinations[] = {combine<1>, combine<2>, combine<3>, combine<
 constexpr int most_at_once = 8;
 
 /// z = sum c_m x_m; z may be x_0. More than eight vectors are added to z in turns of seven.
-int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
+int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
     double* const out = of(z).p;
     for (int done = 0; done < count;) {
         double factor[most_at_once];

@@ -37,7 +37,8 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
     const auto it = std::min_element(
         candidates.begin(), candidates.end(),
         [word](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
-    const std::size_t too_far = std::max<std::size_t>(3, word.size() / 2);
+    // More changes make another word of it; two letters exchanged are two.
+    const std::size_t too_far = word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
     return it == candidates.end() || distance(word, *it) > too_far ? std::string{} : *it;
 }
 

@@ -21,10 +21,14 @@ double largest_vector_change(const History& history, const std::string& name) {
 
 }  // namespace
 
+double allowed_change(Promise promise, double integrator_limit) {
+    return promise == Promise::exact ? 1e-12 : integrator_limit;
+}
+
 std::vector<Drift> measure_drifts(const History& history, const Promises& promises,
                                   double momentum_scale, double angular_momentum_scale,
                                   double integrator_limit) {
-    const auto limit = [&](Promise p) { return p == Promise::exact ? 1e-12 : integrator_limit; };
+    const auto limit = [&](Promise p) { return allowed_change(p, integrator_limit); };
     const auto relative = [](double change, double scale) {
         return change == 0.0 ? 0.0 : change / (scale > 0.0 ? scale : 1.0);
     };

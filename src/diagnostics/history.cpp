@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/diagnostics/history.hpp>
 
 #include <fmt/format.h>
@@ -12,7 +13,28 @@ namespace spam {
 
 void History::add(std::vector<double> row) {
     assert(row.size() == names_.size());
+    if (rows_.empty())
+        for (const double value : row) extents_.push_back({value, std::abs(value - value)});
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        Extent& extent = extents_[k];
+        if (extent.largest < row[k]) extent.largest = row[k];
+        const double change = rows_.empty() ? 0.0 : std::abs(row[k] - rows_.front()[k]);
+        if (!(change <= extent.change) && !std::isnan(extent.change)) extent.change = change;
+    }
     rows_.push_back(std::move(row));
+}
+
+void History::remember(Archive& archive) {
+    std::vector<std::string> names = names_;
+    auto rows = archive.reading() ? std::vector<std::vector<double>>{} : rows_;
+    archive(names, rows);
+    if (names != names_)
+        throw InputError(fmt::format("remembered columns {}, not {}", fmt::join(names, ","),
+                                     fmt::join(names_, ",")));
+    if (!archive.reading()) return;
+    rows_.clear();
+    extents_.clear();
+    for (auto& row : rows) add(std::move(row));
 }
 
 bool History::has(std::string_view name) const {
@@ -38,10 +60,7 @@ std::vector<double> History::column(std::string_view name) const {
 double History::first(std::string_view name) const { return rows_.front()[index(name)]; }
 double History::last(std::string_view name) const { return rows_.back()[index(name)]; }
 
-double History::largest(std::string_view name) const {
-    const auto values = column(name);
-    return *std::max_element(values.begin(), values.end());
-}
+double History::largest(std::string_view name) const { return extents_[index(name)].largest; }
 
 double History::smallest(std::string_view name) const {
     const auto values = column(name);
@@ -52,15 +71,8 @@ double History::relative_drift(std::string_view name) const {
     return std::abs(last(name) - first(name)) / std::abs(first(name));
 }
 
-double History::largest_change(std::string_view name) const {
-    double change = 0.0;
-    for (const double value : column(name)) {
-        const double here = std::abs(value - first(name));
-        if (!(here <= change)) change = here;  // NaN stays
-        if (std::isnan(change)) break;
-    }
-    return change;
-}
+/// NaN where there was one.
+double History::largest_change(std::string_view name) const { return extents_[index(name)].change; }
 
 double History::at(double t, std::string_view name) const {
     const std::size_t k = index(name);

@@ -1,84 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every ARKODE call of the library is in this file. For SUNDIALS 7 the calls of struct Calls become
-// ARKodeEvolve, ARKodeSetFixedStep, ... and the error handler moves to the context.
+// Runs ARKODE's methods. From SUNDIALS 7 on one set of calls serves ERKStep and ARKStep.
 #include "arkode.hpp"
 
+#include "arkode_tables.hpp"
 #include <spam/core/error.hpp>
-#include <spam/core/text.hpp>
+#include <spam/integrate/interrupt.hpp>
 
 #include <arkode/arkode_arkstep.h>
-#include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <new>
 #include <utility>
 
 namespace spam {
-namespace {
 
-struct FreeTable {
-    void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
-};
-using Table = std::unique_ptr<std::remove_pointer_t<ARKodeButcherTable>, FreeTable>;
-
-Table load_table(const std::string& method) {
-    std::string name = method.substr(std::string("arkode:").size());
-    if (!name.starts_with("ARKODE_")) name.insert(0, "ARKODE_");
-    const auto& known = arkode_tables();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-        const std::size_t prefix = std::string("ARKODE_").size();
-        std::vector<std::string> words;
-        for (const auto& table : known) words.push_back(table.substr(prefix));
-        throw InputError(
-            fmt::format("integrator: SUNDIALS has no explicit table '{}'{} The tables: {}",
-                        method.substr(method.find(':') + 1),
-                        suggestion(name.substr(prefix), words, "arkode:"), fmt::join(words, ", ")));
-    }
-    Table table(ARKodeButcherTable_LoadERKByName(name.c_str()));
-    if (!table) throw InputError(fmt::format("integrator: SUNDIALS cannot load {}", name));
-    return table;
-}
-
-/// ERKStep before SUNDIALS 6.7 takes every table with c_s = 1 for first-same-as-last and skips its
-/// first stage: silently wrong unless the last row of A is b. Those tables run through ARKStep.
-bool erkstep_is_right(const ARKodeButcherTableMem& table) {
-    const int last = table.stages - 1;
-    if (table.c[last] != 1.0) return true;
-    for (int j = 0; j < table.stages; ++j)
-        if (table.A[last][j] != table.b[j]) return false;
-    return true;
-}
-
-}  // namespace
-
+#if SUNDIALS_VERSION_MAJOR >= 7
+#define SPAM_ARKODE_CALL(name) decltype(&ARKode##name)
+#else
+#define SPAM_ARKODE_CALL(name) decltype(&ERKStep##name)
+#endif
 struct Arkode::Calls {
-    decltype(&ERKStepEvolve) evolve;
-    decltype(&ERKStepReset) reset;
-    decltype(&ERKStepFree) free;
-    decltype(&ERKStepSetUserData) set_user_data;
+    SPAM_ARKODE_CALL(Evolve) evolve;
+    SPAM_ARKODE_CALL(Reset) reset;
+    SPAM_ARKODE_CALL(Free) free;
+    SPAM_ARKODE_CALL(SetUserData) set_user_data;
+    SPAM_ARKODE_CALL(SVtolerances) set_tolerances;
+    SPAM_ARKODE_CALL(SetFixedStep) set_fixed_step;
+    SPAM_ARKODE_CALL(SetInitStep) set_init_step;
+    SPAM_ARKODE_CALL(SetStopTime) set_stop_time;
+    SPAM_ARKODE_CALL(SetMinStep) set_min_step;
+    SPAM_ARKODE_CALL(SetMaxStep) set_max_step;
+    SPAM_ARKODE_CALL(SetSafetyFactor) set_safety;
+    SPAM_ARKODE_CALL(SetMaxErrTestFails) set_most_rejections;
+    SPAM_ARKODE_CALL(GetNumErrTestFails) rejected;
+    SPAM_ARKODE_CALL(GetLastStep) last_step;
+    SPAM_ARKODE_CALL(GetCurrentStep) current_step;
+    SPAM_ARKODE_CALL(GetEstLocalErrors) local_errors;
+    SPAM_ARKODE_CALL(GetErrWeights) weights;
+    decltype(&set_arkode_controller) set_controller;
+#if SUNDIALS_VERSION_MAJOR < 7
     decltype(&ERKStepSetErrHandlerFn) set_error_handler;
-    decltype(&ERKStepSVtolerances) set_tolerances;
-    decltype(&ERKStepSetFixedStep) set_fixed_step;
-    decltype(&ERKStepSetInitStep) set_init_step;
-    decltype(&ERKStepSetStopTime) set_stop_time;
-    decltype(&ERKStepSetMinStep) set_min_step;
-    decltype(&ERKStepSetAdaptivityMethod) set_adaptivity;
-    decltype(&ERKStepGetNumErrTestFails) rejected;
-    decltype(&ERKStepGetLastStep) last_step;
-    decltype(&ERKStepGetCurrentStep) current_step;
+#endif
 };
 
 namespace {
 // Designated initialisers would name private members of Arkode; the order is that of struct Calls.
-#define SPAM_ARKODE_CALLS(S)                                                                 \
-    {                                                                                        \
-        S##Evolve, S##Reset, S##Free, S##SetUserData, S##SetErrHandlerFn, S##SVtolerances,   \
-            S##SetFixedStep, S##SetInitStep, S##SetStopTime, S##SetMinStep,                  \
-            S##SetAdaptivityMethod, S##GetNumErrTestFails, S##GetLastStep, S##GetCurrentStep \
-    }
+#define SPAM_ARKODE_CALLS(S)                                                              \
+    S##Evolve, S##Reset, S##Free, S##SetUserData, S##SVtolerances, S##SetFixedStep,       \
+        S##SetInitStep, S##SetStopTime, S##SetMinStep, S##SetMaxStep, S##SetSafetyFactor, \
+        S##SetMaxErrTestFails, S##GetNumErrTestFails, S##GetLastStep, S##GetCurrentStep,  \
+        S##GetEstLocalErrors, S##GetErrWeights
 }  // namespace
 
 Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
@@ -89,42 +62,60 @@ Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, doub
       dt_(options.dt),
       grid_(t0, options.dt.value_or(1.0)),
       accepted_(y.clone()),
+      local_error_(y.clone()),
+      weight_(y.clone()),
+      shares_(ode.blocks, ErrorShares::Norm::rms),
       watch_(ode) {
     create();
 }
 
 /// ARKODE's memory for going on from y at t, as if nothing had been before.
 void Arkode::create() {
-    static constexpr Calls erkstep = SPAM_ARKODE_CALLS(ERKStep);
-    static constexpr Calls arkstep = SPAM_ARKODE_CALLS(ARKStep);
+#if SUNDIALS_VERSION_MAJOR >= 7
+    static constexpr Calls erkstep{SPAM_ARKODE_CALLS(ARKode), &set_arkode_controller};
+    static constexpr Calls arkstep = erkstep;
+#else
+    static constexpr Calls erkstep{SPAM_ARKODE_CALLS(ERKStep), &set_erkstep_controller,
+                                   ERKStepSetErrHandlerFn};
+    static constexpr Calls arkstep{SPAM_ARKODE_CALLS(ARKStep), &set_arkstep_controller,
+                                   ARKStepSetErrHandlerFn};
+#endif
     if (memory_ != nullptr) calls_->free(&memory_);
+    const SundialsMessages::Scope scope(context_, messages_);
     const Table table = load_table(options_.method);
-    if (!dt_ && table->d == nullptr)
-        throw InputError(fmt::format(
-            "integrator: {} has no embedded error estimate and cannot choose its steps; add --dt",
-            options_.method));
     const bool erk = erkstep_is_right(*table);
     calls_ = erk ? &erkstep : &arkstep;
     memory_ = erk ? ERKStepCreate(&Arkode::rates, t_, y_.get(), context_.get())
                   : ARKStepCreate(&Arkode::rates, nullptr, t_, y_.get(), context_.get());
     if (memory_ == nullptr) throw std::bad_alloc();
-    check(calls_->set_error_handler(memory_, &Arkode::remember_message, this), "SetErrHandlerFn");
+#if SUNDIALS_VERSION_MAJOR < 7
+    check(calls_->set_error_handler(memory_, &SundialsMessages::handler, &messages_),
+          "SetErrHandlerFn");
+#endif
     check(calls_->set_user_data(memory_, this), "SetUserData");
     check(erk ? ERKStepSetTable(memory_, table.get())
               : ARKStepSetTables(memory_, table->q, table->p, nullptr, table.get()),
           "SetTable");
-    if (dt_) {
+    if (dt_)
         check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
-    } else {
-        Vector atol = y_.clone();
-        std::copy(ode_.absolute_tolerance.begin(), ode_.absolute_tolerance.end(),
-                  atol.span().begin());
-        check(calls_->set_tolerances(memory_, options_.rtol, atol.get()), "SVtolerances");
-        check(calls_->set_min_step(memory_, options_.min_step), "SetMinStep");
-        check(calls_->set_adaptivity(memory_, ARK_ADAPT_PID, 1, 0, nullptr), "SetAdaptivityMethod");
-    }
+    else
+        set_step_control();
     retaking_ = false;
     N_VScale(1.0, y_.get(), accepted_.get());
+}
+
+void Arkode::set_step_control() {
+    Vector atol = y_.clone();
+    std::copy(ode_.absolute_tolerance.begin(), ode_.absolute_tolerance.end(), atol.span().begin());
+    check(calls_->set_tolerances(memory_, options_.rtol, atol.get()), "SVtolerances");
+    check(calls_->set_controller(memory_, options_.controller, context_.get(), controller_),
+          "SetController");
+    check(calls_->set_most_rejections(memory_, most_rejections), "SetMaxErrTestFails");
+    check(calls_->set_min_step(memory_, options_.min_step), "SetMinStep");
+    if (options_.max_step) check(calls_->set_max_step(memory_, *options_.max_step), "SetMaxStep");
+    if (options_.initial_step)
+        check(calls_->set_init_step(memory_, *options_.initial_step), "SetInitStep");
+    if (options_.safety) check(calls_->set_safety(memory_, *options_.safety), "SetSafetyFactor");
 }
 
 Arkode::~Arkode() { calls_->free(&memory_); }
@@ -132,7 +123,7 @@ Arkode::~Arkode() { calls_->free(&memory_); }
 void Arkode::check(int flag, const char* call) const {
     if (flag != ARK_SUCCESS)
         throw InputError(
-            fmt::format("integrator: ARKODE {} failed ({}): {}", call, flag, message_));
+            fmt::format("integrator: ARKODE {} failed ({}): {}", call, flag, messages_.text()));
 }
 
 int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
@@ -140,40 +131,52 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     ++me.statistics_.rhs_evaluations;
     try {
         me.ode_.rates(t, entries(y), entries(y_dot));
+        if (me.spoiled_.empty()) me.spoiled_ = me.spoiled_rate(entries(y_dot), t);
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
         // ends here, before later stages cover the first reason by their own.
-        return me.dt_ && !me.ode_.failure().empty() ? -1 : 0;
+        std::string failure = me.ode_.failure();
+        if (failure.empty()) return 0;
+        me.failure_ = std::move(failure);
+        return me.dt_ ? -1 : 0;
     } catch (...) {
         me.error_ = std::current_exception();
         return -1;
     }
 }
 
-void Arkode::remember_message(int, const char*, const char*, char* message, void* self) {
-    static_cast<Arkode*>(self)->message_ = message;
+void Arkode::stop(int flag) {
+    if (error_) std::rethrow_exception(error_);
+    if (failure_.empty() && !spoiled_.empty())
+        throw GuardStop(fmt::format("{} (ARKODE {})", spoiled_, flag));
+    std::string message = failure_.empty() ? messages_.text() : failure_;
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    if (flag == ARK_ERR_FAILURE && failure_.empty()) {
+        look_at_errors();
+        double h = 0.0;
+        calls_->current_step(memory_, &h);
+        message = rejected_too_often(h, options_.min_step, shares_.in_words());
+    }
+    throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
 }
 
-void Arkode::stop(int flag) const {
-    if (error_) std::rethrow_exception(error_);
-    const std::string reason = ode_.failure();
-    std::string message = message_;
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    if (!reason.empty())
-        message = reason;
-    else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE)
-        message = fmt::format(
-            "the error test failed again and again, the step fell to {:.3g}, "
-            "near the least allowed {:.3g}",
-            statistics_.last_step, options_.min_step);
-    throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
+void Arkode::look_at_errors() {
+    if (ode_.blocks.empty()) return;
+    check(calls_->local_errors(memory_, local_error_.get()), "GetEstLocalErrors");
+    check(calls_->weights(memory_, weight_.get()), "GetErrWeights");
+    shares_.look(
+        [e = local_error_.span(), w = weight_.span()](std::size_t k) { return e[k] * w[k]; });
 }
 
 /// One step of ARKODE from the last accepted state, into y. Returns the time it reached.
 double Arkode::evolve(double t_stop) {
     double reached = t_;
+    const SundialsMessages::Scope scope(context_, messages_);
+    failure_.clear();
+    spoiled_.clear();
     const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);
+        if (!spoiled_.empty() && dt_) throw GuardStop(spoiled_);
         guard(y_.span(), reached);
     } catch (const GuardStop&) {
         N_VScale(1.0, accepted_.get(), y_.get());
@@ -204,8 +207,12 @@ void Arkode::take_piece(double h, double t_next) {
     if (dt_ && h != *dt_) check(calls_->set_fixed_step(memory_, h), "SetFixedStep");
     watch_.begin(t_, std::as_const(accepted_).span());
     const double reached = evolve(t_next + dt_.value_or(0.0));
-    calls_->last_step(memory_, &statistics_.last_step);
-    if (!dt_) h = reached - t_;
+    if (!dt_) {
+        calls_->last_step(memory_, &statistics_.last_step);
+        look_at_errors();
+        shares_.count(statistics_);
+        h = reached - t_;
+    }
     const auto [length, due] =
         watch_.first_piece(h, y_.span(), [this](double shorter) { return retake(shorter); });
     if (length == 0.0) N_VScale(1.0, accepted_.get(), y_.get());
@@ -222,10 +229,13 @@ void Arkode::take_piece(double h, double t_next) {
         check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
 }
 
-double Arkode::step(double t_stop) {
+double Arkode::take_step(double t_stop) {
     if (dt_) {
         const FixedGrid::Step next = grid_.next(t_, t_stop);
-        for (double h = next.length; t_ < next.to; h = next.to - t_) take_piece(h, next.to);
+        for (double h = next.length; t_ < next.to; h = next.to - t_) {
+            take_piece(h, next.to);
+            if (t_ < next.to && InterruptWatch::received() != 0) return t_;
+        }
         grid_.arrive(next);
         statistics_.last_step = next.length;
     } else {
@@ -258,19 +268,6 @@ void Arkode::remember(Archive& archive) {
     rejected_before_ = statistics_.rejected_steps;
     create();
     if (!dt_) check(calls_->set_init_step(memory_, ahead), "SetInitStep");
-}
-
-const std::vector<std::string>& arkode_tables() {
-    static const std::vector<std::string> names{
-        "ARKODE_HEUN_EULER_2_1_2",     "ARKODE_BOGACKI_SHAMPINE_4_2_3",
-        "ARKODE_ARK324L2SA_ERK_4_2_3", "ARKODE_ZONNEVELD_5_3_4",
-        "ARKODE_ARK436L2SA_ERK_6_3_4", "ARKODE_SAYFY_ABURUB_6_3_4",
-        "ARKODE_CASH_KARP_6_4_5",      "ARKODE_FEHLBERG_6_4_5",
-        "ARKODE_DORMAND_PRINCE_7_4_5", "ARKODE_ARK548L2SA_ERK_8_4_5",
-        "ARKODE_VERNER_8_5_6",         "ARKODE_FEHLBERG_13_7_8",
-        "ARKODE_KNOTH_WOLKE_3_3",      "ARKODE_ARK437L2SA_ERK_7_3_4",
-        "ARKODE_ARK548L2SAb_ERK_8_4_5"};
-    return names;
 }
 
 }  // namespace spam

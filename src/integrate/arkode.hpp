@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "arkode_control.hpp"
+#include "error_shares.hpp"
 #include "event_watch.hpp"
 #include "fixed_grid.hpp"
+#include "sundials_messages.hpp"
 
 #include <exception>
 
 namespace spam {
 
-/// An explicit Runge-Kutta method of ARKODE, adaptive or with a fixed step.
+/// An explicit Runge-Kutta method of ARKODE, adaptive or with a fixed step. A step is accepted where
+/// the root mean square over all entries k of e_k / (rtol |y_k| + atol_k) is at most 1; e is the
+/// difference to the embedded method, y the state before the step.
 class Arkode final : public Integrator {
   public:
     Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
            const SundialsContext& context);
     ~Arkode() override;
-    double step(double t_stop) override;
     bool lands_on_stops() const override { return !dt_; }
     void reset(double t) override;
     void remember(Archive& archive) override;
@@ -22,17 +26,18 @@ class Arkode final : public Integrator {
   private:
     struct Calls;  // the ERKStep and ARKStep flavours of one ARKODE call
 
+    double take_step(double t_stop) override;
     void check(int flag, const char* call) const;
-    [[noreturn]] void stop(int flag) const;
+    [[noreturn]] void stop(int flag);
     double evolve(double t_stop);
     std::span<const double> retake(double h);
     void take_piece(double h, double t_next);
     void restart(double h);
+    void look_at_errors();
     static int rates(double t, N_Vector y, N_Vector y_dot, void* self);
-    static void remember_message(int code, const char* module, const char* function, char* message,
-                                 void* self);
 
     void create();
+    void set_step_control();
 
     IntegratorOptions options_;
     const SundialsContext& context_;
@@ -41,10 +46,15 @@ class Arkode final : public Integrator {
     std::size_t rejected_before_ = 0;  ///< by the memory in use before
     bool retaking_ = false;            ///< ARKODE has the length of a step taken again
     Vector accepted_;  ///< y of the last accepted step: an ARKODE failure may leave y overwritten
+    Vector local_error_, weight_;  ///< of the latest adaptive step
+    ErrorShares shares_;
     EventWatch watch_;
     const Calls* calls_ = nullptr;
+    KeptController controller_;
     void* memory_ = nullptr;
-    std::string message_;
+    SundialsMessages messages_;
+    std::string failure_;  ///< of the ode, the latest since the last accepted step
+    std::string spoiled_;  ///< the first rate of this step that was not finite
     std::exception_ptr error_;
 };
 

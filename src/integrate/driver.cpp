@@ -24,6 +24,32 @@ class Once {
     double last_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The stops of a schedule that are still to come.
+struct Stops {
+    const Schedule& schedule;
+    DueTimes output, snapshot, checkpoint;
+    double slack;
+
+    explicit Stops(const Schedule& s)
+        : schedule(s),
+          output(s.output_every, s.start),
+          snapshot(s.snapshot_every, s.start),
+          checkpoint(s.checkpoint_every > 0.0 ? s.checkpoint_every
+                                              : std::numeric_limits<double>::infinity(),
+                     s.start),
+          slack(1e-9 * std::min({s.output_every, s.snapshot_every, s.t_end - s.start})) {
+        if (s.checkpoint_every > 0.0) slack = std::min(slack, 1e-9 * s.checkpoint_every);
+    }
+
+    double next() const {
+        const double stop = std::min({output.next(), snapshot.next(), checkpoint.next()});
+        return schedule.t_end - stop < slack ? schedule.t_end : stop;
+    }
+    void skip(double t) {
+        for (DueTimes* due : {&output, &snapshot, &checkpoint}) due->reached(t, slack);
+    }
+};
+
 }  // namespace
 
 bool DueTimes::reached(double t, double slack) {
@@ -35,33 +61,40 @@ bool DueTimes::reached(double t, double slack) {
 
 int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers) {
     Once output(observers.output), snapshot(observers.snapshot);
-    DueTimes output_due(schedule.output_every, integrator.t());
-    DueTimes snapshot_due(schedule.snapshot_every, integrator.t());
-    output(integrator.t());
-    snapshot(integrator.t());
+    Once checkpoint(observers.checkpoint);
+    Stops stops(schedule);
+    const auto finish = [&](double t) {
+        checkpoint(t);
+        output(t);
+        snapshot(t);
+    };
+    if (schedule.resumed) {
+        stops.skip(integrator.t());
+        if (observers.enough && observers.enough(integrator.t())) {
+            finish(integrator.t());
+            return 0;
+        }
+    } else {
+        output(integrator.t());
+        snapshot(integrator.t());
+    }
     try {
         while (integrator.t() < schedule.t_end && InterruptWatch::received() == 0) {
-            double stop = schedule.t_end;
-            const double slack = 1e-9 * std::min(schedule.output_every, schedule.snapshot_every);
-            if (integrator.lands_on_stops()) {
-                stop = std::min({stop, output_due.next(), snapshot_due.next()});
-                if (schedule.t_end - stop < slack) stop = schedule.t_end;
-            }
-            const double t = integrator.step(stop);
-            const bool row = output_due.reached(t, slack);
+            const double t =
+                integrator.step(integrator.lands_on_stops() ? stops.next() : schedule.t_end);
+            const bool row = stops.output.reached(t, stops.slack);
             if (row) output(t);
-            if (snapshot_due.reached(t, slack)) snapshot(t);
+            if (stops.snapshot.reached(t, stops.slack)) snapshot(t);
             if (observers.step) observers.step(t);
             if (row && observers.enough && observers.enough(t)) break;
             if (row && observers.revise && observers.revise(t)) integrator.reset(t);
+            if (stops.checkpoint.reached(t, stops.slack)) checkpoint(t);
         }
+        finish(integrator.t());
     } catch (const GuardStop&) {
-        output(integrator.t());
-        snapshot(integrator.t());
+        finish(integrator.t());
         throw;
     }
-    output(integrator.t());
-    snapshot(integrator.t());
     return InterruptWatch::received();
 }
 

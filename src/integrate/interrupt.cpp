@@ -22,6 +22,7 @@ InterruptWatch::InterruptWatch() {
         if (std::signal(signal, remember_signal) == SIG_IGN)
             std::signal(signal, SIG_IGN);  // nohup and background jobs mean it
     std::signal(SIGPIPE, SIG_IGN);         // whoever reads the output may leave; the run goes on
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is a failed write, reported as such
 }
 
 InterruptWatch::~InterruptWatch() {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "option_entry.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
-#include <spam/io/options.hpp>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -34,20 +31,6 @@ Allowed between(double least, double most) {
             fmt::format("between {:g} and {:g}", least, most)};
 }
 
-/// One option. Values travel as text: what the command line holds, and what a TOML value prints as.
-struct Options::Entry {
-    std::string name, help, group, type;
-    std::string allowed;                          ///< completes "must be ..."
-    std::function<void(const std::string&)> set;  ///< throws InputError
-    std::function<std::string()> get;             ///< as a TOML value, empty when unset
-    bool is_flag = false;
-    bool is_text = false;  ///< TOML must give a string
-    bool in_case = true;
-    bool in_file = false;         ///< set by the file of --config
-    bool on_command = false;      ///< set on the command line
-    std::function<void()> unset;  ///< back to unset, where that exists
-};
-
 namespace {
 
 double parse_number(const std::string& name, const std::string& text, const Allowed& allowed) {
@@ -68,28 +51,6 @@ int parse_integer(const std::string& name, const std::string& text, const Allowe
         throw InputError(
             fmt::format("{}: '{}' must be a whole number, {}", name, text, allowed.words));
     return value;
-}
-
-/// The whole of a file of options; throws InputError when there is nothing to read.
-std::string text_of(const std::string& path) {
-    if (path.empty()) throw InputError("config: must not be empty; give the name of a TOML file");
-    std::error_code error;
-    std::ifstream in(path, std::ios::binary);
-    if (!in || std::filesystem::is_directory(path, error))
-        throw InputError(fmt::format("config: '{}' is not a file that can be read", path));
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string toml_string(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        if (static_cast<unsigned char>(c) < 0x20)
-            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else
-            out += c;
-    }
-    return out + "\"";
 }
 
 }  // namespace
@@ -144,6 +105,18 @@ void Options::integer(std::string name, int& target, std::string help, Allowed a
     entry.get = [&target] { return fmt::format("{}", target); };
 }
 
+void Options::integer(std::string name, std::optional<int>& target, std::string help,
+                      Allowed allowed) {
+    Entry& entry = add(std::move(name), std::move(help));
+    entry.type = "INTEGER";
+    entry.allowed = "a whole number, " + allowed.words;
+    entry.set = [&entry, &target, allowed](const std::string& text) {
+        target = parse_integer(entry.name, text, allowed);
+    };
+    entry.unset = [&target] { target.reset(); };
+    entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
+}
+
 void Options::text(std::string name, std::string& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "TEXT";
@@ -153,6 +126,7 @@ void Options::text(std::string name, std::string& target, std::string help) {
         if (text.empty()) throw InputError(fmt::format("{}: must not be empty", entry.name));
         target = text;
     };
+    if (target.empty()) entry.unset = [&target] { target.clear(); };
     entry.get = [&target] { return target.empty() ? std::string{} : toml_string(target); };
 }
 
@@ -196,112 +170,6 @@ std::vector<std::string> Options::names() const {
     return result;
 }
 
-bool Options::parse(int argc, const char* const* argv) {
-    CLI::App app(summary_, program_);
-    app.allow_extras();
-    app.set_help_flag("--help,-h", "print this help and exit");
-    std::vector<std::string> raw(entries_.size());
-    std::vector<CLI::Option*> registered;
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        const Entry& entry = *entries_[k];
-        CLI::Option* option = nullptr;
-        if (entry.is_flag) {
-            option = app.add_flag("--" + entry.name, entry.help);
-        } else {
-            std::string help = entry.help;
-            const std::string standard = entry.get();
-            if (!standard.empty()) help += fmt::format(" [{}]", standard);
-            option = app.add_option("--" + entry.name, raw[k], help)->type_name(entry.type);
-        }
-        registered.push_back(option->group(entry.group));
-    }
-    const auto* config =
-        app.add_option("--config", config_, "read options from a TOML file")->type_name("FILE");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(app.help().c_str(), stdout);
-        return false;
-    } catch (const CLI::ParseError& error) {
-        std::string message = error.what();
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError(message + "; see --help");
-    }
-    if (!app.remaining().empty()) {
-        const std::string word = app.remaining().front();
-        const std::string bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
-        auto known = names();
-        known.emplace_back("config");
-        throw InputError(fmt::format("unknown option '{}'{} See --help", word,
-                                     suggestion(bare.substr(0, bare.find('=')), known, "--")));
-    }
-    const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
-        if (value.starts_with("--"))
-            throw InputError(
-                fmt::format("{}: '{}' is an option, not a value; the value of --{} is "
-                            "missing",
-                            name, value, name));
-    };
-    refuse_option_as_value("config", config_);
-    if (config->count() > 0) read_config(config_);
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        if (registered[k]->count() == 0) continue;
-        refuse_option_as_value(entries_[k]->name, raw[k]);
-        entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
-        entries_[k]->on_command = true;
-    }
-    return true;
-}
-
-void Options::read_config(const std::string& path) {
-    toml::table table;
-    try {
-        table = toml::parse(text_of(path), path);
-    } catch (const toml::parse_error& error) {
-        const auto& where = error.source().begin;
-        throw InputError(fmt::format("config: {} line {}: {}", path, where.line,
-                                     std::string(error.description())));
-    }
-    for (const auto& [key, node] : table) {
-        const std::string name(key.str());
-        const auto line = node.source().begin.line;
-        const auto it = std::find_if(entries_.begin(), entries_.end(),
-                                     [&](const auto& entry) { return entry->name == name; });
-        if (it == entries_.end())
-            throw InputError(fmt::format("config: {} line {}: unknown key '{}'{} See --help", path,
-                                         line, name, suggestion(name, names())));
-        Entry& entry = **it;
-        std::string text;
-        bool fits = false;
-        if (const auto* s = node.as_string()) {
-            text = s->get();
-            fits = entry.is_text;
-        } else if (const auto* i = node.as_integer()) {
-            text = fmt::format("{}", i->get());
-            fits = entry.type == "INTEGER" || entry.type == "NUMBER";
-        } else if (const auto* f = node.as_floating_point()) {
-            text = fmt::format("{}", f->get());
-            fits = entry.type == "NUMBER";
-        } else if (const auto* b = node.as_boolean()) {
-            text = b->get() ? "true" : "false";
-            fits = entry.is_flag;
-        }
-        if (!fits) {
-            std::ostringstream value;  // as TOML writes it
-            node.visit([&](const auto& v) { value << v; });
-            if (node.is_string()) value.str(toml_string(text));
-            throw InputError(fmt::format("config: {} line {}: {}: {} must be {}", path, line, name,
-                                         value.str(), entry.allowed));
-        }
-        try {
-            entry.set(text);
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("config: {} line {}: {}", path, line, error.what()));
-        }
-        entry.in_file = true;
-    }
-}
-
 bool Options::given(std::string_view name) const {
     return std::any_of(entries_.begin(), entries_.end(), [name](const auto& e) {
         return e->name == name && (e->in_file || e->on_command);
@@ -327,24 +195,6 @@ std::string Options::first_given(const std::vector<std::string>& names) const {
     for (const auto& name : names)
         if (given(name)) return name;
     return {};
-}
-
-std::vector<std::pair<std::string, std::string>> Options::resolved() const {
-    std::vector<std::pair<std::string, std::string>> result;
-    for (const auto& entry : entries_) {
-        const std::string value = entry->get();
-        if (entry->in_case && !value.empty()) result.emplace_back(entry->name, value);
-    }
-    return result;
-}
-
-std::string Options::case_toml(const std::vector<std::string>& without) const {
-    std::string text = fmt::format(
-        "# {}: the resolved case. Run it again with\n#   {} --config FILE\n", program_, program_);
-    for (const auto& [name, value] : resolved())
-        if (std::find(without.begin(), without.end(), name) == without.end())
-            text += fmt::format("{} = {}\n", name, value);
-    return text;
 }
 
 }  // namespace spam

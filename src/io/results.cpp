@@ -2,14 +2,44 @@
 #include "spam_version.h"  // written by every build
 #include <spam/io/results.hpp>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
 
 bool Check::holds() const {
     return !expected || std::abs(value - *expected) <= tolerance;  // NaN does not hold
+}
+
+void RunStatistics::add(const RunStatistics& other) {
+    steps += other.steps;
+    rejected_steps += other.rejected_steps;
+    rhs_evaluations += other.rhs_evaluations;
+    events += other.events;
+    wall_seconds += other.wall_seconds;
+    pair_interactions += other.pair_interactions;
+    if (stopped.empty()) stopped = other.stopped;
+    for (const Limit& limit : other.limited_by) {
+        auto known = std::find_if(limited_by.begin(), limited_by.end(),
+                                  [&](const Limit& one) { return one.field == limit.field; });
+        if (known == limited_by.end()) known = limited_by.insert(known, {limit.field, 0, 0.0});
+        known->steps += limit.steps;
+        known->error_share += limit.error_share;
+    }
+}
+
+std::string RunStatistics::limits_in_words() const {
+    double total = 0.0;
+    for (const Limit& limit : limited_by) total += limit.error_share;
+    std::string words;
+    for (const Limit& limit : limited_by)
+        words += fmt::format("{}{} {} step{} ({:.0f} % of the error)", words.empty() ? "" : ", ",
+                             limit.field, limit.steps, limit.steps == 1 ? "" : "s",
+                             100.0 * limit.error_share / total);
+    return words;
 }
 
 void write_results(const RunFolder& folder, const std::vector<Check>& checks) {
@@ -38,6 +68,10 @@ void write_statistics(const RunFolder& folder, const RunStatistics& s) {
     json["events"] = s.events;
     json["wall_seconds"] = s.wall_seconds;
     json["pair_interactions"] = s.pair_interactions;
+    if (!s.limited_by.empty()) {
+        auto& limits = json["limited_by"] = nlohmann::ordered_json::object();
+        for (const auto& limit : s.limited_by) limits[limit.field] = limit.steps;
+    }
     json["version"] = version();
     if (!s.stopped.empty()) json["stopped"] = s.stopped;
     folder.write("statistics.json", json.dump(2) + "\n");

@@ -7,6 +7,8 @@
 namespace spam {
 namespace {
 
+std::string snapshot_name(std::size_t number) { return fmt::format("snapshot_{:04}.vtp", number); }
+
 /// Component c of a plane (linear) vector shown in space.
 template <class View>
 double in_space(const View& field, std::size_t i, int c) {
@@ -60,8 +62,21 @@ std::string snapshot_text(const Model<Dim>& model, std::span<const double> y) {
 }  // namespace
 
 template <int Dim>
+void SnapshotSeries<Dim>::resume(const std::vector<double>& times) {
+    files_.clear();
+    for (const double t : times) files_.emplace_back(t, snapshot_name(files_.size()));
+}
+
+template <int Dim>
+std::vector<std::string> SnapshotSeries<Dim>::names() const {
+    std::vector<std::string> names;
+    for (const auto& [t, name] : files_) names.push_back(name);
+    return names;
+}
+
+template <int Dim>
 void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
-    const std::string name = fmt::format("snapshot_{:04}.vtp", files_.size());
+    const std::string name = snapshot_name(files_.size());
     folder_.write(name, snapshot_text(model_, y));
     files_.emplace_back(t, name);
     std::string list =

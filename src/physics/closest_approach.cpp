@@ -53,7 +53,23 @@ ClosestApproach<Dim>::ClosestApproach(std::vector<double> mass, const Box<Dim>& 
       periodic_(box.periodic()),
       R_(distance),
       moves_with_v_(moves_with_v),
-      list_(std::make_unique<ClusterList<Dim>>(1.001 * R_, skin(share_, R_, box_), box_, 1)) {}
+      list_(new_list()) {}
+
+template <int Dim>
+std::unique_ptr<ClusterList<Dim>> ClosestApproach<Dim>::new_list() const {
+    return std::make_unique<ClusterList<Dim>>(1.001 * R_, skin(first_share, R_, box_), box_, 1);
+}
+
+template <int Dim>
+void ClosestApproach<Dim>::remember(Archive& archive) {
+    archive(passed_);
+    if (!archive.reading()) return;
+    list_ = new_list();
+    share_ = first_share;
+    served_ = 0;
+    near_.clear();
+    armed_.clear();
+}
 
 template <int Dim>
 Point<Dim> ClosestApproach<Dim>::separation(const Points_& x, const Numbers& pair) const {
@@ -203,6 +219,7 @@ Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Di
         const State<Dim> state(layout, y);
         return shared->reflect(state.position(), state.velocity());
     };
+    event.remember = [shared](Archive& archive) { shared->remember(archive); };
     return event;
 }
 

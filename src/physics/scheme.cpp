@@ -41,6 +41,8 @@ Promises Scheme::promises(int dim) const {
 std::string Scheme::describe() const {
     std::string more;
     if (balance == Balance::global) more += " over all bodies";
+    if (angular_momentum == AngularMomentum::gauss && gauss_singular == GaussSingular::stop)
+        more += " until it is singular";
     if (viscosity > 0.0) more += fmt::format(", viscosity {}", viscosity);
     if (closest_approach > 0.0)
         more += fmt::format(", approaching pairs reflected at {}", closest_approach);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint.hpp"
 #include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
@@ -27,9 +28,10 @@ void keep_standard_descriptors() {
 Problem::Problem(std::string name, std::string summary, double default_dt)
     : name_(std::move(name)),
       summary_(std::move(summary)),
-      default_dt_(default_dt),
+      integrator_(default_dt),
       options_(name_, summary_) {
     common_.out = name_ + "-out";
+    options_.version(fmt::format("{}: spam {}, SUNDIALS {}", name_, version(), sundials_version()));
     options_.group("Running");
     options_.text("out", common_.out, "result folder");
     options_.flag("force", common_.force, "move an existing result folder aside");
@@ -44,16 +46,55 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
                     positive());
     options_.number("snapshot-every", common_.snapshot_every, "interval between .vtp snapshots",
                     positive());
+    options_.number(
+        "checkpoint-every", common_.checkpoint_every,
+        "interval between checkpoint_0.h5 and _1.h5, in turn; one is always left at the "
+        "end",
+        positive());
+    options_.text("restart", common_.restart,
+                  "checkpoint to go on from, with its case; a result folder: its newest");
     options_.exclude_from_case(
-        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads"});
-    options_.group("Integrator");
-    options_.text("integrator", method_,
-                  "rk4, or arkode:<SUNDIALS table>: adaptive, fixed with --dt");
-    options_.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt), positive());
-    options_.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
-    options_.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
-                    positive());
+        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
+    options_.case_from(
+        "restart", [this](const std::string& file) { return recall_case(file); },
+        {"t-end", "output-every", "snapshot-every", "checkpoint-every", "max-steps"});
+    integrator_.add_to(options_);
+    add_guard_options();
     options_.group("Problem");
+}
+
+Problem::~Problem() = default;
+
+void Problem::add_guard_options() {
+    auto& guard = common_.guard;
+    options_.group("Guard");
+    options_.choice<DriftAction>("guard", guard.action,
+                                 {DriftAction::off, DriftAction::warn, DriftAction::stop},
+                                 "what to do when an invariant changes by more than its limit");
+    const auto limit = [&](const char* name, std::optional<double>& target) {
+        options_.number(std::string("limit-") + name, target,
+                        "relative change at which it acts (what the scheme promises)", positive());
+    };
+    limit("mass", guard.mass);
+    limit("momentum", guard.momentum);
+    limit("angular-momentum", guard.angular_momentum);
+    limit("energy", guard.energy);
+}
+
+const std::vector<std::string>& Problem::guard_option_names() {
+    static const std::vector<std::string> names{"guard", "limit-mass", "limit-momentum",
+                                                "limit-angular-momentum", "limit-energy"};
+    return names;
+}
+
+void Problem::refuse_idle_limits() {
+    const auto& all = guard_option_names();
+    const std::vector<std::string> limits(all.begin() + 1, all.end());
+    options_.command_line_wins({"guard"}, limits);
+    if (common_.guard.action != DriftAction::off) return;
+    if (const auto name = options_.first_given(limits); !name.empty())
+        throw InputError(
+            fmt::format("{}: has no meaning with --guard off; use --guard warn or stop", name));
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
@@ -115,36 +156,6 @@ std::vector<std::string> Problem::idle_scheme_options() {
     return idle;
 }
 
-/// The integrator that the options mean; an option without effect is refused.
-IntegratorOptions Problem::resolve_integrator() {
-    options_.command_line_wins({"integrator"}, {"dt", "rtol", "atol"});
-    options_.command_line_wins({"dt"}, {"rtol", "atol"});
-    options_.command_line_wins({"rtol", "atol"}, {"dt"});
-    IntegratorOptions integrator;
-    integrator.method = method_;
-    const bool rk4 = method_ == "rk4";
-    const std::string tolerance = options_.first_given({"rtol", "atol"});
-    if (rk4 && !tolerance.empty())
-        throw InputError(
-            fmt::format("{}: rk4 has a fixed step and no tolerance; use --dt, or --integrator "
-                        "arkode:DORMAND_PRINCE_7_4_5",
-                        tolerance));
-    if (!rk4 && dt_ && !tolerance.empty())
-        throw InputError(
-            fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
-                        tolerance, tolerance));
-    if (rk4 && !dt_) dt_ = default_dt_;
-    integrator.dt = dt_;
-    if (rtol_) integrator.rtol = *rtol_;
-    if (atol_) integrator.atol = *atol_;
-    if (integrator.adaptive()) {
-        rtol_ = integrator.rtol;
-        atol_ = integrator.atol;
-    }
-    integrator.validate();
-    return integrator;
-}
-
 int Problem::main(int argc, char** argv, const std::function<void(Session&)>& body) {
     std::string command = name_;
     for (int k = 1; k < argc; ++k) command += fmt::format(" {}", argv[k]);
@@ -157,9 +168,11 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     const InterruptWatch watch;
     try {
         if (!options_.parse(argc, argv)) return 0;
+        settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         const auto idle = idle_scheme_options();
-        const IntegratorOptions integrator = resolve_integrator();
+        refuse_idle_limits();
+        const IntegratorOptions integrator = integrator_.resolve(options_);
         set_threads(common_.threads);
         Session session(*this, integrator, command);
         session.leave_out_of_case(idle);

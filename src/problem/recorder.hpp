@@ -45,8 +45,24 @@ class Recorder {
     }
 
     const History& history() const { return history_; }
+
+    /// The rows so far; those read are written anew.
+    void remember(Archive& archive) {
+        archive(history_, momentum_scale_, angular_momentum_scale_);
+        if (!archive.reading() || !csv_) return;
+        for (const auto& row : history_.rows()) csv_->add(row);
+    }
     std::vector<Drift> drifts(double integrator_limit) const {
         return measure_drifts(history_, model_.promises(), momentum_scale_, angular_momentum_scale_,
+                              integrator_limit);
+    }
+
+    /// Of the latest row against the first.
+    std::vector<Drift> latest_drifts(double integrator_limit) const {
+        History both(history_.names());
+        both.add(history_.rows().front());
+        both.add(history_.rows().back());
+        return measure_drifts(both, model_.promises(), momentum_scale_, angular_momentum_scale_,
                               integrator_limit);
     }
 

@@ -28,7 +28,7 @@ std::string component_name(Field field, std::size_t component) {
 }  // namespace
 
 template <int Dim>
-Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
+Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pair_interactions) {
     Ode ode;
     ode.rates = [&](double t, std::span<const double> y, std::span<double> y_dot) {
         model.rates(t, y, y_dot);
@@ -49,7 +49,8 @@ Ode as_ode(Model<Dim>& model, double atol, std::size_t& pair_interactions) {
     ode.absolute_tolerance.resize(model.layout().size());
     for (const auto& block : model.layout().blocks())
         std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
-                    block.components * model.layout().particles(), atol * block.scale);
+                    block.components * model.layout().particles(),
+                    options.absolute_tolerance(field_name(block.field), block.scale));
     return ode;
 }
 
@@ -63,18 +64,20 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
       promise_limit_(promise_limit(options)),
       y_(one.y0.size(), context_),
       recorder_(one.model, one.plan, folder),
+      guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
     std::copy(one.y0.begin(), one.y0.end(), y_.span().begin());
     record_.label = one.label;
     record_.statistics.particles = one.model.particles().size();
-    ode_ = as_ode(one.model, options.atol, record_.statistics.pair_interactions);
+    ode_ = as_ode(one.model, options, record_.statistics.pair_interactions);
     integrator_ = make_integrator(options, ode_, y_, 0.0, context_);
     if (folder != nullptr) events_ = *folder / "events.csv";
 }
 
 template <int Dim>
 double Run<Dim>::seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return seconds_before_ +
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 /// The file comes into being with the first event.
@@ -91,6 +94,76 @@ void Run<Dim>::remember(double t, const Remark& remark) {
 }
 
 template <int Dim>
+void Run<Dim>::snapshot(double t, const Watchers& watchers) {
+    if (!snapshot_times_.empty() && snapshot_times_.back() == t) return;
+    snapshot_times_.push_back(t);
+    if (watchers.snapshot) watchers.snapshot(t);
+    if (one_.plan.on_snapshot) one_.plan.on_snapshot(t, one_.model, y_.span());
+}
+
+template <int Dim>
+void Run<Dim>::remember_motion(Archive& archive) {
+    one_.model.remember(archive);
+    integrator_->remember(archive);
+}
+
+template <int Dim>
+void Run<Dim>::remember_records(Archive& archive) {
+    recorder_.remember(archive);
+    archive(guard_);
+    double so_far = seconds();
+    archive(record_.remarks, record_.statistics.pair_interactions, so_far, snapshot_times_);
+    if (archive.reading()) seconds_before_ = so_far;
+    if (one_.plan.memory) one_.plan.memory(archive);
+}
+
+template <int Dim>
+CaseMemory Run<Dim>::memory() {
+    CaseMemory memory = case_memory<Dim>(one_.model, y_.span(), integrator_->t());
+    memory.label = one_.label;
+    Archive motion, records;
+    remember_motion(motion);
+    remember_records(records);
+    memory.motion = motion.bytes();
+    memory.records = records.bytes();
+    return memory;
+}
+
+template <int Dim>
+void Run<Dim>::recall(const CaseMemory& memory) {
+    const auto y = state_of(memory, one_.model);
+    std::copy(y.begin(), y.end(), y_.span().begin());
+    Archive motion(memory.motion), records(memory.records);
+    remember_motion(motion);
+    motion.expect_end();
+    remember_records(records);
+    records.expect_end();
+    if (events_) rewrite_events();
+    resumed_ = true;
+    ended_ = memory.stopped;
+}
+
+/// What is written now can be gone on from later. Here the run does so itself, so that it goes the same
+/// way as one that was restarted.
+template <int Dim>
+void Run<Dim>::checkpoint(const Watchers& watchers) {
+    watchers.checkpoint();
+    Archive motion;
+    remember_motion(motion);
+    Archive back(motion.bytes());
+    remember_motion(back);
+}
+
+template <int Dim>
+void Run<Dim>::rewrite_events() {
+    std::error_code ignored;
+    std::filesystem::remove(*events_, ignored);
+    auto remarks = std::move(record_.remarks);
+    record_.remarks.clear();
+    for (const auto& [t, remark] : remarks) remember(t, remark);
+}
+
+template <int Dim>
 void Run<Dim>::watch(double t, const Watchers& watchers) {
     for (const Remark& remark : one_.model.watch(t, y_.span())) {
         remember(t, remark);
@@ -98,6 +171,36 @@ void Run<Dim>::watch(double t, const Watchers& watchers) {
         if (remark.stop)
             throw GuardStop(fmt::format("{} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
     }
+}
+
+/// After a row: has an invariant left its limit?
+template <int Dim>
+void Run<Dim>::guard(double t, const Watchers& watchers) {
+    if (guard_.action() == DriftAction::off) return;
+    for (const auto& beyond : guard_.look(recorder_.latest_drifts(promise_limit_))) {
+        remember(t, {beyond.name + " beyond its limit", beyond.change});
+        const std::string text = fmt::format("{} at t = {:.6g}", beyond.describe(), t);
+        if (guard_.action() == DriftAction::stop) throw GuardStop(text);
+        if (watchers.warning) watchers.warning(t, text);
+    }
+}
+
+template <int Dim>
+std::string Run<Dim>::limiting() const {
+    const auto block = statistics().limiting;
+    return block && *block < ode_.blocks.size() ? ode_.blocks[*block].name : std::string{};
+}
+
+/// Nothing for fixed steps.
+template <int Dim>
+std::vector<RunStatistics::Limit> Run<Dim>::limits() const {
+    std::vector<RunStatistics::Limit> limits;
+    const auto& s = statistics();
+    if (std::all_of(s.limited_by.begin(), s.limited_by.end(), [](auto n) { return n == 0; }))
+        return limits;
+    for (std::size_t b = 0; b < std::min(ode_.blocks.size(), s.limited_by.size()); ++b)
+        limits.push_back({ode_.blocks[b].name, s.limited_by[b], s.error_share[b]});
+    return limits;
 }
 
 template <int Dim>
@@ -108,6 +211,7 @@ void Run<Dim>::complete() {
     s.rejected_steps = statistics().rejected_steps;
     s.rhs_evaluations = statistics().rhs_evaluations;
     s.events = statistics().events;
+    s.limited_by = limits();
     s.wall_seconds = seconds();
     record_.history = recorder_.history();
     record_.drifts = drifts();
@@ -118,11 +222,14 @@ template <int Dim>
 std::string Run<Dim>::drive(const Watchers& watchers) {
     const Plan<Dim>& plan = one_.plan;
     Observers observers;
-    observers.output = [&](double t) { recorder_.add(t, statistics().last_step, y_.span()); };
-    observers.snapshot = [&](double t) {
-        if (watchers.snapshot) watchers.snapshot(t);
-        if (plan.on_snapshot) plan.on_snapshot(t, one_.model, y_.span());
+    observers.output = [&](double t) {
+        const auto& rows = recorder_.history().rows();
+        if (!rows.empty() && rows.back().front() == t) return;
+        recorder_.add(t, statistics().last_step, y_.span());
+        guard(t, watchers);
     };
+    observers.snapshot = [&](double t) { snapshot(t, watchers); };
+    if (watchers.checkpoint) observers.checkpoint = [&](double) { checkpoint(watchers); };
     observers.step = [&](double t) {
         watch(t, watchers);
         if (watchers.step) watchers.step(t);
@@ -133,8 +240,15 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
 
     std::string reason;
     try {
-        const int signal = spam::drive(
-            *integrator_, {plan.t_end, plan.output_every, plan.snapshot_every}, observers);
+        Schedule schedule{plan.t_end, plan.output_every, plan.snapshot_every,
+                          plan.checkpoint_every};
+        schedule.resumed = resumed_;
+        if (!ended_.empty()) {
+            observers.output(integrator_->t());
+            observers.snapshot(integrator_->t());
+            throw GuardStop(ended_);
+        }
+        const int signal = spam::drive(*integrator_, schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const GuardStop& stop) {
@@ -158,9 +272,9 @@ RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
 template class Run<1>;
 template class Run<2>;
 template class Run<3>;
-template Ode as_ode(Model<1>&, double, std::size_t&);
-template Ode as_ode(Model<2>&, double, std::size_t&);
-template Ode as_ode(Model<3>&, double, std::size_t&);
+template Ode as_ode(Model<1>&, const IntegratorOptions&, std::size_t&);
+template Ode as_ode(Model<2>&, const IntegratorOptions&, std::size_t&);
+template Ode as_ode(Model<3>&, const IntegratorOptions&, std::size_t&);
 template RunRecord run_in_memory(Case<1>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<2>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<3>, const IntegratorOptions&);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/parallel.hpp>
@@ -18,7 +19,16 @@ Session::Session(Problem& problem, const IntegratorOptions& integrator, std::str
     : problem_(problem),
       integrator_(integrator),
       command_(std::move(command)),
-      terminal_(problem.common_.quiet) {}
+      terminal_(problem.common_.quiet),
+      memory_(std::make_unique<SessionMemory>()) {
+    memory_->version = version();
+    memory_->instruction_set = to_string(instruction_set());
+    memory_->problem = problem.name_;
+    memory_->command = command_;
+    memory_->smoke = problem.common_.smoke;
+}
+
+Session::~Session() = default;
 
 void Session::leave_out_of_case(const std::vector<std::string>& names) {
     left_out_.insert(left_out_.end(), names.begin(), names.end());
@@ -27,10 +37,14 @@ void Session::leave_out_of_case(const std::vector<std::string>& names) {
 /// The folder comes into being with the first run: everything before may still be refused.
 void Session::open_folder() {
     if (folder_) return;
-    folder_.emplace(problem_.common_.out, problem_.common_.force);
+    if (problem_.in_place_)
+        folder_ = RunFolder::reopen(problem_.common_.out);
+    else
+        folder_.emplace(problem_.common_.out, problem_.common_.force);
     terminal_.log_to(*folder_ / "run.log");
     describe_environment();
-    folder_->write("case.toml", problem_.options_.case_toml(left_out_));
+    memory_->case_toml = problem_.options_.case_toml(left_out_);
+    folder_->write("case.toml", memory_->case_toml);
 }
 
 void Session::describe_environment() {
@@ -45,6 +59,29 @@ void Session::describe_environment() {
                               problem_.common_.threads, problem_.common_.threads == 1 ? "" : "s",
                               to_string(instruction_set())));
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
+    const SessionMemory* earlier = problem_.earlier_.get();
+    if (earlier == nullptr) return;
+    terminal_.say(fmt::format("restart     {}, t = {:.6g}", problem_.common_.restart,
+                              earlier->cases.back().t));
+    const auto warn = [&](const char* what, const std::string& then, const std::string& now) {
+        if (then != now)
+            terminal_.warn(fmt::format(
+                "{}: the checkpoint was written by {} {}, this is {}: last digits may differ",
+                problem_.name_, what, then, now));
+    };
+    warn("version", earlier->version, memory_->version);
+    warn("instruction set", earlier->instruction_set, memory_->instruction_set);
+}
+
+const CaseMemory* Session::earlier_case(std::size_t number) const {
+    const SessionMemory* earlier = problem_.earlier_.get();
+    if (earlier == nullptr || number >= earlier->cases.size()) return nullptr;
+    return &earlier->cases[number];
+}
+
+void Session::save_checkpoint() {
+    if (!checkpoints_) checkpoints_.emplace(folder_->path());
+    write_checkpoint(*checkpoints_, *memory_);
 }
 
 void Session::check(Check check) { checks_.push_back(std::move(check)); }
@@ -78,6 +115,7 @@ void Session::report(const RunRecord& record) {
     const RunStatistics& s = record.statistics;
     terminal_.say(fmt::format("{} steps, {} rejected, {} right-hand sides, {:.2f} s", s.steps,
                               s.rejected_steps, s.rhs_evaluations, s.wall_seconds));
+    if (!s.limited_by.empty()) terminal_.say(fmt::format("limited by  {}", s.limits_in_words()));
 }
 
 /// Completes the results and decides the exit status.
@@ -90,15 +128,7 @@ int Session::finish() {
                 .count();
     if (statistics_.size() > 1 || !std::filesystem::exists(*folder_ / "statistics.json")) {
         RunStatistics total = statistics_.front();
-        for (std::size_t k = 1; k < statistics_.size(); ++k) {
-            total.steps += statistics_[k].steps;
-            total.rejected_steps += statistics_[k].rejected_steps;
-            total.rhs_evaluations += statistics_[k].rhs_evaluations;
-            total.events += statistics_[k].events;
-            total.wall_seconds += statistics_[k].wall_seconds;
-            total.pair_interactions += statistics_[k].pair_interactions;
-            if (total.stopped.empty()) total.stopped = statistics_[k].stopped;
-        }
+        for (std::size_t k = 1; k < statistics_.size(); ++k) total.add(statistics_[k]);
         write_statistics(*folder_, total);
     }
     const int signal = InterruptWatch::received();

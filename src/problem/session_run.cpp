@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint.hpp"
 #include "duration.hpp"
 #include "run.hpp"
 #include <spam/core/error.hpp>
@@ -41,6 +42,19 @@ void draw_invariants(const RunFolder& folder, const History& history, const std:
     session.note_drawn(draw_curves(folder, "invariants", title, {energy, drift}));
 }
 
+/// Promises and limits before anything has moved.
+std::vector<Drift> drifts_at_start(const Promises& p, int dim, double integrator_limit) {
+    std::vector<Drift> drifts;
+    const auto add = [&](const char* name, Promise promise) {
+        drifts.push_back({name, promise, 0.0, allowed_change(promise, integrator_limit)});
+    };
+    add("mass", p.mass);
+    add("momentum", p.momentum);
+    if (dim > 1) add("angular momentum", p.angular_momentum);
+    add("energy", p.energy);
+    return drifts;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -66,6 +80,37 @@ void Session::settle_plan(Plan<Dim>& plan) {
     if (common.snapshot_every) limit("snapshot-every", *common.snapshot_every, "files");
     settle(common.output_every, plan.output_every, 240.0);
     settle(common.snapshot_every, plan.snapshot_every, 12.0);
+    if (common.checkpoint_every) limit("checkpoint-every", *common.checkpoint_every, "files");
+    const double twelfth = plan.t_end / 12.0 / plan.snapshot_every;  // in snapshots
+    if (plan.checkpoint_every == 0.0)
+        plan.checkpoint_every = std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every;
+    settle(common.checkpoint_every, plan.checkpoint_every, 12.0);
+    plan.guard = common.guard;
+    if (Dim == 1 && common.guard.angular_momentum)
+        throw InputError("limit-angular-momentum: nothing turns in one dimension; leave it out");
+}
+
+/// What balances every body or all together: the same where there is one body, and always will be.
+template <int Dim>
+void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
+    for (const auto& one : cases)
+        if (one.model.particles().bodies() > 1 || one.plan.revise) return;
+    if (given("balance"))
+        throw InputError("balance: each body or all of them are the same for one; leave it out");
+    leave_out_of_case({"balance"});
+}
+
+/// Classical Runge-Kutta damps what decays at a rate below 2.785/dt, and makes what decays faster grow.
+template <int Dim>
+void Session::refuse_unstable(const Case<Dim>& one) const {
+    constexpr double limit = 2.785;
+    const double rate = one.model.fastest_damping();
+    if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
+    throw InputError(fmt::format(
+        "dt: friction ({}) takes fast motion away at a rate of about {:.3g}, which rk4 follows "
+        "with "
+        "steps below {:.2g} only, not {:g}; choose a smaller --dt or less friction",
+        given("viscosity") ? "--viscosity" : "of the model", rate, limit / rate, *integrator_.dt));
 }
 
 template <int Dim>
@@ -83,11 +128,20 @@ void Session::describe(const Case<Dim>& one) {
                               to_string(p.angular_momentum), to_string(p.energy)));
     terminal_.say(
         fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
+    terminal_.say(fmt::format("guard       {}", one.plan.guard.describe(drifts_at_start(
+                                                    p, Dim, promise_limit(integrator_)))));
+    for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
+                                         std::pair{"snapshot-every", one.plan.snapshot_every}})
+        if (given(name) && interval > one.plan.t_end)
+            terminal_.say(fmt::format(
+                "note        --{} {:g} is longer than the run: only its start and end are recorded",
+                name, interval));
     if (integrator_.adaptive()) {
         std::string tolerances;
         for (const auto& block : one.model.layout().blocks())
-            tolerances += fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ",
-                                      field_name(block.field), integrator_.atol * block.scale);
+            tolerances +=
+                fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", field_name(block.field),
+                            integrator_.absolute_tolerance(field_name(block.field), block.scale));
         terminal_.say(fmt::format("atol        {}", tolerances));
     }
 }
@@ -102,13 +156,16 @@ RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan
 template <int Dim>
 std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (auto& one : cases) settle_plan(one.plan);
-    {  // Finds out about tables and tolerances before anything is written.
+    refuse_idle_balance(cases);
+    for (const auto& one : cases) refuse_unstable(one);
+    for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
         const SundialsContext context;
-        Vector y(cases.front().y0.size(), context);
+        Vector y(one.y0.size(), context);
         std::size_t unused = 0;
-        const Ode ode = as_ode(cases.front().model, integrator_.atol, unused);
+        const Ode ode = as_ode(one.model, integrator_, unused);
         make_integrator(integrator_, ode, y, 0.0, context);
     }
+    check_restart(cases);
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
         for (const auto& one : cases) describe(one);
@@ -125,17 +182,51 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     return records;
 }
 
+/// Whether the checkpoint is one of these cases: before anything is written.
 template <int Dim>
-RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
-    const Plan<Dim>& plan = one.plan;
-    Run<Dim> run(one, integrator_, &folder);
-    run.record().statistics.problem = problem_.name_;
-    SnapshotSeries<Dim> snapshots(folder, one.model);
+void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+        const CaseMemory* earlier = earlier_case(memory_->cases.size() + k);
+        if (earlier == nullptr) return;
+        if (earlier->label != cases[k].label)
+            throw InputError(
+                fmt::format("restart: the checkpoint holds the case '{}' in place of '{}'",
+                            earlier->label, cases[k].label));
+        state_of(*earlier, cases[k].model);
+        if (earlier->t > cases[k].plan.t_end)
+            throw InputError(
+                fmt::format("t-end: {} lies before the checkpoint's t = {}; give a later "
+                            "one",
+                            cases[k].plan.t_end, earlier->t));
+    }
+}
 
+/// Rows, events and snapshots up to the checkpoint, also in a folder of another name.
+template <int Dim>
+void Session::resume(Run<Dim>& run, const CaseMemory& earlier, const RunFolder& folder,
+                     SnapshotSeries<Dim>& snapshots) {
+    run.recall(earlier);
+    snapshots.resume(run.snapshot_times());
+    if (problem_.in_place_) return;
+    const auto from = std::filesystem::path(problem_.common_.restart).parent_path() / earlier.label;
+    for (const auto& name : snapshots.names()) {
+        std::error_code error;  // where they are gone the list of snapshots begins later
+        std::filesystem::copy_file(from / name, folder / name, error);
+    }
+}
+
+template <int Dim>
+typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>& one,
+                                                 SnapshotSeries<Dim>& snapshots) {
+    const std::size_t number = memory_->cases.size() - 1;
     typename Run<Dim>::Watchers watchers;
-    watchers.snapshot = [&](double t) { snapshots.add(t, run.y()); };
-    watchers.step = [&](double t) {
-        const double fraction = t / plan.t_end;
+    watchers.snapshot = [&run, &snapshots](double t) { snapshots.add(t, run.y()); };
+    watchers.checkpoint = [this, &run, number] {
+        memory_->cases[number] = run.memory();
+        save_checkpoint();
+    };
+    watchers.step = [this, &run, t_end = one.plan.t_end](double t) {
+        const double fraction = t / t_end;
         if (!terminal_.progress_due(fraction)) return;
         std::string drifts;
         for (const Drift& drift : run.drifts())
@@ -143,20 +234,38 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
                 drifts +=
                     fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
         const auto& s = run.statistics();
+        const std::string limiting = run.limiting();
         terminal_.progress(
             fraction,
-            fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}", 100.0 * fraction,
-                        t, duration(run.seconds() * (1.0 / fraction - 1.0)), drifts, s.last_step,
-                        s.rejected_steps));
+            fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}{}",
+                        100.0 * fraction, t, duration(run.seconds() * (1.0 / fraction - 1.0)),
+                        drifts, s.last_step, s.rejected_steps,
+                        limiting.empty() ? "" : "  limit " + limiting));
     };
-    watchers.remark = [&](double t, const Remark& remark) {
+    watchers.remark = [this](double t, const Remark& remark) {
         terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));
     };
+    watchers.warning = [this](double, const std::string& text) {
+        terminal_.say(fmt::format("warning     {}", text));
+    };
+    return watchers;
+}
+
+template <int Dim>
+RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
+    const CaseMemory* earlier = earlier_case(memory_->cases.size());
+    memory_->cases.emplace_back();
+    Run<Dim> run(one, integrator_, &folder);
+    run.record().statistics.problem = problem_.name_;
+    SnapshotSeries<Dim> snapshots(folder, one.model);
+    if (earlier != nullptr) resume(run, *earlier, folder, snapshots);
+    const auto watchers = watchers_of(run, one, snapshots);
     terminal_.begin_progress();
     RunRecord& record = run.record();
     try {
         const std::string reason = run.drive(watchers);
         if (guard_reason_.empty()) guard_reason_ = reason;
+        memory_->cases.back().stopped = reason;
     } catch (const OutputError&) {
         try {  // there may be room for this much
             write_statistics(folder, record.statistics);

@@ -59,19 +59,33 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
 }
 
 RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {
-    const std::vector<std::string> of_runs{
-        "t-end", "output-every", "snapshot-every", "integrator", "dt", "rtol", "atol"};
+    std::vector<std::string> of_runs{"t-end", "output-every", "snapshot-every", "checkpoint-every",
+                                     "restart"};
+    const auto& of_integrator = IntegratorSettings::names();
+    of_runs.insert(of_runs.end(), of_integrator.begin(), of_integrator.end());
+    const auto& of_guard = Problem::guard_option_names();
+    of_runs.insert(of_runs.end(), of_guard.begin(), of_guard.end());
     if (const auto name = problem_.options_.first_given(of_runs); !name.empty())
         throw InputError(
             fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
     leave_out_of_case(of_runs);
+    if (given("balance"))
+        throw InputError("balance: each body or all of them are the same for one; leave it out");
+    leave_out_of_case({"balance"});
     begin(description, nullptr);
     return statistics_.back();
 }
 
 StudyTable Session::begin_study(const std::string& table, const std::vector<std::string>& columns,
                                 const std::vector<std::string>& description) {
-    const std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every"};
+    std::vector<std::string> of_one_run{"t-end", "output-every", "snapshot-every",
+                                        "checkpoint-every"};
+    const auto& of_guard = Problem::guard_option_names();
+    of_one_run.insert(of_one_run.end(), of_guard.begin(), of_guard.end());
+    if (problem_.options_.given("restart"))
+        throw InputError(
+            "restart: a study goes on from its table when it is started again with the same "
+            "options; leave --restart out");
     if (problem_.options_.given("threads"))
         throw InputError(fmt::format(
             "threads: {} computes many small runs at a time, each in one thread; use --jobs",

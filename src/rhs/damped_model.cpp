@@ -86,6 +86,11 @@ std::string DampedModel::describe() const {
                        gamma_);
 }
 
+void DampedModel::remember(Archive& archive) {
+    Model<2>::remember(archive);
+    model_->remember(archive);
+}
+
 void DampedModel::set_bodies(std::vector<std::int32_t> bodies) {
     model_->set_bodies(bodies);
     Model<2>::set_bodies(std::move(bodies));

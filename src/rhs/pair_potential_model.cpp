@@ -57,6 +57,12 @@ void PairPotentialModel<Dim>::rates(double, std::span<const double> y, std::span
     sweeps_->first(packed_->input(), out);
 }
 
+template <int Dim>
+void PairPotentialModel<Dim>::remember(Archive& archive) {
+    Model<Dim>::remember(archive);
+    if (archive.reading()) packed_ = packed_with(ListUse::again_and_again);
+}
+
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
 std::vector<double> PairPotentialModel<Dim>::density(std::span<const double> y) const {

@@ -114,12 +114,14 @@ Groups SmoothParticleModel<Dim>::groups() const {
     return {this->particles().mass, group_, group_count_};
 }
 
-/// The sound speed is that of the body at rest, at its mean density.
+/// The sound speed is that of the body at rest, at its mean density. Neighbours that move against each
+/// other, v_ij = 2 v_i, lose their velocity at the rate (2/D) (alpha c l/rho) sum m |w'|/r in the mean
+/// over directions, by half of the pairs: those that approach.
 template <int Dim>
-ViscosityConstants SmoothParticleModel<Dim>::viscosity() const {
+ViscosityConstants SmoothParticleModel<Dim>::viscosity() {
     if (!(scheme_.viscosity > 0.0)) return {};
     const PairList<Dim> list(this->particles().reference_position, scheme_.range, this->box());
-    double rho = 0.0;
+    double rho = 0.0, slope = 0.0;
     const Lucy<Dim> weight(scheme_.range);
     const auto& x = this->particles().reference_position;
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -131,7 +133,9 @@ ViscosityConstants SmoothParticleModel<Dim>::viscosity() const {
                            this->box().wrap(a, x(a, j)));
                 r2 += s * s;
             }
-            rho += this->particles().mass[j] * weight.value(std::sqrt(r2));
+            const double m = this->particles().mass[j], r = std::sqrt(r2);
+            rho += m * weight.value(r);
+            if (i != j) slope += m * weight.minus_slope_over_r(r);
         }
     const auto c = material_.sound_speed(rho / static_cast<double>(list.size()));
     if (!c)
@@ -139,7 +143,9 @@ ViscosityConstants SmoothParticleModel<Dim>::viscosity() const {
             "viscosity: {} needs a sound speed, and the material ({}) has none; give it a "
             "sound_speed(density), or leave --viscosity out",
             scheme_.viscosity, material_.describe()));
-    return {scheme_.viscosity, *c, 0.5 * scheme_.range};
+    const double length = 0.5 * scheme_.range;
+    viscous_damping_ = scheme_.viscosity * *c * length / Dim * slope / rho;
+    return {scheme_.viscosity, *c, length};
 }
 
 /// The order that the physics forces: pairs - density if summed - A - everything that needs one
@@ -251,6 +257,13 @@ std::vector<Remark> SmoothParticleModel<Dim>::watch(double t, std::span<const do
     if (works) return {{"gauss constraint works", gauss_->health()}};
     return {{"gauss constraint singular", gauss_->health(),
              scheme_.gauss_singular == GaussSingular::stop}};
+}
+
+template <int Dim>
+void SmoothParticleModel<Dim>::remember(Archive& archive) {
+    Model<Dim>::remember(archive);
+    archive(gauss_works_);
+    if (archive.reading()) packed_ = packed_with(ListUse::again_and_again);
 }
 
 template <int Dim>

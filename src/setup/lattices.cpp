@@ -48,7 +48,7 @@ Points<2> triangular_block(int columns, int rows, double spacing) {
 Box<2> triangular_box(int columns, int rows, double spacing) {
     if (rows % 2 != 0)
         throw InputError(fmt::format(
-            "{} rows of triangular lattice are not periodic; use an even number", rows));
+            "cells: {} rows of triangular lattice are not periodic; use an even number", rows));
     return Box<2>({spacing * columns, spacing * rows * std::sqrt(0.75)});
 }
 

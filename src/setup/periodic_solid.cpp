@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 #include <spam/setup/periodic_solid.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -11,6 +15,13 @@ namespace spam {
 PeriodicSolid triangular_solid(int columns, int rows, const Material<2>& material,
                                const Scheme& scheme, double density, double stress) {
     const Box<2> box = triangular_box(columns, rows);
+    if (std::min(box.length(0), box.length(1)) <= 2.0 * scheme.range) {
+        const int least = static_cast<int>(2.0 * scheme.range / std::sqrt(0.75)) + 1;
+        throw InputError(fmt::format(
+            "cells: {} x {} particles are too few for --range {}: a periodic lattice is "
+            "wider than twice the range; the least is {}",
+            columns, rows, scheme.range, least + least % 2));
+    }
     PeriodicSolid solid;
     solid.model = std::make_unique<SmoothParticleModel<2>>(
         make_particles<2>(triangular_block(columns, rows), 1.0, 1.0, box), material, scheme, box);

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(elementwise_operations_agree) {
             [](N_Vector, N_Vector, N_Vector z) { N_VConst(3.25, z); },
             [](N_Vector x, N_Vector y, N_Vector z) {
                 N_VConst(0.5, z);
-                realtype c[3] = {0.25, 2.0, -3.0};
+                double c[3] = {0.25, 2.0, -3.0};
                 N_Vector v[3] = {z, x, y};  // the result among the arguments
                 N_VLinearCombination(3, c, v, z);
             }};

@@ -36,6 +36,7 @@ Ode ball() {
     ode.failure = [] { return std::string{}; };
     ode.entry_name = [](std::size_t k) { return std::to_string(k); };
     ode.absolute_tolerance = {1e-12, 1e-12};
+    ode.blocks = {{"position", 0, 1}, {"velocity", 1, 1}};
     return ode;
 }
 
@@ -52,7 +53,13 @@ const std::vector<IntegratorOptions> methods{with("rk4", 0.1),
                                              with("arkode:ZONNEVELD_5_3_4", 0.1),
                                              with("arkode:DORMAND_PRINCE_7_4_5", std::nullopt),
                                              with("arkode:VERNER_8_5_6", 0.1),
-                                             with("arkode:VERNER_8_5_6", std::nullopt)};
+                                             with("arkode:VERNER_8_5_6", std::nullopt),
+                                             with("leapfrog", 0.1),
+                                             with("leapfrog", 1.7),
+                                             with("gsl:rk2", 0.1),
+                                             with("gsl:rk8pd", 0.1),
+                                             with("gsl:rkf45", std::nullopt),
+                                             with("gsl:rk8pd", std::nullopt)};
 
 struct Fall {
     const SundialsContext context;
@@ -92,7 +99,7 @@ BOOST_AUTO_TEST_CASE(events_are_found_at_their_times) {
 }
 
 BOOST_AUTO_TEST_CASE(fixed_steps_stay_on_their_grid) {
-    for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4"}) {
+    for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4", "leapfrog", "gsl:rkck"}) {
         Fall fall(with(method, 0.3), 1.0);
         fall.run(20.2);
         for (std::size_t n = 0; n + 1 < fall.steps.size(); ++n)

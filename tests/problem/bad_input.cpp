@@ -16,7 +16,12 @@ struct Bad {
     Words arguments;
     Words says;          ///< what the line must contain
     std::string toml{};  ///< written to case.toml and given with --config, if not empty
+    std::string program{"rotating_hexagon"};
 };
+
+Bad in(std::string program, Words arguments, Words says) {
+    return {std::move(arguments), std::move(says), {}, std::move(program)};
+}
 
 Bad file(std::string toml, Words says) { return {{}, std::move(says), std::move(toml)}; }
 
@@ -37,15 +42,15 @@ void check_refused(const Bad& bad) {
     if (!bad.toml.empty()) arguments.insert(arguments.end(), {"--config", "case.toml"});
     arguments.insert(arguments.end(), bad.arguments.begin(), bad.arguments.end());
     const Outcome outcome =
-        Child(problem("rotating_hexagon", arguments), {folder.path()}).finish(Child::Seconds(20));
+        Child(problem(bad.program, arguments), {folder.path()}).finish(Child::Seconds(20));
 
-    std::string shown = bad.toml;
+    std::string shown = bad.program + " " + bad.toml;
     for (const auto& word : bad.arguments) shown.append(" [").append(word, 0, 80).append("]");
     BOOST_TEST_CONTEXT(shown << "\n" << outcome.err) {
         BOOST_TEST(outcome.status == 2);
         if (outcome.status != 2) return;  // the rest would only repeat it
         BOOST_TEST(outcome.out == "");
-        BOOST_TEST(outcome.err.starts_with("rotating_hexagon: "));
+        BOOST_TEST(outcome.err.starts_with(bad.program + ": "));
         BOOST_TEST(outcome.err.ends_with("\n"));
         BOOST_TEST(std::count_if(outcome.err.begin(), outcome.err.end(), [](unsigned char c) {
                        return c < 0x20;
@@ -70,7 +75,8 @@ BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
         {{"--turn=2"}, {"--turn", "--turns"}},
         {{"--Size", "4"}, {"--Size", "--size"}},
         {{"-q"}, {"-q"}},
-        {{"stray"}, {"stray"}},
+        {{"stray"}, {"'stray' belongs to no option", "--name value"}},
+        {{"--foo", "1"}, {"unknown option '--foo'. See"}},  // nothing like it
         {{"--quiet", "3"}, {"3"}},
         {{"--si\nze"}, {"--size"}},
         {{"--transport", "monagan"}, {"transport", "monagan", "monaghan", "plain"}},
@@ -80,16 +86,18 @@ BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
         {{"--integrator", "arkode:ARKODE_ERK_NONE"}, {"integrator", "ARKODE_ERK_NONE"}},
         {{"--integrator", "arkode:"}, {"integrator", "DORMAND_PRINCE_7_4_5"}},
         {{"--integrator", "a\nb"}, {"integrator"}},
+        {{"--integrator", "gsl:rk9"}, {"integrator", "rk9", "gsl:rk8pd"}},
+        {{"--integrator", "gsl:bsimp"}, {"integrator", "gsl:bsimp", "Jacobian"}},
+        {{"--integrator", "cvode:bdf"}, {"integrator", "cvode:bdf", "cvode:adams"}},
+        {{"--integrator", "sprk:LEAPFROG"}, {"integrator", "sprk:", "LEAPFROG"}},
+        {{"--integrator", dormand, "--controller", "pdi"}, {"controller", "pdi", "pid"}},
     });
 }
 
 BOOST_AUTO_TEST_CASE(names_that_later_versions_bring) {
     check_all({
-        {{"--restart", "checkpoint_0001.h5"}, {"--restart"}},
         {{"--kernel", "monaghan"}, {"kernel", "monaghan", "lucy"}},
         {{"--kernel", "w4"}, {"kernel", "w4", "lucy"}},
-        {{"--integrator", "gsl:rk8pd"}, {"integrator", "gsl:rk8pd", "rk4"}},
-        {{"--integrator", "cvode:adams"}, {"integrator", "cvode:adams", "rk4"}},
     });
 }
 
@@ -99,6 +107,11 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--viscosity", "-1"}, {"viscosity", "-1"}},
         {{"--viscosity", "nan"}, {"viscosity", "nan"}},
         {{"--balance", "global"}, {"balance", "free", "torque_pair"}},
+        {{"--balance", "global", "--angular-momentum", "torque_pair"}, {"balance", "for one"}},
+        {{"--viscosity", "100"}, {"dt: friction (--viscosity)", "rk4", "below"}},
+        {{"--guard", "off", "--limit-energy", "1e-3"}, {"limit-energy", "--guard"}},
+        {{"--limit-mass", "0"}, {"limit-mass", "above 0"}},
+        {{"--guard", "on"}, {"guard", "on", "off, warn, stop"}},
         {{"--gauss-singular", "stop", "--angular-momentum", "torque_pair"},
          {"gauss-singular", "torque_pair", "gauss"}},
         {{"--closest-approach", "-0.5"}, {"closest-approach", "-0.5", "0"}},
@@ -133,15 +146,23 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--size", "4\n5"}, {"size", "whole number"}},
         {{"--threads", "0"}, {"threads", "0", "between 1 and"}},
         {{"--rtol", "1", "--integrator", dormand}, {"rtol", "1", "below 1"}},
+        {{"--safety", "1.5", "--integrator", dormand}, {"safety", "1.5", "below 1"}},
+        {{"--max-step", "1e-13", "--integrator", dormand}, {"max-step", "min-step"}},
+        {{"--min-step", "0", "--integrator", dormand}, {"min-step", "0", "above 0"}},
+        {{"--initial-step", "2", "--max-step", "1", "--integrator", dormand},
+         {"initial-step", "2", "max-step"}},
+        {{"--atol-energy", "-1", "--integrator", dormand}, {"atol-energy", "-1", "above 0"}},
+        {{"--max-steps", "0"}, {"max-steps", "0", "between 1"}},
         {{"--quiet=maybe"}, {"quiet", "maybe", "true or false"}},
     });
 }
 
 BOOST_AUTO_TEST_CASE(options_without_or_with_too_many_values) {
     check_all({
-        {{"--size", "3", "--size", "4"}, {"--size"}},
+        {{"--size", "3", "--size", "4"}, {"size: given 2 times"}},
+        {{"--config", "a", "--config", "b"}, {"config: given 2 times"}},
         {{"--dt", "--transport"}, {"dt"}},
-        {{"--out"}, {"--out"}},
+        {{"--out"}, {"out: the value of --out is missing"}},
         {{"--out", "--force"}, {"out", "--force"}},
         {{"--out", ""}, {"out", "empty"}},
         {{"--out="}, {"--out"}},
@@ -155,6 +176,20 @@ BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
         {{"--atol", "1e-6", "--integrator", "rk4"}, {"atol", "rk4"}},
         {{"--dt", "0.1", "--rtol", "1e-6", "--integrator", dormand}, {"rtol", "--dt", "leave"}},
         {{"--integrator", "arkode:KNOTH_WOLKE_3_3"}, {"integrator", "KNOTH_WOLKE", "--dt"}},
+        {{"--integrator", "cvode:adams", "--dt", "0.1"}, {"dt", "cvode:adams", "leave"}},
+        {{"--integrator", "gsl:msadams", "--dt", "0.1"}, {"dt", "gsl:msadams", "leave"}},
+        {{"--integrator", "cvode:adams", "--safety", "0.5"}, {"safety", "cvode:adams", "arkode:"}},
+        {{"--integrator", "gsl:rk8pd", "--controller", "pi"}, {"controller", "gsl:rk8pd"}},
+        {{"--controller", "pi"}, {"controller", "rk4", "fixed step"}},
+        {{"--integrator", dormand, "--dt", "0.1", "--max-step", "1"}, {"max-step", "--dt"}},
+        {{"--integrator", dormand, "--model", "md", "--atol-stress", "1"},
+         {"atol-stress", "no stress"}},
+        {{"--integrator", "cvode:adams", "--closest-approach", "0.5"},
+         {"integrator", "cvode:adams", "closest approach"}},
+        {{"--integrator", "leapfrog"}, {"dt", "leapfrog", "fixed step"}},
+        {{"--integrator", "leapfrog", "--dt", "0.1"}, {"leapfrog", "density", "rk4"}},
+        {{"--model", "md", "--integrator", "leapfrog", "--dt", "0.1", "--rtol", "1e-6"},
+         {"rtol", "leapfrog"}},
         {{"--density", "chain_rule"}, {"chain_rule", "--transport"}},
         {{"--density", "chain_rule", "--transport", "plain"}, {"chain_rule", "--transport"}},
         {{"--turns", "1", "--t-end", "5"}, {"turns", "t-end", "leave"}},
@@ -170,6 +205,33 @@ BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
         {{"--formulation", "total_lagrangian", "--transport", "plain"},
          {"transport", "--formulation total_lagrangian"}},
         {{"--formulation", "total_lagrangian", "--range", "0.9"}, {"range", "0.9"}},
+    });
+}
+
+BOOST_AUTO_TEST_CASE(what_other_problems_cannot_do) {
+    const Words sizes{"--cells", "16", "--compare-sizes"};
+    const auto and_also = [](Words words, const Words& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    check_all({
+        in("plane_wave", and_also(sizes, {"--t-end", "5"}), {"t-end: 5", "the least is"}),
+        in("plane_wave", and_also(sizes, {"--block", "3"}), {"block", "--compare-sizes"}),
+        in("plane_wave", {"--polarization", "longitudinal", "--block", "3"}, {"block", "leave"}),
+        in("plane_wave", {"--block", "1000"}, {"block: 1000", "half a wave", "--cells 10"}),
+        in("plane_wave", {"--block", "1e-9"}, {"block", "at least 2"}),
+        in("plane_wave", {"--range", "10"}, {"cells: 10 x 10", "--range 10", "the least is 24"}),
+        in("plane_wave", {"--cells", "7"}, {"cells: 7", "even"}),
+        in("tensile_instability", {"--range", "10"}, {"cells: 10 x 10", "the least is 24"}),
+        in("tensile_instability", {"--speed", "1e-300"}, {"speed", "at least 1e-12"}),
+        in("fragmenting_bar", {"--speed", "1e5"}, {"speed: at 100000", "dt = 0.05", "--dt below"}),
+        in("fragmenting_bar", {"--speed", "10"}, {"speed: at 10", "--output-every below 0.3"}),
+        in("rotating_disk", {"--model", "md", "--kernel", "lucy"}, {"kernel", "--model md"}),
+        in("rotating_disk", {"--damping", "100"}, {"dt: friction", "rk4"}),
+        in("rotating_disk", {"--balance", "global"}, {"balance", "for one"}),
+        in("stability", {"--mean-density", "geometric"}, {"mean-density", "first order"}),
+        in("stability", {"--guard", "stop"}, {"guard", "integrates nothing"}),
+        in("turns_survived", {"--limit-energy", "1"}, {"limit-energy", "many runs"}),
     });
 }
 

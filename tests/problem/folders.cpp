@@ -159,7 +159,9 @@ BOOST_AUTO_TEST_CASE(help_names_every_option) {
           "quiet",      "no-plots", "threads",   "t-end",        "output-every",
           "integrator", "dt",       "rtol",      "atol",         "kernel",
           "range",      "density",  "transport", "mean-density", "angular-momentum",
-          "size",       "speed",    "turns",     "model"})
+          "size",       "speed",    "turns",     "model",        "controller",
+          "safety",     "min-step", "max-step",  "initial-step", "max-steps",
+          "atol-stress"})
         BOOST_TEST(outcome.out.find(std::string("--") + name + " ") != std::string::npos, name);
     BOOST_TEST(folder.listing().empty());
 }

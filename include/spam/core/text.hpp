@@ -7,7 +7,8 @@
 
 namespace spam {
 
-/// The candidate that contains `word`, or is nearest to it by edit distance; empty when none is near.
+/// The candidate that contains `word`, or is nearest to it by edit distance; empty when none is
+/// near (two changes, or a third of the letters of long words).
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 /// How a sentence about an unknown word ends: "; did you mean <prefix><nearest>?", or ".".

@@ -14,6 +14,8 @@ struct BodyTotals {
     Point<2> momentum = Point<2>::Zero();
     double angular_momentum = 0.0;  ///< about the origin
     double energy = 0.0;            ///< sum m (e + v^2/2); kinetic where particles carry no energy
+
+    void remember(Archive& a) { a(particles, mass, momentum, angular_momentum, energy); }
 };
 
 /// Of every body of a plane model, by its number. Sums are compensated.
@@ -32,6 +34,10 @@ class BodyLedger {
         /// Of any body since it came into being, until this change.
         double largest_L_change = 0.0, largest_momentum_change = 0.0;
         BodyTotals sum_change;  ///< over all bodies, after minus before: nothing may be left out
+
+        void remember(Archive& a) {
+            a(t, bodies, parents, largest_L_change, largest_momentum_change, sum_change);
+        }
     };
 
     /// Finds the bodies anew. Where they have changed the model is given the new ones and an entry is
@@ -42,6 +48,7 @@ class BodyLedger {
     void close(double t, const Model<2>& model, std::span<const double> y);
 
     const std::vector<Entry>& entries() const { return entries_; }
+    void remember(Archive& archive) { archive(entries_); }
 
   private:
     void settle(Entry& entry, const std::vector<BodyTotals>& had) const;

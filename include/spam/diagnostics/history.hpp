@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/archive.hpp>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,9 @@ class History {
     const std::vector<std::string>& names() const { return names_; }
     const std::vector<std::vector<double>>& rows() const { return rows_; }
     bool has(std::string_view name) const;
+
+    /// Names included. Throws InputError where those read are others.
+    void remember(Archive& archive);
 
     /// Values of one column. Throws std::out_of_range naming an unknown column.
     std::vector<double> column(std::string_view name) const;
@@ -38,6 +43,11 @@ class History {
 
     std::vector<std::string> names_;
     std::vector<std::vector<double>> rows_;
+    /// Of each column so far: asked for at every row of a run.
+    struct Extent {
+        double largest, change;
+    };
+    std::vector<Extent> extents_;
 };
 
 }  // namespace spam

@@ -8,8 +8,11 @@ namespace spam {
 /// When a run ends and when its observers are called.
 struct Schedule {
     double t_end = 0.0;
-    double output_every = 0.0;    ///< rows of invariants; t = 0 and t_end always
-    double snapshot_every = 0.0;  ///< configurations; t = 0 and t_end always
+    double output_every = 0.0;      ///< rows of invariants; t = 0 and t_end always
+    double snapshot_every = 0.0;    ///< configurations; t = 0 and t_end always
+    double checkpoint_every = 0.0;  ///< t_end always; 0: never
+    double start = 0.0;             ///< intervals are counted from here
+    bool resumed = false;           ///< what was due up to the integrator's time has been done
 };
 
 /// Observers of a run; any may be empty. `output` and `snapshot` see accepted states only.
@@ -19,6 +22,10 @@ struct Observers {
     std::function<void(double t)> step;  ///< after every step: progress
     /// After every output: whether y was changed, or the rates, so that the integrator begins anew.
     std::function<bool(double t)> revise;
+    /// After all else at its time, and before what is observed only because the run ends: a run that
+    /// goes on from here later has the same rows as one that was never stopped. May change what the
+    /// integrator remembers.
+    std::function<void(double t)> checkpoint;
     /// After every output: whether the run has shown what it was for and ends here.
     std::function<bool(double t)> enough;
 };
@@ -39,7 +46,7 @@ class DueTimes {
 
 /// Integrates to schedule.t_end, or until there is enough, calling observers at t = start, when due, and at the end.
 /// Returns the signal that interrupted the run (see InterruptWatch), 0 if it went to the end.
-/// GuardStop passes through.
+/// GuardStop, of a step or an observer, passes through.
 /// In every case the final accepted state has been given to `output` and `snapshot` exactly once.
 int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers);
 

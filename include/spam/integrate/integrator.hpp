@@ -4,12 +4,14 @@
 #include <spam/core/event.hpp>
 #include <spam/core/nvector.hpp>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spam {
@@ -36,15 +38,27 @@ struct Ode {
     std::string inseparable{};
 };
 
-/// How to integrate. `dt` unset with an arkode method means adaptive steps.
+/// How to integrate: a method of integration_methods() (methods.hpp), with fixed steps where `dt` is
+/// set and adaptive ones where not. What is not set is the method's own choice.
 struct IntegratorOptions {
-    std::string method = "rk4";  ///< rk4, or arkode:<name of a SUNDIALS Butcher table>
+    std::string method = "rk4";
     std::optional<double> dt;
     double rtol = 1e-8;
-    double atol = 1e-10;      ///< times the scale of each field
+    double atol = 1e-10;  ///< times the scale of each field
+    struct FieldTolerance {
+        std::string field;  ///< a block of the ode
+        double atol;        ///< in place of atol times scale
+    };
+    std::vector<FieldTolerance> field_atol{};
     double min_step = 1e-12;  ///< an adaptive step below this stops the run
+    std::optional<double> max_step{}, initial_step{};
+    std::string controller{};        ///< of ARKODE's steps, one of arkode_controllers(); empty: pid
+    std::optional<double> safety{};  ///< of ARKODE's steps: part of the one that would just do
+    std::optional<std::size_t> max_steps{};  ///< more accepted steps than that stop the run
 
-    bool adaptive() const { return method != "rk4" && !dt; }
+    bool adaptive() const;  ///< precondition: valid
+    /// Of a field whose typical magnitude is `scale`.
+    double absolute_tolerance(std::string_view field, double scale) const;
     std::string describe() const;
 
     /// Throws InputError naming the offending option, the allowed values and the fix.
@@ -57,7 +71,8 @@ struct IntegratorOptions {
 ///   are those of the last accepted step, or of the last event since;
 /// - an event of the ode is applied at its time, all that are due within a step one after the other.
 ///   An adaptive step ends at an event, a fixed one takes the rest of its way to the grid: what
-///   observers see lies after the events. Where events no longer let time go on, GuardStop;
+///   observers see lies after the events. Where events no longer let time go on, GuardStop. After a
+///   signal (InterruptWatch) step() returns at the next event; the next step() goes on from there;
 /// - lands_on_stops(): whether steps may be shortened to hit intermediate times (adaptive methods);
 ///   a fixed-step method keeps its grid t_n = t_0 + n dt and shortens only the step that reaches
 ///   t_stop;
@@ -71,7 +86,8 @@ class Integrator {
     Integrator(const Integrator&) = delete;
     Integrator& operator=(const Integrator&) = delete;
 
-    virtual double step(double t_stop) = 0;
+    /// Throws GuardStop where the steps allowed are used up.
+    double step(double t_stop);
     virtual bool lands_on_stops() const = 0;
     virtual void reset(double t) = 0;
     virtual void remember(Archive& archive);
@@ -83,30 +99,45 @@ class Integrator {
         std::size_t events = 0;  ///< as Event::apply counts them
         double last_step = 0.0;
 
+        // Which block of y kept adaptive steps short, by the method's own estimate of their errors; the
+        // last number is shared by all blocks from there on.
+        static constexpr std::size_t most_blocks = 6;
+        std::array<std::size_t, most_blocks> limited_by{};  ///< accepted steps
+        std::array<double, most_blocks> error_share{};      ///< of the error, summed over steps
+        std::optional<std::size_t> limiting{};              ///< the latest step
+
         void remember(Archive& archive) {
-            archive(steps, rejected_steps, rhs_evaluations, events, last_step);
+            archive(steps, rejected_steps, rhs_evaluations, events, last_step, limited_by,
+                    error_share, limiting);
         }
     };
     const Statistics& statistics() const { return statistics_; }
     double t() const { return t_; }
+    const Ode& ode() const { return ode_; }
+    /// `most`: accepted steps, counted from the beginning of the run.
+    void allow_steps(std::size_t most) { most_steps_ = most; }
 
   protected:
+    virtual double take_step(double t_stop) = 0;
     /// Throws GuardStop when the state z (about to be accepted at time t) is not finite, or the
     /// latest rates had no meaning.
     void guard(std::span<const double> z, double t) const;
+    /// The first rate that is not finite, in words; empty where all are. The stage that spoils first
+    /// knows where it began: later ones have spread it.
+    std::string spoiled_rate(std::span<const double> y_dot, double t) const;
 
     const Ode& ode_;
     Vector& y_;
     double t_;
     Statistics statistics_;
+
+  private:
+    std::optional<std::size_t> most_steps_;
 };
 
 /// Throws InputError for a method that does not exist or cannot run with these options.
 /// `ode`, `y` and `context` must outlive the integrator.
 std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, const Ode& ode,
                                             Vector& y, double t0, const SundialsContext& context);
-
-/// Names of the explicit Butcher tables that arkode:<name> accepts.
-const std::vector<std::string>& arkode_tables();
 
 }  // namespace spam

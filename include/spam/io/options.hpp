@@ -30,6 +30,8 @@ class Options {
     ~Options();
     Options(Options&&) noexcept;
 
+    /// What --version prints.
+    void version(std::string text) { version_ = std::move(text); }
     /// Heading under which the options added next appear in --help.
     void group(std::string title);
 
@@ -37,6 +39,7 @@ class Options {
     void number(std::string name, double& target, std::string help, Allowed allowed);
     void number(std::string name, std::optional<double>& target, std::string help, Allowed allowed);
     void integer(std::string name, int& target, std::string help, Allowed allowed);
+    void integer(std::string name, std::optional<int>& target, std::string help, Allowed allowed);
     void text(std::string name, std::string& target, std::string help);
     void flag(std::string name, bool& target, std::string help);
     void choice(std::string name, std::vector<std::string> names, std::string help,
@@ -61,8 +64,14 @@ class Options {
     /// the case that is written back. Applies to options already added.
     void exclude_from_case(const std::vector<std::string>& names);
 
-    /// Reads the command line and, if --config was given, its file. Returns false when help was
-    /// asked for (and printed).
+    /// `option`, a text already added, brings the case of an earlier run: `read` makes its TOML from the
+    /// option's value. On the command line only `may_change` may then differ from it, and options that
+    /// are no part of a case.
+    void case_from(std::string option, std::function<std::string(const std::string&)> read,
+                   std::vector<std::string> may_change);
+
+    /// Reads the command line and, if --config was given, its file. Returns false when help or
+    /// the version was asked for (and printed).
     bool parse(int argc, const char* const* argv);
 
     /// Where one of `names` was given on the command line, `over` from the file no longer count: a
@@ -82,13 +91,20 @@ class Options {
 
   private:
     struct Entry;
-    struct Parser;
     Entry& add(std::string name, std::string help);
     void read_config(const std::string& path);
+    void read_case(const std::string& text_of_case, const std::string& path);
+    bool read_earlier_case(const std::vector<std::string>& raw, bool has_config);
+    void refuse_change(const Entry& entry, const std::string& before) const;
     std::vector<std::string> names() const;
 
-    std::string program_, summary_, group_;
+    std::string program_, summary_, version_, group_;
     std::string config_;
+    struct {
+        std::string option;
+        std::function<std::string(const std::string&)> read;
+        std::vector<std::string> may_change;
+    } earlier_;
     std::vector<std::unique_ptr<Entry>> entries_;
 };
 

@@ -32,7 +32,19 @@ struct RunStatistics {
     std::size_t events = 0;  ///< between steps: reflections of pairs
     double wall_seconds = 0.0;
     std::size_t pair_interactions = 0;  ///< undirected pairs summed over, all right-hand sides
-    std::string stopped;                ///< empty for a complete run
+    /// What kept adaptive steps short; nothing where steps were fixed.
+    struct Limit {
+        std::string field;
+        std::size_t steps;   ///< that it limited
+        double error_share;  ///< its part of their errors' sum of squares, summed over all steps
+    };
+    std::vector<Limit> limited_by;
+    std::string stopped;  ///< empty for a complete run
+
+    /// Another run of the same study.
+    void add(const RunStatistics& other);
+    /// "stress 143 steps (82 % of the error), ..."; empty where steps were fixed.
+    std::string limits_in_words() const;
 };
 
 void write_results(const RunFolder& folder, const std::vector<Check>& checks);

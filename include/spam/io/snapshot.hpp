@@ -22,6 +22,11 @@ class SnapshotSeries {
         : folder_(folder),
           model_(model) {}
 
+    /// Goes on after earlier ones at these times.
+    void resume(const std::vector<double>& times);
+    /// Names of the files so far.
+    std::vector<std::string> names() const;
+
     /// Throws OutputError.
     void add(double t, std::span<const double> y);
 

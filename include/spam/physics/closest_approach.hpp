@@ -50,6 +50,9 @@ class ClosestApproach {
     /// other. Returns how many reflections that were.
     std::size_t reflect(const Points_& x, Eigen::Ref<Points<Dim>> v);
 
+    /// The pairs let through; after reading, its lists are made anew.
+    void remember(Archive& archive);
+
     /// How near the surface a pair must be found.
     double tolerance() const { return 1e-12 * R_; }
     std::size_t list_builds() const { return list_->builds(); }
@@ -62,6 +65,7 @@ class ClosestApproach {
         double r2, slope;  ///< at arm(): r^2 and d(r^2)/dt / 2 = r . v
     };
 
+    std::unique_ptr<ClusterList<Dim>> new_list() const;
     void build_list();
     void arm_pairs();
     bool watches(const Points_& x);
@@ -74,7 +78,8 @@ class ClosestApproach {
     bool periodic_;
     double R_;
     bool moves_with_v_;
-    double share_ = 0.1;  ///< skin of the list, of R
+    static constexpr double first_share = 0.1;
+    double share_ = first_share;  ///< skin of the list, of R
     std::unique_ptr<ClusterList<Dim>> list_;
     std::size_t served_ = 0;       ///< steps begun since the list was built
     std::vector<Numbers> near_;    ///< pairs closer than R + skin when the list was built

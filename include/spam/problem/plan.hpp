@@ -3,6 +3,7 @@
 
 #include <spam/diagnostics/drift.hpp>
 #include <spam/io/results.hpp>
+#include <spam/problem/drift_guard.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <functional>
@@ -17,15 +18,21 @@ struct Column {
 };
 
 /// How far a run goes and what is recorded on the way. Zero intervals are filled in by the session:
-/// rows 240, snapshots 12 over the run, unless --output-every or --snapshot-every say otherwise.
+/// rows 240, snapshots 12 over the run, checkpoints with snapshots but no more than 12, unless
+/// --output-every, --snapshot-every or --checkpoint-every say otherwise.
 template <int Dim>
 struct Plan {
     double t_end = 0.0;
     double output_every = 0.0;
     double snapshot_every = 0.0;
+    double checkpoint_every = 0.0;
     std::vector<Column<Dim>> columns{};
+    /// Looked at after every row. Off unless the session's options say otherwise.
+    DriftLimits guard{};
     /// Called with every snapshot; may be empty.
     std::function<void(double t, const Model<Dim>& model, std::span<const double> y)> on_snapshot{};
+    /// What on_snapshot and revise gather outside the model, for checkpoints. May be empty.
+    std::function<void(Archive&)> memory{};
     /// After every row: may change the state or the model's bodies, and returns whether it did. May be
     /// empty.
     std::function<bool(double t, Model<Dim>& model, std::span<double> y)> revise{};

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/integrate/integrator.hpp>
 #include <spam/io/options.hpp>
 #include <spam/physics/scheme.hpp>
+#include <spam/problem/drift_guard.hpp>
+#include <spam/problem/integrator_settings.hpp>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace spam {
 
 class Session;
+struct SessionMemory;
 
 /// Options every problem has.
 struct CommonOptions {
     std::string out;
     bool force = false, dry_run = false, smoke = false, quiet = false, no_plots = false;
     int threads = 1;
-    std::optional<double> t_end, output_every, snapshot_every;
+    std::optional<double> t_end, output_every, snapshot_every, checkpoint_every;
+    std::string restart;
+    DriftLimits guard{DriftAction::warn, {}, {}, {}, {}};
 };
 
 /// A problem executable: its options, and the exit status contract around its body.
@@ -29,28 +34,35 @@ class Problem {
     /// `default_dt`: the step of rk4 when none is given.
     Problem(std::string name, std::string summary, double default_dt = 0.1);
 
+    ~Problem();
+
     /// For options of the problem itself.
     Options& options() { return options_; }
 
     /// Adds the scheme and kernel options; `standard` holds their defaults.
     void use_scheme(const Scheme& standard = {});
     static const std::vector<std::string>& scheme_option_names();
+    static const std::vector<std::string>& guard_option_names();
 
     /// Parses, runs `body`, completes the results. Returns the exit status.
     int main(int argc, char** argv, const std::function<void(Session&)>& body);
 
   private:
     friend class Session;
+    std::string recall_case(const std::string& name);
+    void settle_restart();
+    void add_guard_options();
     std::vector<std::string> idle_scheme_options();
-    IntegratorOptions resolve_integrator();
+    void refuse_idle_limits();
 
     std::string name_, summary_;
-    double default_dt_;
+    IntegratorSettings integrator_;
     Options options_;
     CommonOptions common_;
     Scheme scheme_;
-    std::string method_ = "rk4";
-    std::optional<double> dt_, rtol_, atol_;
+    std::unique_ptr<const SessionMemory> earlier_;  ///< of --restart
+    std::string restart_file_;
+    bool in_place_ = false;  ///< its results are those of the checkpoint
 };
 
 }  // namespace spam

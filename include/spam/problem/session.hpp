@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/io/checkpoint_pair.hpp>
 #include <spam/io/run_folder.hpp>
 #include <spam/io/study_table.hpp>
 #include <spam/io/terminal.hpp>
@@ -11,11 +12,19 @@
 
 namespace spam {
 
+struct CaseMemory;
+template <int Dim>
+class Run;
+template <int Dim>
+class SnapshotSeries;
+
 /// One invocation of a problem, as its body sees it. Build everything first, then run: nothing is
 /// written before the first run() or begin_...(), so that whatever is wrong with the input is found
 /// before.
 class Session {
   public:
+    ~Session();
+
     bool given(std::string_view option) const { return problem_.options_.given(option); }
     const CommonOptions& common() const { return problem_.common_; }
     const Scheme& scheme() const { return problem_.scheme_; }
@@ -67,6 +76,13 @@ class Session {
 
     [[noreturn]] void end_dry_run();
     void open_folder();
+    void save_checkpoint();
+    const CaseMemory* earlier_case(std::size_t number) const;
+    template <int Dim>
+    void check_restart(const std::vector<Case<Dim>>& cases) const;
+    template <int Dim>
+    void resume(Run<Dim>& run, const CaseMemory& earlier, const RunFolder& folder,
+                SnapshotSeries<Dim>& snapshots);
     void begin(const std::vector<std::string>& description, const char* study);
     bool continues(const char* study) const;
     void describe_environment();
@@ -74,9 +90,16 @@ class Session {
     template <int Dim>
     void settle_plan(Plan<Dim>& plan);
     template <int Dim>
+    void refuse_idle_balance(const std::vector<Case<Dim>>& cases);
+    template <int Dim>
+    void refuse_unstable(const Case<Dim>& one) const;
+    template <int Dim>
     void describe(const Case<Dim>& one);
     template <int Dim>
     RunRecord run_one(Case<Dim>& one, const RunFolder& folder);
+    template <int Dim>
+    typename Run<Dim>::Watchers watchers_of(Run<Dim>& run, const Case<Dim>& one,
+                                            SnapshotSeries<Dim>& snapshots);
     void report(const RunRecord& record);
 
     Problem& problem_;
@@ -85,6 +108,8 @@ class Session {
     Terminal terminal_;
     std::optional<RunFolder> folder_;
     std::vector<std::string> left_out_;
+    std::unique_ptr<SessionMemory> memory_;      ///< of the cases begun
+    std::optional<CheckpointPair> checkpoints_;  ///< in the folder
     std::vector<Check> checks_;
     std::vector<RunStatistics> statistics_;
     std::optional<std::chrono::steady_clock::time_point> analysis_start_;

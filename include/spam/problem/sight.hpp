@@ -14,10 +14,15 @@ struct Sight {
     Points<2> position{};
     std::vector<double> speed{};
 
+    void remember(Archive& archive) { archive(t, position, speed); }
     void look(double now, const Model<2>& model, std::span<const double> y);
 
     /// Particles coloured by speed, the body's outline drawn.
     ConfigurationPanel panel(const std::string& title, const Particles<2>& particles) const;
 };
+
+/// For Plan::memory. A run that is restarted to a later end may want other times: each sight then takes
+/// the nearest of the configurations kept.
+void remember(Archive& archive, std::vector<Sight>& sights);
 
 }  // namespace spam

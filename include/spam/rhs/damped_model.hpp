@@ -25,9 +25,14 @@ class DampedModel final : public Model<2> {
     std::vector<Remark> watch(double t, std::span<const double> y) override {
         return model_->watch(t, y);
     }
+    void remember(Archive& archive) override;
     void set_bodies(std::vector<std::int32_t> bodies) override;
+    std::string inseparable() const override {
+        return gamma_ > 0.0 ? "its friction depends on the velocity" : model_->inseparable();
+    }
     std::size_t pairs() const override { return model_->pairs(); }
     double reach() const override { return model_->reach(); }
+    double fastest_damping() const override { return gamma_ + model_->fastest_damping(); }
 
     const Model<2>& undamped() const { return *model_; }
 

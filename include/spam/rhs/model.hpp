@@ -18,6 +18,8 @@ struct Remark {
     std::string what;
     double value;
     bool stop = false;  ///< the run must not go on
+
+    void remember(Archive& archive) { archive(what, value, stop); }
 };
 
 /// A mechanical system as an ordinary differential equation dy/dt = f(t, y): what integrators,
@@ -69,6 +71,10 @@ class Model {
     /// Why velocity and position cannot be advanced in turn, as leapfrog does; empty where dx/dt = v
     /// and dv/dt depends on x alone and y holds nothing else.
     virtual std::string inseparable() const;
+
+    /// Estimate of the rate at which friction takes the fastest motion away, 0 without: explicit steps
+    /// must be short of a few times its inverse.
+    virtual double fastest_damping() const { return 0.0; }
 
     /// Pairs (undirected) that the latest right-hand side summed over.
     virtual std::size_t pairs() const = 0;

@@ -33,6 +33,7 @@ class PairPotentialModel final : public Model<Dim> {
     std::string describe() const override;
     std::size_t pairs() const override;
     double reach() const override { return range_; }
+    void remember(Archive& archive) override;
     std::size_t list_builds() const;
 
   private:

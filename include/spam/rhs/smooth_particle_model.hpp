@@ -50,6 +50,7 @@ class SmoothParticleModel final : public Model<Dim> {
     std::string describe() const override;
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
+    double fastest_damping() const override { return viscous_damping_; }
 
     const Scheme& scheme() const { return scheme_; }
     /// R and 1/R of each body (of all with Balance::global) in the latest rates(); empty where torques
@@ -60,6 +61,7 @@ class SmoothParticleModel final : public Model<Dim> {
     /// denominator (physics/gauss_constraint.hpp).
     std::vector<Remark> watch(double t, std::span<const double> y) override;
     void set_bodies(std::vector<std::int32_t> bodies) override;
+    void remember(Archive& archive) override;
     std::size_t list_builds() const;
 
   private:
@@ -68,7 +70,7 @@ class SmoothParticleModel final : public Model<Dim> {
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     bool fail_density(std::span<const double> rho, std::span<double> y_dot);
     void load_transport(std::span<const double> u);
-    ViscosityConstants viscosity() const;
+    ViscosityConstants viscosity();
     Groups groups() const;
 
     Material<Dim> material_;
@@ -76,6 +78,7 @@ class SmoothParticleModel final : public Model<Dim> {
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
     ViscosityConstants viscosity_;
+    double viscous_damping_ = 0.0;  ///< fastest_damping()
     std::vector<double> summed_density_;
     std::vector<std::int32_t> group_;  ///< per particle, what keeps its angular momentum
     std::size_t group_count_ = 1;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/integrate/integrator.hpp>
+#include <spam/io/options.hpp>
+
+#include <array>
+
+namespace spam {
+
+/// The options that say how a problem is integrated. An option without effect on the method chosen is
+/// refused.
+class IntegratorSettings {
+  public:
+    /// `default_dt`: the step of rk4 when none is given.
+    explicit IntegratorSettings(double default_dt) : default_dt_(default_dt) {}
+
+    void add_to(Options& options);
+    /// What the options, once parsed, mean; throws InputError where they mean nothing.
+    IntegratorOptions resolve(Options& options);
+
+    /// Names of all of them.
+    static const std::vector<std::string>& names();
+
+  private:
+    void refuse_idle(const Options& options, const std::string& method) const;
+    void fill(IntegratorOptions& integrator);
+
+    double default_dt_;
+    std::string method_ = "rk4", controller_;
+    std::optional<double> dt_, rtol_, atol_, safety_, min_step_, max_step_, initial_step_;
+    std::optional<int> max_steps_;
+    std::array<std::optional<double>, 5> field_atol_;  ///< by Field
+};
+
+}  // namespace spam

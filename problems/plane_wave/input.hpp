@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What plane_wave is asked for, and what it refuses.
+#pragma once
+
+#include <spam/core/error.hpp>
+#include <spam/setup/plane_wave.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace plane_wave {
+
+using namespace spam;
+
+struct Parameters {
+    Polarization polarization = Polarization::transverse;
+    int cells = 24;
+    double amplitude = 0.25;
+    double block = 3.0;  // d
+    bool compare_sizes = false;
+};
+
+/// Blocks are of the transverse wave, and a part of one bulge of it.
+inline void refuse_blocks(Session& session, const Parameters& p, bool single) {
+    const bool none = single && p.polarization == Polarization::longitudinal;
+    if (p.compare_sizes || none) {
+        if (session.given("block"))
+            throw InputError(fmt::format(
+                "block: has no meaning with --{}, where no turning is measured; leave it out",
+                none ? "polarization longitudinal" : "compare-sizes"));
+        session.leave_out_of_case({"block"});
+        return;
+    }
+    const double half = 0.5 * p.cells * std::sqrt(0.75);
+    if (p.block > half)
+        throw InputError(fmt::format(
+            "block: {} must be at most half a wave, {:.4g} for --cells {}; choose a smaller one",
+            p.block, half, p.cells));
+}
+
+/// Three zeros of the velocity make a period: the last at 3/2 of it.
+inline void refuse_too_short(const Parameters& p, double t_end, double longest) {
+    const double least = 1.6 * longest;
+    if (p.compare_sizes && t_end < least)
+        throw InputError(fmt::format(
+            "t-end: {:g} is too short to measure the period {:.4g} of the longest wave that "
+            "--compare-sizes needs; the least is {:.4g}",
+            t_end, longest, least));
+}
+
+}  // namespace plane_wave

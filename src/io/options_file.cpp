@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options from and to TOML: the file of --config, the case of an earlier run, case.toml.
+#include "option_entry.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace spam {
+namespace {
+
+/// The whole of a file of options; throws InputError when there is nothing to read.
+std::string text_of(const std::string& path) {
+    if (path.empty()) throw InputError("config: must not be empty; give the name of a TOML file");
+    std::error_code error;
+    std::ifstream in(path, std::ios::binary);
+    if (!in || std::filesystem::is_directory(path, error))
+        throw InputError(fmt::format("config: '{}' is not a file that can be read", path));
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::string toml_string(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        if (static_cast<unsigned char>(c) < 0x20)
+            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            out += c;
+    }
+    return out + "\"";
+}
+
+void Options::case_from(std::string option, std::function<std::string(const std::string&)> read,
+                        std::vector<std::string> may_change) {
+    earlier_ = {std::move(option), std::move(read), std::move(may_change)};
+}
+
+/// Reads the case that an option brings, if it was given. `raw`: what the command line holds, by entry.
+bool Options::read_earlier_case(const std::vector<std::string>& raw, bool has_config) {
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        if (entries_[k]->name != earlier_.option || raw[k].empty()) continue;
+        if (has_config)
+            throw InputError(fmt::format("config: --{} brings a case of its own; leave one out",
+                                         earlier_.option));
+        read_case(earlier_.read(raw[k]), raw[k]);
+        return true;
+    }
+    return false;
+}
+
+/// `before`: the value in the earlier case.
+void Options::refuse_change(const Entry& entry, const std::string& before) const {
+    const auto& free = earlier_.may_change;
+    if (!entry.in_case || entry.get() == before ||
+        std::find(free.begin(), free.end(), entry.name) != free.end())
+        return;
+    throw InputError(
+        fmt::format("{}: {} differs from the earlier run's {}, and --{} goes on with the same "
+                    "case; only {} may "
+                    "change",
+                    entry.name, entry.get(), before.empty() ? "(none)" : before, earlier_.option,
+                    fmt::join(free, ", ")));
+}
+
+void Options::read_config(const std::string& path) { read_case(text_of(path), path); }
+
+void Options::read_case(const std::string& text_of_case, const std::string& path) {
+    toml::table table;
+    try {
+        table = toml::parse(text_of_case, path);
+    } catch (const toml::parse_error& error) {
+        const auto& where = error.source().begin;
+        throw InputError(fmt::format("config: {} line {}: {}", path, where.line,
+                                     std::string(error.description())));
+    }
+    for (const auto& [key, node] : table) {
+        const std::string name(key.str());
+        const auto line = node.source().begin.line;
+        const auto it = std::find_if(entries_.begin(), entries_.end(),
+                                     [&](const auto& entry) { return entry->name == name; });
+        if (it == entries_.end())
+            throw InputError(fmt::format("config: {} line {}: unknown key '{}'{} See --help", path,
+                                         line, name, suggestion(name, names())));
+        Entry& entry = **it;
+        std::string text;
+        bool fits = false;
+        if (const auto* s = node.as_string()) {
+            text = s->get();
+            fits = entry.is_text;
+        } else if (const auto* i = node.as_integer()) {
+            text = fmt::format("{}", i->get());
+            fits = entry.type == "INTEGER" || entry.type == "NUMBER";
+        } else if (const auto* f = node.as_floating_point()) {
+            text = fmt::format("{}", f->get());
+            fits = entry.type == "NUMBER";
+        } else if (const auto* b = node.as_boolean()) {
+            text = b->get() ? "true" : "false";
+            fits = entry.is_flag;
+        }
+        if (!fits) {
+            std::ostringstream value;  // as TOML writes it
+            node.visit([&](const auto& v) { value << v; });
+            if (node.is_string()) value.str(toml_string(text));
+            throw InputError(fmt::format("config: {} line {}: {}: {} must be {}", path, line, name,
+                                         value.str(), entry.allowed));
+        }
+        try {
+            entry.set(text);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("config: {} line {}: {}", path, line, error.what()));
+        }
+        entry.in_file = true;
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> Options::resolved() const {
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const auto& entry : entries_) {
+        const std::string value = entry->get();
+        if (entry->in_case && !value.empty()) result.emplace_back(entry->name, value);
+    }
+    return result;
+}
+
+std::string Options::case_toml(const std::vector<std::string>& without) const {
+    std::string text = fmt::format(
+        "# {}: the resolved case. Run it again with\n#   {} --config FILE\n", program_, program_);
+    for (const auto& [name, value] : resolved())
+        if (std::find(without.begin(), without.end(), name) == without.end())
+            text += fmt::format("{} = {}\n", name, value);
+    return text;
+}
+
+}  // namespace spam

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line: the only place that knows CLI11. What it complains of is said in our own words.
+#include "option_entry.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace spam {
+namespace {
+
+/// What the parser complains of where a value is missing: "--out: 1 required TEXT missing".
+std::string without_value(const std::string& complaint) {
+    const std::string name = complaint.substr(0, complaint.find_first_of(": ="));
+    return fmt::format("{}: the value of {} is missing; see --help",
+                       name.substr(std::min(name.find_first_not_of('-'), name.size())), name);
+}
+
+/// A word of the command line that is nothing.
+std::string stray_word(const std::string& word, std::vector<std::string> known) {
+    if (!word.starts_with('-'))
+        return fmt::format("'{}' belongs to no option; options are --name value. See --help", word);
+    const std::string bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+    known.insert(known.end(), {"config", "help", "version"});
+    return fmt::format("unknown option '{}'{} See --help", word,
+                       suggestion(bare.substr(0, bare.find('=')), known, "--"));
+}
+
+}  // namespace
+
+bool Options::parse(int argc, const char* const* argv) {
+    CLI::App app(summary_, program_);
+    app.allow_extras();
+    app.set_help_flag("--help,-h", "print this help and exit");
+    app.set_version_flag("--version", version_, "print versions and exit");
+    std::vector<std::string> raw(entries_.size());
+    std::vector<CLI::Option*> registered;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        const Entry& entry = *entries_[k];
+        CLI::Option* option = nullptr;
+        if (entry.is_flag) {
+            option = app.add_flag("--" + entry.name, entry.help);
+        } else {
+            std::string help = entry.help;
+            const std::string standard = entry.get();
+            if (!standard.empty()) help += fmt::format(" [{}]", standard);
+            option = app.add_option("--" + entry.name, raw[k], help)->type_name(entry.type);
+            option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        }
+        registered.push_back(option->group(entry.group));
+    }
+    const auto* config = app.add_option("--config", config_, "read options from a TOML file")
+                             ->type_name("FILE")
+                             ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::fputs(app.help().c_str(), stdout);
+        return false;
+    } catch (const CLI::CallForVersion&) {
+        std::fputs((version_ + "\n").c_str(), stdout);
+        return false;
+    } catch (const CLI::ParseError& error) {
+        throw InputError(without_value(error.what()));
+    }
+    if (!app.remaining().empty()) throw InputError(stray_word(app.remaining().front(), names()));
+    for (const CLI::Option* option : registered)
+        if (option->get_expected_max() > 0 && option->count() > 1)
+            throw InputError(fmt::format("{}: given {} times; leave all but one out",
+                                         option->get_name().substr(2), option->count()));
+    if (config->count() > 1)
+        throw InputError(
+            fmt::format("config: given {} times; leave all but one out; a file "
+                        "cannot add to another",
+                        config->count()));
+    const auto refuse_option_as_value = [](const std::string& name, const std::string& value) {
+        if (value.starts_with("--"))
+            throw InputError(
+                fmt::format("{}: '{}' is an option, not a value; the value of --{} is "
+                            "missing",
+                            name, value, name));
+    };
+    refuse_option_as_value("config", config_);
+    if (config->count() > 0) read_config(config_);
+    const bool earlier = read_earlier_case(raw, config->count() > 0);
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        if (registered[k]->count() == 0) continue;
+        refuse_option_as_value(entries_[k]->name, raw[k]);
+        const std::string before = entries_[k]->get();
+        entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
+        if (earlier) refuse_change(*entries_[k], before);
+        entries_[k]->on_command = true;
+    }
+    return true;
+}
+
+}  // namespace spam

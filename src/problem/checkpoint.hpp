@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/io/checkpoint_pair.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace spam {
+
+/// One case of a session, as a checkpoint holds it: what others may want to look at by name, and the
+/// rest as bytes.
+struct CaseMemory {
+    /// rows x columns, by rows.
+    struct Values {
+        std::string name;
+        std::size_t columns;
+        std::vector<double> values;
+    };
+    std::string label;
+    std::string model;  ///< in words, with its scheme
+    double t = 0.0;
+    std::vector<Values> state;      ///< y by field, one row a particle
+    std::vector<Values> particles;  ///< mass, reference position
+    std::vector<std::int64_t> id, body;
+    std::vector<std::byte> motion;   ///< model and integrator
+    std::vector<std::byte> records;  ///< rows, remarks, what the problem gathered
+    std::string stopped;             ///< why a guard ended it, and the next case began
+};
+
+/// All that a session writes into a checkpoint.
+struct SessionMemory {
+    std::string version, instruction_set;  ///< other ones may lead to other last digits
+    std::string problem, case_toml, command;
+    bool smoke = false;
+    std::vector<CaseMemory> cases;  ///< those begun, in order
+};
+
+/// y and particles of a case at t.
+template <int Dim>
+CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, double t);
+
+/// The y that a memory holds. Throws InputError where the memory is not of this model: other fields,
+/// numbers of particles, particles or masses.
+template <int Dim>
+std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model);
+
+/// Writes the next of a folder's checkpoints. Throws OutputError; what was there before is then as it
+/// was.
+void write_checkpoint(CheckpointPair& checkpoints, const SessionMemory& memory);
+
+/// Throws InputError with one line where the file is not a whole checkpoint of this version.
+SessionMemory read_checkpoint(const std::filesystem::path& file);
+
+}  // namespace spam

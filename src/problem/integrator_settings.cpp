@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/field_layout.hpp>
+#include <spam/integrate/methods.hpp>
+#include <spam/problem/integrator_settings.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace spam {
+namespace {
+
+constexpr Field fields[] = {Field::position, Field::velocity, Field::density, Field::stress,
+                            Field::energy};
+
+std::string tolerance_of(Field field) { return fmt::format("atol-{}", field_name(field)); }
+
+/// Options that choose adaptive steps.
+const std::vector<std::string>& adaptive_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> result{"rtol", "atol"};
+        for (const Field field : fields) result.push_back(tolerance_of(field));
+        result.insert(result.end(),
+                      {"controller", "safety", "min-step", "max-step", "initial-step"});
+        return result;
+    }();
+    return names;
+}
+
+std::vector<std::string> with(std::string name, const std::vector<std::string>& more) {
+    std::vector<std::string> result{std::move(name)};
+    result.insert(result.end(), more.begin(), more.end());
+    return result;
+}
+
+}  // namespace
+
+const std::vector<std::string>& IntegratorSettings::names() {
+    static const std::vector<std::string> names =
+        with("integrator", with("dt", with("max-steps", adaptive_names())));
+    return names;
+}
+
+void IntegratorSettings::add_to(Options& options) {
+    options.group("Integrator");
+    options.text("integrator", method_,
+                 "rk4, leapfrog, arkode:<SUNDIALS table>, cvode:adams, gsl:<stepper>: adaptive "
+                 "where they can be, fixed with --dt");
+    options.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt_), positive());
+    options.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
+    options.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
+                   positive());
+    for (const Field field : fields)
+        options.number(
+            tolerance_of(field), field_atol_[static_cast<std::size_t>(field)],
+            fmt::format("absolute tolerance of the {}, in place of --atol times its scale",
+                        field_name(field)),
+            positive());
+    options.text("controller", controller_,
+                 fmt::format("how arkode: chooses its next step: {} (pid)",
+                             fmt::join(arkode_controllers(), ", ")));
+    options.number("safety", safety_, "arkode: part of the step that would just do (0.96)",
+                   positive());
+    options.number("min-step", min_step_, "adaptive steps below this stop the run (1e-12)",
+                   positive());
+    options.number("max-step", max_step_, "longest adaptive step", positive());
+    options.number("initial-step", initial_step_, "first adaptive step", positive());
+    options.integer("max-steps", max_steps_, "a run of more steps is stopped",
+                    between(1, 2'000'000'000));
+}
+
+/// No option may silently do nothing.
+void IntegratorSettings::refuse_idle(const Options& options, const std::string& method) const {
+    const IntegrationMethod& known = integration_method(method);
+    if (dt_ && !known.fixed) return;  // validate() says why
+    const std::string tolerance = options.first_given(adaptive_names());
+    if (!known.adaptive && !tolerance.empty())
+        throw InputError(
+            fmt::format("{}: {} has a fixed step and no tolerance; use --dt, or --integrator "
+                        "arkode:DORMAND_PRINCE_7_4_5",
+                        tolerance, method));
+    if (dt_ && !tolerance.empty())
+        throw InputError(
+            fmt::format("{}: --dt asks for fixed steps, --{} for adaptive ones; leave one out",
+                        tolerance, tolerance));
+    const std::string control = options.first_given({"controller", "safety"});
+    if (!control.empty() && !method.starts_with("arkode:"))
+        throw InputError(
+            fmt::format("{}: {} has a step control of its own, only arkode:<table> leaves a "
+                        "choice; leave it out",
+                        control, method));
+}
+
+void IntegratorSettings::fill(IntegratorOptions& integrator) {
+    integrator.dt = dt_;
+    if (rtol_) integrator.rtol = *rtol_;
+    if (atol_) integrator.atol = *atol_;
+    for (const Field field : fields)
+        if (const auto& atol = field_atol_[static_cast<std::size_t>(field)])
+            integrator.field_atol.push_back({std::string(field_name(field)), *atol});
+    integrator.controller = controller_;
+    integrator.safety = safety_;
+    if (min_step_) integrator.min_step = *min_step_;
+    integrator.max_step = max_step_;
+    integrator.initial_step = initial_step_;
+    if (max_steps_) integrator.max_steps = static_cast<std::size_t>(*max_steps_);
+}
+
+IntegratorOptions IntegratorSettings::resolve(Options& options) {
+    options.command_line_wins({"integrator"}, with("dt", adaptive_names()));
+    options.command_line_wins({"dt"}, adaptive_names());
+    options.command_line_wins(adaptive_names(), {"dt"});
+    IntegratorOptions integrator;
+    integrator.method = method_;
+    refuse_idle(options, method_);
+    if (method_ == "rk4" && !dt_) dt_ = default_dt_;
+    fill(integrator);
+    integrator.validate();
+    if (integrator.adaptive()) {  // for case.toml
+        rtol_ = integrator.rtol;
+        atol_ = integrator.atol;
+    }
+    return integrator;
+}
+
+}  // namespace spam

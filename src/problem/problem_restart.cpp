@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What --restart means: the case, and the folder of results.
+#include "checkpoint.hpp"
+#include <spam/core/error.hpp>
+#include <spam/problem/problem.hpp>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace spam {
+
+/// The case of a checkpoint; keeps the rest of it for the session.
+std::string Problem::recall_case(const std::string& name) {
+    std::string file = name;
+    std::error_code error;
+    if (std::filesystem::is_directory(name, error)) {
+        const auto newest = newest_checkpoint(name);
+        if (!newest)
+            throw InputError(fmt::format("restart: '{}' holds no complete checkpoint", name));
+        file = newest->string();
+    }
+    restart_file_ = file;
+    try {
+        earlier_ = std::make_unique<SessionMemory>(read_checkpoint(file));
+    } catch (const InputError& refusal) {
+        throw InputError(fmt::format("restart: {}", refusal.what()));
+    }
+    if (earlier_->problem != name_)
+        throw InputError(fmt::format("restart: '{}' is a checkpoint of {}, not of {}", file,
+                                     earlier_->problem, name_));
+    return earlier_->case_toml;
+}
+
+/// A run that is gone on with does so in the folder of its results, unless another is named.
+void Problem::settle_restart() {
+    if (!earlier_) return;
+    namespace fs = std::filesystem;
+    common_.restart = restart_file_;
+    if (common_.smoke && !earlier_->smoke)
+        throw InputError("smoke: --restart goes on with the same case, which was no smoke test");
+    common_.smoke = earlier_->smoke;
+    fs::path folder = fs::path(common_.restart).parent_path();
+    if (folder.empty()) folder = ".";
+    std::error_code error;
+    const bool results = fs::exists(folder / "run.log", error);
+    if (results && !options_.given("out")) common_.out = folder.string();
+    in_place_ = results && fs::equivalent(common_.out, folder, error) && !error;
+    if (in_place_ && common_.force)
+        throw InputError(
+            "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
+            "choose "
+            "another --out");
+}
+
+}  // namespace spam

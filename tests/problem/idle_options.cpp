@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No option may silently do nothing: every option of every problem, given another legal value, is
+// refused, or changes the results and is part of case.toml.
+#include "problem/result_files.hpp"
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+/// How to run, not what to compute; and an option with one legal value.
+const std::set<std::string> no_part_of_the_case{"config", "out",     "force",    "dry-run", "smoke",
+                                                "quiet",  "help",    "no-plots", "threads", "jobs",
+                                                "kernel", "version", "restart"};
+
+/// What only shows when something happens that may not happen: said in the dry run at least.
+const std::set<std::string> waits_for_something{
+    "guard",        "limit-mass", "limit-momentum",   "limit-angular-momentum",
+    "limit-energy", "balance",    "closest-approach", "gauss-singular"};
+
+/// A value that is the default nowhere.
+const std::map<std::string, std::string> another_value{
+    {"t-end", "7.3"},
+    {"output-every", "0.9"},
+    {"snapshot-every", "1.1"},
+    {"integrator", "arkode:DORMAND_PRINCE_7_4_5"},
+    {"dt", "0.02"},
+    {"rtol", "1e-6"},
+    {"atol", "1e-7"},
+    {"guard", "off"},
+    {"limit-mass", "0.1"},
+    {"limit-momentum", "0.1"},
+    {"limit-angular-momentum", "10"},
+    {"limit-energy", "0.1"},
+    {"range", "2.7"},
+    {"density", "summed"},
+    {"transport", "average"},
+    {"mean-density", "geometric"},
+    {"angular-momentum", "torque_particle"},
+    {"balance", "global"},
+    {"gauss-singular", "stop"},
+    {"viscosity", "0.7"},
+    {"closest-approach", "0.5"},
+    {"size", "4"},
+    {"speed", "0.2"},
+    {"turns", "1.5"},
+    {"columns", "5"},
+    {"rows", "14"},
+    {"projectile", "3"},
+    {"offset", "1.5"},
+    {"polarization", "longitudinal"},
+    {"cells", "14"},
+    {"amplitude", "0.1"},
+    {"block", "4"},
+    {"shape", "hexagon"},
+    {"radius", "8"},
+    {"damping", "0.4"},
+    {"model", "md"},
+    {"figure", "5"},
+    {"formulation", "total_lagrangian"},
+    {"penalty", "0.3"},
+    {"shear", "0.03"},
+    {"stress", "0.015"},
+};
+
+/// Cases of problems that leave different options without effect.
+const std::vector<std::pair<std::string, Words>> cases{
+    {"rotating_hexagon", {}},
+    {"rotating_hexagon", {"--model", "md"}},
+    {"rotating_hexagon", {"--formulation", "total_lagrangian"}},
+    {"rotating_hexagon", {"--figure", "6"}},
+    {"rotating_hexagon", {"--angular-momentum", "gauss", "--transport", "monaghan"}},
+    {"rotating_hexagon", {"--integrator", "arkode:BOGACKI_SHAMPINE_4_2_3"}},
+    {"rotating_disk", {"--model", "md"}},
+    {"rotating_disk", {"--model", "spam"}},
+    {"plane_wave", {}},
+    {"plane_wave", {"--polarization", "transverse"}},
+    {"plane_wave", {"--compare-sizes", "--cells", "16"}},
+    {"tensile_instability", {}},
+    {"tensile_instability", {"--stress", "0.01"}},
+    {"stability", {}},
+    {"stability", {"--transport", "monaghan"}},
+    {"sheared_square", {"--cells", "10"}},
+    {"counter_rotating", {}},
+    {"counter_rotating", {"--angular-momentum", "gauss"}},
+    {"fragmenting_bar", {}},
+    {"algorithm_sweep", {"--size", "1"}},
+    {"turns_survived", {}},
+};
+
+std::vector<std::string> options_of(const std::string& program) {
+    std::vector<std::string> names;
+    for (const auto& line : split(run(problem(program, {"--help"})).out, '\n')) {
+        const auto at = line.find_first_not_of(' ');
+        if (at == std::string::npos || at > 8 || line.compare(at, 2, "--") != 0) continue;
+        names.push_back(line.substr(at + 2, line.find_first_of(" ,", at) - at - 2));
+    }
+    return names;
+}
+
+struct Ran {
+    Outcome outcome;
+    std::string case_toml, dry_run;
+    std::map<std::string, std::string> results;
+};
+
+Ran run_with(const std::string& program, const Words& arguments) {
+    const Scratch folder;
+    Words words{"--smoke", "--no-plots", "--out", "out"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    Ran ran;
+    ran.outcome = Child(problem(program, words), {folder.path()}).finish(Child::Seconds(300));
+    if (!std::filesystem::exists(folder / "out/case.toml")) return ran;
+    ran.case_toml = contents_of(folder / "out/case.toml");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out")) {
+        const auto name = entry.path().filename();
+        const bool table = name.extension() == ".csv" && name != program + ".csv" &&
+                           name != "sweep.csv";  // tables of studies hold seconds
+        if (table || name == "result.json" || name == "snapshots.pvd")
+            ran.results[entry.path().lexically_relative(folder / "out")] =
+                contents_of(entry.path());
+    }
+    words.emplace_back("--dry-run");
+    words[3] = "elsewhere";
+    ran.dry_run = run(problem(program, words), {folder.path()}).out;
+    return ran;
+}
+
+void check_option(const std::string& program, const Words& base, const Ran& before,
+                  const std::string& option) {
+    Words words = base;
+    words.push_back("--" + option);
+    if (another_value.contains(option)) words.push_back(another_value.at(option));
+    const Ran ran = run_with(program, words);
+    BOOST_TEST_CONTEXT(program << " " << boost::algorithm::join(words, " ")) {
+        if (ran.outcome.status == 2) {
+            BOOST_TEST(ran.outcome.err.find(option) != std::string::npos, ran.outcome.err);
+            return;
+        }
+        BOOST_TEST(ran.case_toml.find("\n" + option + " = ") != std::string::npos);
+        if (waits_for_something.contains(option))
+            BOOST_TEST((ran.dry_run != before.dry_run), "it does nothing");
+        else
+            BOOST_TEST((ran.results != before.results), "it does nothing");
+    }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
+    std::size_t tried = 0;
+    std::set<std::string> problems;
+    for (const auto& [program, base] : cases) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+        if (program != "rotating_hexagon") continue;  // thousands of runs, ten times slower
+#endif
+        problems.insert(program);
+        const Ran before = run_with(program, base);
+        BOOST_REQUIRE_MESSAGE(before.outcome.status == 0, program << before.outcome.err);
+        for (const auto& option : options_of(program)) {
+            const bool given = std::find(base.begin(), base.end(), "--" + option) != base.end();
+            if (given || no_part_of_the_case.contains(option)) continue;
+            check_option(program, base, before, option);
+            ++tried;
+        }
+    }
+    BOOST_TEST(tried > 100u);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    for (const auto& program : split(SPAM_PROBLEM_NAMES, ','))
+        BOOST_TEST(problems.contains(program), program << " has no case here");
+#endif
+}

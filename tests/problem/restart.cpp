@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checkpoints and --restart: a run that was stopped and one that was not are the same, byte for byte.
+#include "problem/result_files.hpp"
+#include <spam/io/checkpoint_pair.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <random>
+
+using namespace spam::test;
+using spam::CheckpointReader;
+using spam::newest_checkpoint;
+using Words = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+namespace {
+
+const Words problems = split(SPAM_PROBLEM_NAMES, ',');
+
+Words with(Words some, const Words& more) {
+    some.insert(some.end(), more.begin(), more.end());
+    return some;
+}
+
+Outcome run_in(const Scratch& folder, const std::string& name, const Words& arguments) {
+    return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(240));
+}
+
+/// 0, or 1 where a run is too short for the problem's own checks.
+void require_ran(const Outcome& outcome) {
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0 || outcome.status == 1, outcome.out << outcome.err);
+}
+
+double key(const fs::path& toml, const std::string& name) {
+    const std::string text = contents_of(toml);
+    const auto at = text.find("\n" + name + " = ");
+    return at == std::string::npos ? 0.0 : std::stod(text.substr(at + name.size() + 4));
+}
+
+/// What a run leaves: rows, events, configurations; and of the newest checkpoint every field.
+std::map<std::string, std::string> left_by(const fs::path& folder) {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const auto name = entry.path().filename().string();
+        if (name == "invariants.csv" || name == "events.csv" || name.starts_with("snapshot"))
+            all[entry.path().lexically_relative(folder).string()] = contents_of(entry.path());
+    }
+    const CheckpointReader checkpoint(newest_checkpoint(folder).value());
+    for (int k = 0; checkpoint.has("/cases/" + std::to_string(k) + "/label"); ++k)
+        for (const char* field : {"position", "velocity", "density", "stress", "energy"}) {
+            const std::string path = "/cases/" + std::to_string(k) + "/state/" + field;
+            if (!checkpoint.has(path)) continue;
+            const auto values = checkpoint.numbers(path);
+            all[path].assign(reinterpret_cast<const char*>(values.data()),
+                             values.size() * sizeof(double));
+        }
+    return all;
+}
+
+void check_same(const std::map<std::string, std::string>& one,
+                const std::map<std::string, std::string>& other) {
+    BOOST_TEST(!one.empty());
+    for (const auto& [name, contents] : one)
+        BOOST_TEST((other.contains(name) && other.at(name) == contents), name << " differs");
+    BOOST_TEST(one.size() == other.size());
+}
+
+/// Intervals that a whole run and its halves share: 16 rows, 4 snapshots, 8 checkpoints in T.
+Words intervals(double T) {
+    const auto text = [](double x) {
+        std::ostringstream out;
+        out.precision(17);
+        out << x;
+        return out.str();
+    };
+    return {"--output-every", text(T / 16),         "--snapshot-every",
+            text(T / 4),      "--checkpoint-every", text(T / 8)};
+}
+
+/// One case, no comparison.
+Words hexagon(const std::string& size, const Words& more) {
+    return with({"--size", size, "--no-plots", "--transport", "monaghan", "--angular-momentum",
+                 "torque_pair"},
+                more);
+}
+
+const Words adaptive{"--integrator", "arkode:DORMAND_PRINCE_7_4_5"};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
+    std::size_t twins = 0;
+    for (const auto& name : problems) {
+        const Scratch folder;
+        const Words smoke{"--smoke", "--no-plots"};
+        require_ran(run_in(folder, name, with(smoke, {"--out", "probe"})));
+        const auto probe = newest_checkpoint(folder / "probe");
+        if (!probe) {  // an analysis, or a study that goes on from its table
+            const auto refused = run_in(folder, name, with(smoke, {"--restart", "x.h5"}));
+            BOOST_TEST(refused.status == 2, name << refused.err);
+            continue;
+        }
+        const double end = CheckpointReader(*probe).numbers("/cases/0/t").at(0);
+        const double dt = key(folder / "probe/case.toml", "dt");
+        const double T = 16.0 * dt * std::max(1.0, std::round(end / 16.0 / dt));
+        for (const Words& method : {Words{}, adaptive}) BOOST_TEST_CONTEXT(name << method.size()) {
+                const Scratch here;
+                Words common = with(smoke, method);
+                for (const auto& word : intervals(T)) common.push_back(word);
+                const auto until = [&](double t, const Words& more) {
+                    std::ostringstream words;
+                    words.precision(17);
+                    words << t;
+                    require_ran(run_in(here, name, with({"--t-end", words.str()}, more)));
+                };
+                until(T, with(common, {"--out", "whole"}));
+                until(0.5 * T, with(common, {"--out", "half"}));
+                const auto half = newest_checkpoint(here / "half").value().string();
+                until(T, {"--restart", half, "--out", "rest", "--threads", "2", "--no-plots"});
+                check_same(left_by(here / "whole"), left_by(here / "rest"));
+                until(T, {"--restart", half, "--no-plots"});  // in place
+                check_same(left_by(here / "whole"), left_by(here / "half"));
+                ++twins;
+            }
+    }
+    BOOST_TEST(twins >= 14u);
+}
+
+/// Of more particles, so that threads share the sums and the norms of steps.
+BOOST_AUTO_TEST_CASE(the_number_of_threads_may_change) {
+    const Scratch folder;
+    const Words common =
+        hexagon("40", with({"--output-every", "1", "--snapshot-every", "2"}, adaptive));
+    const auto run = [&](const Words& more) {
+        require_ran(run_in(folder, "rotating_hexagon", more));
+    };
+    run(with(common, {"--t-end", "4", "--threads", "2", "--out", "whole"}));
+    run(with(common, {"--t-end", "2", "--threads", "1", "--out", "half"}));
+    run({"--restart", "half", "--t-end", "4", "--threads", "3", "--no-plots"});
+    check_same(left_by(folder / "whole"), left_by(folder / "half"));
+}
+
+/// The barrier is what makes it so: without one in the uninterrupted run adaptive steps differ.
+BOOST_AUTO_TEST_CASE(without_a_barrier_adaptive_steps_are_others) {
+    const Scratch folder;
+    const Words common =
+        hexagon("3", with({"--output-every", "1", "--snapshot-every", "8"}, adaptive));
+    const auto run = [&](const Words& more) {
+        require_ran(run_in(folder, "rotating_hexagon", with(common, more)));
+    };
+    run({"--t-end", "16", "--checkpoint-every", "8", "--out", "barrier"});
+    run({"--t-end", "16", "--checkpoint-every", "16", "--out", "none"});
+    BOOST_TEST((left_by(folder / "barrier") != left_by(folder / "none")));
+}
+
+BOOST_AUTO_TEST_CASE(killed_fifty_times_it_ends_with_the_same_bytes) {
+    const Scratch folder;
+    const Words common = hexagon("6", {"--quiet", "--t-end", "400", "--output-every", "2",
+                                       "--snapshot-every", "100", "--checkpoint-every", "2"});
+    require_ran(run_in(folder, "rotating_hexagon", with(common, {"--out", "whole"})));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> moment(0.0, 0.03);
+    int kills = 0, restarts = 0;
+    Words command = with(common, {"--out", "killed"});
+    while (kills < 50) {
+        Child child(problem("rotating_hexagon", command), {folder.path()});
+        const auto before = newest_checkpoint(folder / "killed");
+        if (!before)
+            child.wait_for(
+                [&](const Outcome&) { return fs::exists(folder / "killed/checkpoint_0.h5"); });
+        const auto due = std::chrono::steady_clock::now() + Child::Seconds(0.01 + moment(random));
+        const bool alive =
+            !child.wait_for([&](const Outcome&) { return std::chrono::steady_clock::now() > due; });
+        (void)alive;
+        child.send(SIGKILL);
+        const Outcome outcome = child.finish();
+        if (outcome.signal == SIGKILL) ++kills;
+        const auto newest = newest_checkpoint(folder / "killed");
+        BOOST_REQUIRE(newest);
+        command = {"--restart", newest->string(), "--quiet", "--no-plots"};
+        if (outcome.signal == SIGKILL) continue;
+        require_ran(outcome);  // went to the end: once more from the beginning
+        check_same(left_by(folder / "whole"), left_by(folder / "killed"));
+        fs::remove_all(folder / "killed");
+        command = with(common, {"--out", "killed"});
+        ++restarts;
+    }
+    if (fs::exists(folder / "killed")) require_ran(run_in(folder, "rotating_hexagon", command));
+    check_same(left_by(folder / "whole"), left_by(folder / "killed"));
+    BOOST_TEST_MESSAGE(kills << " kills, " << restarts << " ends between");
+}
+
+BOOST_AUTO_TEST_CASE(a_signal_leaves_a_checkpoint_that_goes_on) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Scratch folder;
+        const Words common = hexagon("6", {"--t-end", "1000"});
+        Child child(problem("rotating_hexagon", with(common, {"--out", "out"})), {folder.path()});
+        child.wait_for([&](const Outcome&) { return fs::exists(folder / "out/invariants.csv"); });
+        child.send(signal);
+        BOOST_TEST(child.finish().status == 128 + signal);
+        const auto newest = newest_checkpoint(folder / "out");
+        BOOST_REQUIRE(newest);
+        require_ran(run_in(folder, "rotating_hexagon",
+                           {"--restart", newest->string(), "--no-plots", "--t-end", "1000"}));
+        require_ran(run_in(folder, "rotating_hexagon", with(common, {"--out", "whole"})));
+        // A fixed step in a solid: no barrier leaves a trace.
+        BOOST_TEST(contents_of(folder / "out/invariants.csv") ==
+                   contents_of(folder / "whole/invariants.csv"));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_restarted_is_refused_in_one_line) {
+    const Scratch folder;
+    require_ran(run_in(folder, "rotating_hexagon", hexagon("3", {"--t-end", "4", "--out", "out"})));
+    const auto file = newest_checkpoint(folder / "out").value().string();
+    std::string damaged = contents_of(file);
+    damaged[damaged.size() / 2] ^= 1;
+    folder.write("damaged.h5", damaged);
+    folder.write("cut.h5", contents_of(file).substr(0, 1000));
+    folder.write("foreign.h5", "no checkpoint at all");
+    fs::create_directory(folder / "folder.h5");
+    struct Bad {
+        std::string program;
+        Words arguments, says;
+    };
+    const std::vector<Bad> all{
+        {"rotating_hexagon", {"--restart", "none.h5"}, {"restart", "none.h5"}},
+        {"rotating_hexagon", {"--restart", "damaged.h5"}, {"damaged.h5", "damaged"}},
+        {"rotating_hexagon", {"--restart", "cut.h5"}, {"cut.h5"}},
+        {"rotating_hexagon", {"--restart", "foreign.h5"}, {"foreign.h5", "not a"}},
+        {"rotating_hexagon", {"--restart", "folder.h5"}, {"folder.h5"}},
+        {"plane_wave", {"--restart", file}, {"rotating_hexagon", "not of plane_wave"}},
+        {"rotating_hexagon", {"--restart", file, "--size", "4"}, {"size", "4", "3", "t-end"}},
+        {"rotating_hexagon", {"--restart", file, "--dt", "0.05"}, {"dt", "0.05", "0.1"}},
+        {"rotating_hexagon", {"--restart", file, "--t-end", "2"}, {"t-end", "2", "4"}},
+        {"rotating_hexagon", {"--restart", file, "--force"}, {"force", "folder"}},
+        {"rotating_hexagon", {"--restart", file, "--smoke"}, {"smoke"}},
+        {"rotating_hexagon", {"--restart", file, "--config", "out/case.toml"}, {"config"}},
+        {"rotating_hexagon", {"--restart", file, "--out", "folder.h5/.."}, {"out"}},
+    };
+    const auto before = folder.listing();
+    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments[1] << bad.arguments.back()) {
+            const Outcome outcome = run_in(folder, bad.program, bad.arguments);
+            BOOST_TEST(outcome.status == 2);
+            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+            for (const auto& word : bad.says)
+                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
+            BOOST_TEST((folder.listing() == before));
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_restart_may_change_where_the_run_ends) {
+    const Scratch folder;
+    const Words common = hexagon("3", {"--output-every", "1", "--snapshot-every", "4"});
+    const auto run = [&](const Words& words) {
+        require_ran(run_in(folder, "rotating_hexagon", words));
+    };
+    run(with(common, {"--t-end", "8", "--out", "whole"}));
+    run(with(common, {"--t-end", "3.7", "--out", "short"}));  // ends between rows
+    run({"--restart", newest_checkpoint(folder / "short")->string(), "--t-end", "8", "--no-plots"});
+    BOOST_TEST(contents_of(folder / "whole/invariants.csv") ==
+               contents_of(folder / "short/invariants.csv"));
+    BOOST_TEST(key(folder / "short/case.toml", "t-end") == 8.0);
+    // Once more from its end: nothing is left to compute, and nothing changes.
+    const auto rows = contents_of(folder / "short/invariants.csv");
+    run({"--restart", newest_checkpoint(folder / "short")->string(), "--no-plots"});
+    BOOST_TEST(contents_of(folder / "short/invariants.csv") == rows);
+}
