@@ -1,67 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtk_appended.hpp"
 #include <spam/io/snapshot.hpp>
 
 #include <fmt/format.h>
 
-#include <bit>
-#include <cstring>
-
 namespace spam {
 namespace {
-
-/// The XML head and the raw tail of a VTK file with appended data, built side by side.
-class VtpFile {
-  public:
-    explicit VtpFile(std::size_t points) : points_(points) {}
-
-    template <class Value, class Get>
-    void array(std::string_view type, std::string_view name, int components, std::size_t tuples,
-               const Get& get) {
-        head_ += fmt::format(
-            "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-            "format=\"appended\" offset=\"{}\"/>\n",
-            type, name, components, tail_.size());
-        const auto bytes = static_cast<std::uint64_t>(tuples) *
-                           static_cast<std::uint64_t>(components) * sizeof(Value);
-        append(bytes);
-        for (std::size_t i = 0; i < tuples; ++i)
-            for (int c = 0; c < components; ++c) append(static_cast<Value>(get(i, c)));
-    }
-    template <class Get>
-    void reals(std::string_view name, int components, const Get& get) {
-        array<double>("Float64", name, components, points_, get);
-    }
-    template <class Get>
-    void integers(std::string_view name, std::size_t tuples, const Get& get) {
-        array<std::int64_t>("Int64", name, 1, tuples, get);
-    }
-    void open(std::string_view tag) { head_ += fmt::format("      <{}>\n", tag); }
-    void close(std::string_view tag) { head_ += fmt::format("      </{}>\n", tag); }
-
-    std::string text() const {
-        return fmt::format(
-                   "<?xml version=\"1.0\"?>\n"
-                   "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" "
-                   "header_type=\"UInt64\">\n"
-                   "  <PolyData>\n"
-                   "    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" "
-                   "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
-                   std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-                   points_, points_) +
-               head_ + "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_" + tail_ +
-               "\n  </AppendedData>\n</VTKFile>\n";
-    }
-
-  private:
-    template <class Value>
-    void append(Value value) {
-        char bytes[sizeof(Value)];
-        std::memcpy(bytes, &value, sizeof(Value));
-        tail_.append(bytes, sizeof(Value));
-    }
-    std::size_t points_;
-    std::string head_, tail_;
-};
 
 std::string snapshot_name(std::size_t number) { return fmt::format("snapshot_{:04}.vtp", number); }
 
@@ -78,18 +22,19 @@ std::string snapshot_text(const Model<Dim>& model, std::span<const double> y) {
     const std::size_t n = particles.size();
     const auto x = state.position();
     const auto v = state.velocity();
-    VtpFile file(n);
+    VtkAppended file;
     file.open("PointData");
     file.integers("id", n, [&](std::size_t i, int) { return particles.id[i]; });
     file.integers("body", n, [&](std::size_t i, int) { return particles.body[i]; });
-    file.reals("mass", 1, [&](std::size_t i, int) { return particles.mass[i]; });
-    file.reals("particle_spacing", 1, [&](std::size_t, int) { return particles.spacing; });
-    file.reals("velocity", 3, [&](std::size_t i, int c) { return in_space(v, i, c); });
+    file.reals("mass", 1, n, [&](std::size_t i, int) { return particles.mass[i]; });
+    file.reals("particle_spacing", 1, n, [&](std::size_t, int) { return particles.spacing; });
+    file.reals("velocity", 3, n, [&](std::size_t i, int c) { return in_space(v, i, c); });
     const auto density = model.density(y);
-    if (!density.empty()) file.reals("density", 1, [&](std::size_t i, int) { return density[i]; });
+    if (!density.empty())
+        file.reals("density", 1, n, [&](std::size_t i, int) { return density[i]; });
     if (state.has(Field::stress)) {
         const auto stress = state.stress();
-        file.reals("stress", 9, [&](std::size_t i, int c) {
+        file.reals("stress", 9, n, [&](std::size_t i, int c) {
             const int a = c / 3, b = c % 3;
             return a < Dim && b < Dim ? stress(symmetric_index(Dim, std::min(a, b), std::max(a, b)),
                                                static_cast<Eigen::Index>(i))
@@ -97,18 +42,21 @@ std::string snapshot_text(const Model<Dim>& model, std::span<const double> y) {
         });
     }
     if (state.has(Field::energy))
-        file.reals("energy", 1, [e = state.energy()](std::size_t i, int) {
+        file.reals("energy", 1, n, [e = state.energy()](std::size_t i, int) {
             return e(0, static_cast<Eigen::Index>(i));
         });
     file.close("PointData");
     file.open("Points");
-    file.reals("Points", 3, [&](std::size_t i, int c) { return in_space(x, i, c); });
+    file.reals("Points", 3, n, [&](std::size_t i, int c) { return in_space(x, i, c); });
     file.close("Points");
     file.open("Verts");
     file.integers("connectivity", n, [](std::size_t i, int) { return i; });
     file.integers("offsets", n, [](std::size_t i, int) { return i + 1; });
     file.close("Verts");
-    return file.text();
+    return file.text("PolyData", "",
+                     fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+                                 "NumberOfStrips=\"0\" NumberOfPolys=\"0\"",
+                                 n));
 }
 
 }  // namespace

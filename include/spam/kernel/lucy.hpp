@@ -12,10 +12,13 @@ namespace spam {
 /// Lucy's weight function, [HHM04] II, u = r/h:
 ///     w    = C (1 + 3u)(1 - u)^3,     C = 5/(4h), 5/(pi h^2), 105/(16 pi h^3) in 1, 2, 3
 ///     dimensions w'/r = -12 C (1 - u)^2 / h^2
+///     w''  = -12 C (1 - u)(1 - 3u) / h^2,     w''' = 24 C (2 - 3u) / h^3
 /// Two continuous derivatives; the third jumps at r = h.
 template <int Dim>
 class Lucy {
   public:
+    static constexpr int continuous_derivatives = 2;
+
     explicit Lucy(double h) : h_(h) {
         const double c = normalisation(h);
         s_ = std::sqrt(12.0 * c) / h;
@@ -39,6 +42,16 @@ class Lucy {
         return q * q;
     }
 
+    double second_derivative(double r) const {
+        const double u = r / h_;
+        return u < 1.0 ? -12.0 * normalisation(h_) / (h_ * h_) * (1.0 - u) * (1.0 - 3.0 * u) : 0.0;
+    }
+
+    double third_derivative(double r) const {
+        const double u = r / h_;
+        return u < 1.0 ? 24.0 * normalisation(h_) / (h_ * h_ * h_) * (2.0 - 3.0 * u) : 0.0;
+    }
+
   private:
     /// s (1 - u) up to the range, with s such that its square is -w'/r: spares a factor.
     template <class T>
@@ -53,6 +66,7 @@ class Lucy {
     double h_, s_, s_over_h_, constant_, linear_;
 };
 
-static_assert(WeightFunction<Lucy<1>> && WeightFunction<Lucy<2>> && WeightFunction<Lucy<3>>);
+static_assert(SmoothWeightFunction<Lucy<1>> && SmoothWeightFunction<Lucy<2>> &&
+              SmoothWeightFunction<Lucy<3>>);
 
 }  // namespace spam

@@ -16,4 +16,21 @@ concept WeightFunction = requires(const W w, double r) {
     { w.minus_slope_over_r(r) } -> std::convertible_to<double>;
 };
 
+/// One that also gives w'' and w''' (in double: for set-up, pictures and potentials of the density;
+/// zero from the range on, one-sided where they jump) and says how smooth it is:
+/// `continuous_derivatives` counts those of w(r) that are continuous for all r > 0. At r = 0 every
+/// one here begins with r^2 and |r|^3, so that in space the third derivatives jump there.
+template <class W>
+concept SmoothWeightFunction = WeightFunction<W> && requires(const W w, double r) {
+    { w.second_derivative(r) } -> std::same_as<double>;
+    { w.third_derivative(r) } -> std::same_as<double>;
+    { W::continuous_derivatives } -> std::convertible_to<int>;
+};
+
+/// w'' + (Dim - 1) w'/r
+template <int Dim, SmoothWeightFunction W>
+double laplacian(const W& w, double r) {
+    return w.second_derivative(r) - (Dim - 1) * w.minus_slope_over_r(r);
+}
+
 }  // namespace spam

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/diagnostics/field_grid.hpp>
+#include <spam/io/run_folder.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spam {
+
+/// A field on the nodes of a grid: components x nodes. As many components as dimensions is a vector and
+/// written with three of them; any other number is written as it is.
+struct ImageField {
+    std::string name;
+    Eigen::MatrixXd values;
+};
+
+/// Fields on a regular grid for ParaView: <name>.vti, image data with point arrays (raw appended, in
+/// the byte order of the machine). A plane is one node thick. Throws InputError when a field has not
+/// one column a node, OutputError when it cannot be written.
+template <int Dim>
+void write_image(const RunFolder& folder, std::string_view name, const FieldGrid<Dim>& grid,
+                 const std::vector<ImageField>& fields);
+
+extern template void write_image(const RunFolder&, std::string_view, const FieldGrid<1>&,
+                                 const std::vector<ImageField>&);
+extern template void write_image(const RunFolder&, std::string_view, const FieldGrid<2>&,
+                                 const std::vector<ImageField>&);
+extern template void write_image(const RunFolder&, std::string_view, const FieldGrid<3>&,
+                                 const std::vector<ImageField>&);
+
+}  // namespace spam

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/kernel/any_weight.hpp>
+#include <spam/kernel/lucy.hpp>
+#include <spam/kernel/monaghan_cubic.hpp>
+#include <spam/kernel/wn.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace spam {
+namespace {
+
+constexpr int smallest = 2, largest = 8;  // of the family w_n
+
+template <int Dim, int... K>
+AnyWeight<Dim> member_of_family(int n, double range, std::integer_sequence<int, K...>) {
+    AnyWeight<Dim> weight = Wn<Dim, smallest>(range);
+    ((n == smallest + K ? void(weight = Wn<Dim, smallest + K>(range)) : void()), ...);
+    return weight;
+}
+
+}  // namespace
+
+template <int Dim>
+AnyWeight<Dim> weight_function(std::string_view name, double range) {
+    if (!(range > 0.0) || !std::isfinite(range))
+        throw InputError(
+            fmt::format("range: {:g} is no range of a weight function; it must be above 0", range));
+    if (name == "lucy") return Lucy<Dim>(range);
+    if (name == "monaghan") return MonaghanCubic<Dim>(range);
+    if (name.size() == 2 && name[0] == 'w' && name[1] >= '0' + smallest && name[1] <= '0' + largest)
+        return member_of_family<Dim>(name[1] - '0', range,
+                                     std::make_integer_sequence<int, largest - smallest + 1>{});
+    throw InputError(fmt::format(
+        "kernel: '{}' is no weight function; choose lucy, monaghan or one of w{} to w{}", name,
+        smallest, largest));
+}
+
+template AnyWeight<1> weight_function<1>(std::string_view, double);
+template AnyWeight<2> weight_function<2>(std::string_view, double);
+template AnyWeight<3> weight_function<3>(std::string_view, double);
+
+}  // namespace spam
