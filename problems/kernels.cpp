@@ -140,12 +140,12 @@ void compare_with_gaussian(Session& session, const Parameters& p) {
                                     .style = style_of(law)});
     }
     if (session.plots())
-        session.note_drawn(draw_curves(session.plots_folder(),
-                                       fmt::format("weight_functions_{}d", Dim),
-                                       fmt::format("Weight functions in {0} dimension{1} beside a "
-                                                   "Gaussian of the same width, s² = ⟨r²⟩/{0}",
-                                                   Dim, Dim == 1 ? "" : "s"),
-                                       panels));
+        session.note_drawn(draw_curves(
+            session.plots_folder(), fmt::format("weight_functions_{}d", Dim),
+            fmt::format("Weight functions in {0} dimension{1} beside a "
+                        "Gaussian of the same width, s² = ⟨r²⟩{2}",
+                        Dim, Dim == 1 ? "" : "s", Dim == 1 ? "" : fmt::format("/{}", Dim)),
+            panels));
 }
 
 // ---- 2: lattices ----
