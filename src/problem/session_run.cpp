@@ -128,6 +128,8 @@ void Session::describe(const Case<Dim>& one) {
                               to_string(p.angular_momentum), to_string(p.energy)));
     terminal_.say(
         fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
+    terminal_.say(
+        fmt::format("checkpoints every {:.6g}, and at the end", one.plan.checkpoint_every));
     terminal_.say(fmt::format("guard       {}", one.plan.guard.describe(drifts_at_start(
                                                     p, Dim, promise_limit(integrator_)))));
     for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
