@@ -47,9 +47,6 @@ struct Arkode::Calls {
 };
 
 namespace {
-/// Of the latest step: the error of what is shorter is too small to be seen in the energy.
-constexpr double worth_relaxing = 0.01;
-
 // Designated initialisers would name private members of Arkode; the order is that of struct Calls.
 #define SPAM_ARKODE_CALLS(S)                                                              \
     S##Evolve, S##Reset, S##Free, S##SetUserData, S##SVtolerances, S##SetFixedStep,       \
@@ -204,12 +201,8 @@ double Arkode::take_fixed(double from, const Vector& y, double h) {
 
 /// Another step from the last accepted state, of length h.
 std::span<const double> Arkode::retake(double h) {
-    if (!options_.relaxation) {
-        take_fixed(t_, accepted_, h);
-    } else {
-        relax(h > worth_relaxing * statistics_.last_step);
-        close_gap(take_fixed(t_, accepted_, h), t_ + h);
-    }
+    if (options_.relaxation) return retake_relaxed(h);
+    take_fixed(t_, accepted_, h);
     return y_.span();
 }
 
@@ -242,7 +235,7 @@ void Arkode::take_piece(double h, double t_next) {
         calls_->last_step(memory_, &statistics_.last_step);
         look_at_errors();
         shares_.count(statistics_);
-        closed = options_.relaxation && misses(reached, t_next);
+        closed = options_.relaxation && almost_at(t_next, reached);
         if (closed) {
             close_gap(reached, t_next);
             reached = t_next;
@@ -277,7 +270,9 @@ double Arkode::take_step(double t_stop) {
         grid_.arrive(next);
         statistics_.last_step = next.length;
     } else {
-        check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
+        check(
+            calls_->set_stop_time(memory_, options_.relaxation ? stop_for_relaxed(t_stop) : t_stop),
+            "SetStopTime");
         take_piece(0.0, t_stop);
     }
     ++statistics_.steps;

@@ -16,9 +16,8 @@ namespace spam {
 /// difference to the embedded method, y the state before the step.
 ///
 /// With relaxation a step from (t, y) by (h, d) ends at (t + gamma h, y + gamma d), gamma near 1 such that
-/// E(y + gamma d) = E(y): relaxation Runge-Kutta. The rest of the way to a time that must be hit,
-/// (1 - gamma) h, forward or back, is a step that is not rescaled: by the order of the method its
-/// error in energy is smaller still than the one taken away.
+/// E(y + gamma d) = E(y): relaxation Runge-Kutta. A step that must end at a certain time is aimed a hundredth
+/// short of it, and the rest is a step that is not rescaled.
 class Arkode final : public Integrator {
   public:
     Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
@@ -45,7 +44,10 @@ class Arkode final : public Integrator {
     // arkode_relaxation.cpp
     void set_relaxation();
     void relax(bool on);
-    bool misses(double reached, double t_stop) const;
+    double short_of(double t_stop) const;
+    double stop_for_relaxed(double t_stop) const;
+    bool almost_at(double t_stop, double reached) const;
+    std::span<const double> retake_relaxed(double h);
     void close_gap(double reached, double to);
     long relaxations_failed() const;
     static int energy(N_Vector y, double* energy, void* self);

@@ -27,12 +27,16 @@
 namespace spam {
 namespace {
 
-constexpr double close_by = 0.01;  // of a step: a gap before a stop that is closed at once
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double rounding = 2.0 * epsilon;
+
+// Of a step that must end at a certain time: so much is left for a step that is not rescaled, whose error
+// in energy is smaller by spared^(order + 1). gamma may not be further from 1.
+constexpr double spared = 0.01;
 
 #ifdef SPAM_RELAXATION
 // Newton's last change of gamma: what it leaves is its square.
 constexpr double gamma_tolerance = 1e-9;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 bool has_negative_weight(const std::string& method) {
     const Table table = load_table(method);
@@ -77,18 +81,34 @@ void require_energy(const Ode& ode) {
             ode.no_energy.empty() ? std::string("these equations name none") : ode.no_energy));
 }
 
-/// Whether a step that was to end at t_stop, or close by, is rescaled to end elsewhere.
-bool Arkode::misses(double reached, double t_stop) const {
-    const double gap = t_stop - reached;
-    return gap < 0.0 || (gap > 0.0 && gap <= close_by * (reached - t_));
+/// Short of the time t_stop, as seen from t.
+double Arkode::short_of(double t_stop) const { return t_ + (1.0 - spared) * (t_stop - t_); }
+
+/// The stop time for ARKODE's next step. Far away where the step does not come near t_stop: ARKODE would
+/// shorten the steps after it as well and forget how long they could be.
+double Arkode::stop_for_relaxed(double t_stop) const {
+    const double ahead = step_ahead(), left = t_stop - t_;
+    const bool far = ahead > 0.0 && (1.0 + spared) * ahead <= left;
+    return far ? t_stop + left : short_of(t_stop);
 }
 
-/// From y, which is at `reached`, to `to`.
+/// Whether what is left after a rescaled step is no step of its own.
+bool Arkode::almost_at(double t_stop, double reached) const {
+    return t_stop - reached <= 2.0 * spared * (reached - t_) + rounding * std::abs(t_stop);
+}
+
+/// From y, which is at `reached`, to `to`, not rescaled.
 void Arkode::close_gap(double reached, double to) {
-    const double gap = to - reached;
-    if (std::abs(gap) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(to)) return;
+    if (to - reached <= rounding * std::abs(to)) return;
     relax(false);
-    take_fixed(reached, y_, gap);
+    take_fixed(reached, y_, to - reached);
+}
+
+/// Another step from the last accepted state, of length h.
+std::span<const double> Arkode::retake_relaxed(double h) {
+    relax(h > spared * statistics_.last_step);
+    close_gap(take_fixed(t_, accepted_, short_of(t_ + h) - t_), t_ + h);
+    return y_.span();
 }
 
 #ifdef SPAM_RELAXATION
@@ -108,6 +128,8 @@ void Arkode::set_relaxation() {
     if (!std::isfinite(scale)) scale = 0.0;  // ARKODE's own choice; the first step says why
     check(SPAM_RELAX_CALL(SetRelaxResTol, memory_, 4.0 * epsilon * scale), "SetRelaxResTol");
     check(SPAM_RELAX_CALL(SetRelaxTol, memory_, gamma_tolerance, gamma_tolerance), "SetRelaxTol");
+    check(SPAM_RELAX_CALL(SetRelaxLowerBound, memory_, 1.0 - spared), "SetRelaxLowerBound");
+    check(SPAM_RELAX_CALL(SetRelaxUpperBound, memory_, 1.0 + spared), "SetRelaxUpperBound");
     check(SPAM_RELAX_CALL(SetRelaxMaxFails, memory_, most_rejections), "SetRelaxMaxFails");
 }
 
