@@ -50,22 +50,26 @@ void require_relaxation(const IntegratorOptions& options) {
     const auto refuse = [](const std::string& reason) {
         throw InputError("relaxation: " + reason);
     };
-    const std::string& method = integration_method(options.method).name;
+#ifndef SPAM_RELAXATION
+    static_cast<void>(options);
+    refuse(
+        fmt::format("needs SUNDIALS 6.6 or later, this is {}; leave it out", sundials_version()));
+#else
+    const IntegrationMethod& known = integration_method(options.method);
+    const std::string& method = known.name;
     if (!method.starts_with("arkode:"))
         refuse(
             fmt::format("{} cannot rescale its steps, only arkode:<table> can; leave it out, or "
                         "use --integrator arkode:VERNER_8_5_6",
                         method));
-#ifndef SPAM_RELAXATION
-    refuse(
-        fmt::format("needs SUNDIALS 6.6 or later, this is {}; leave it out", sundials_version()));
-#else
     if (options.dt)
         refuse(
             "a rescaled step ends beside the grid of fixed ones; leave --relaxation or --dt out");
-    if (integration_method(method).order < 2)
-        refuse(fmt::format(
-            "{} has order 1, ARKODE rescales from order 2 on; use arkode:VERNER_8_5_6", method));
+    if (known.order < 2 || !known.adaptive)
+        refuse(fmt::format("{} {}; use arkode:VERNER_8_5_6", method,
+                           known.order < 2
+                               ? "has order 1, ARKODE rescales from order 2 on"
+                               : "cannot choose its steps, and fixed ones are not rescaled"));
     if (has_negative_weight(method))
         refuse(
             fmt::format("{} has a negative weight b_i, which ARKODE does not rescale; use e.g. "
