@@ -237,7 +237,7 @@ void Arkode::take_piece(double h, double t_next) {
         shares_.count(statistics_);
         closed = options_.relaxation && almost_at(t_next, reached);
         if (closed) {
-            close_gap(reached, t_next);
+            land(reached, t_next);
             reached = t_next;
         }
         h = reached - t_;

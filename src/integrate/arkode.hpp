@@ -49,6 +49,7 @@ class Arkode final : public Integrator {
     bool almost_at(double t_stop, double reached) const;
     std::span<const double> retake_relaxed(double h);
     void close_gap(double reached, double to);
+    void land(double reached, double t_stop);
     long relaxations_failed() const;
     static int energy(N_Vector y, double* energy, void* self);
     static int energy_gradient(N_Vector y, N_Vector gradient, void* self);

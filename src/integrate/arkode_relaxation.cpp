@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ARKODE solves E(y + gamma d) - E(y) - gamma sum_i b_i h gradE(z_i) . f(z_i) = 0 for gamma, z_i the stages
-// of the step; the sum is a rounding error where the rates keep E.
+// of the step; the sum is a rounding error where the rates keep E. H. Ranocha et al., Relaxation Runge-Kutta
+// methods: fully discrete explicit entropy-stable schemes ..., SIAM J. Sci. Comput. 42 (2020) A612.
 #include "arkode_relaxation.hpp"
 
 #include "arkode.hpp"
@@ -113,6 +114,14 @@ std::span<const double> Arkode::retake_relaxed(double h) {
     relax(h > spared * statistics_.last_step);
     close_gap(take_fixed(t_, accepted_, short_of(t_ + h) - t_), t_ + h);
     return y_.span();
+}
+
+/// At t_stop. ARKODE's step is longer than the one it told where it began to choose anew: back then.
+void Arkode::land(double reached, double t_stop) {
+    if (reached > t_stop)
+        retake_relaxed(t_stop - t_);
+    else
+        close_gap(reached, t_stop);
 }
 
 #ifdef SPAM_RELAXATION
