@@ -2,6 +2,7 @@
 // Runs ARKODE's methods. From SUNDIALS 7 on one set of calls serves ERKStep and ARKStep.
 #include "arkode.hpp"
 
+#include "arkode_relaxation.hpp"
 #include "arkode_tables.hpp"
 #include <spam/core/error.hpp>
 #include <spam/integrate/interrupt.hpp>
@@ -83,24 +84,26 @@ void Arkode::create() {
     if (memory_ != nullptr) calls_->free(&memory_);
     const SundialsMessages::Scope scope(context_, messages_);
     const Table table = load_table(options_.method);
-    const bool erk = erkstep_is_right(*table);
-    calls_ = erk ? &erkstep : &arkstep;
-    memory_ = erk ? ERKStepCreate(&Arkode::rates, t_, y_.get(), context_.get())
-                  : ARKStepCreate(&Arkode::rates, nullptr, t_, y_.get(), context_.get());
+    erk_ = erkstep_is_right(*table);
+    calls_ = erk_ ? &erkstep : &arkstep;
+    memory_ = erk_ ? ERKStepCreate(&Arkode::rates, t_, y_.get(), context_.get())
+                   : ARKStepCreate(&Arkode::rates, nullptr, t_, y_.get(), context_.get());
     if (memory_ == nullptr) throw std::bad_alloc();
 #if SUNDIALS_VERSION_MAJOR < 7
     check(calls_->set_error_handler(memory_, &SundialsMessages::handler, &messages_),
           "SetErrHandlerFn");
 #endif
     check(calls_->set_user_data(memory_, this), "SetUserData");
-    check(erk ? ERKStepSetTable(memory_, table.get())
-              : ARKStepSetTables(memory_, table->q, table->p, nullptr, table.get()),
+    check(erk_ ? ERKStepSetTable(memory_, table.get())
+               : ARKStepSetTables(memory_, table->q, table->p, nullptr, table.get()),
           "SetTable");
     if (dt_)
         check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
     else
         set_step_control();
+    if (options_.relaxation) set_relaxation();
     retaking_ = false;
+    first_step_ = 0.0;
     N_VScale(1.0, y_.get(), accepted_.get());
 }
 
@@ -156,6 +159,8 @@ void Arkode::stop(int flag) {
         calls_->current_step(memory_, &h);
         message = rejected_too_often(h, options_.min_step, shares_.in_words());
     }
+    if (failure_.empty() && is_failed_relaxation(flag))
+        message = "no step was found whose rescaling keeps the energy; leave --relaxation out";
     throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
 }
 
@@ -173,6 +178,7 @@ double Arkode::evolve(double t_stop) {
     const SundialsMessages::Scope scope(context_, messages_);
     failure_.clear();
     spoiled_.clear();
+    first_step_ = 0.0;
     const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
     try {
         if (flag < 0) stop(flag);
@@ -185,12 +191,18 @@ double Arkode::evolve(double t_stop) {
     return reached;
 }
 
+/// One step of length h from (from, y), into y_. Returns the time it reached.
+double Arkode::take_fixed(double from, const Vector& y, double h) {
+    retaking_ = true;
+    check(calls_->reset(memory_, from, y.get()), "Reset");
+    check(calls_->set_fixed_step(memory_, h), "SetFixedStep");
+    return evolve(from + 2.0 * h);
+}
+
 /// Another step from the last accepted state, of length h.
 std::span<const double> Arkode::retake(double h) {
-    retaking_ = true;
-    check(calls_->reset(memory_, t_, accepted_.get()), "Reset");
-    check(calls_->set_fixed_step(memory_, h), "SetFixedStep");
-    evolve(t_ + 2.0 * h);
+    if (options_.relaxation) return retake_relaxed(h);
+    take_fixed(t_, accepted_, h);
     return y_.span();
 }
 
@@ -199,18 +211,35 @@ void Arkode::restart(double h) {
     check(calls_->reset(memory_, t_, y_.get()), "Reset");
     check(calls_->set_fixed_step(memory_, dt_.value_or(0.0)), "SetFixedStep");
     if (!dt_) check(calls_->set_init_step(memory_, h), "SetInitStep");
+    first_step_ = h;
+    relax(true);
     retaking_ = false;
+}
+
+/// The adaptive step that ARKODE would try next; 0 where it has not chosen one.
+double Arkode::step_ahead() const {
+    if (first_step_ > 0.0) return first_step_;
+    double ahead = 0.0;
+    check(calls_->current_step(memory_, &ahead), "GetCurrentStep");
+    return ahead;
 }
 
 /// One step from t, of length h to t_next where it is fixed, or the part of it before an event.
 void Arkode::take_piece(double h, double t_next) {
     if (dt_ && h != *dt_) check(calls_->set_fixed_step(memory_, h), "SetFixedStep");
     watch_.begin(t_, std::as_const(accepted_).span());
-    const double reached = evolve(t_next + dt_.value_or(0.0));
+    const double ahead = step_ahead();
+    double reached = evolve(t_next + dt_.value_or(0.0));
+    bool closed = false;
     if (!dt_) {
         calls_->last_step(memory_, &statistics_.last_step);
         look_at_errors();
         shares_.count(statistics_);
+        closed = options_.relaxation && almost_at(t_next, reached);
+        if (closed) {
+            land(reached, t_next);
+            reached = t_next;
+        }
         h = reached - t_;
     }
     const auto [length, due] =
@@ -225,6 +254,8 @@ void Arkode::take_piece(double h, double t_next) {
     N_VScale(1.0, y_.get(), accepted_.get());
     if (length < h)
         restart(h);
+    else if (closed)
+        restart(ahead > 0.0 ? ahead : h);
     else if (dt_ && h != *dt_)
         check(calls_->set_fixed_step(memory_, *dt_), "SetFixedStep");
 }
@@ -239,13 +270,16 @@ double Arkode::take_step(double t_stop) {
         grid_.arrive(next);
         statistics_.last_step = next.length;
     } else {
-        check(calls_->set_stop_time(memory_, t_stop), "SetStopTime");
+        check(
+            calls_->set_stop_time(memory_, options_.relaxation ? stop_for_relaxed(t_stop) : t_stop),
+            "SetStopTime");
         take_piece(0.0, t_stop);
     }
     ++statistics_.steps;
     long rejected = 0;
     calls_->rejected(memory_, &rejected);
-    statistics_.rejected_steps = rejected_before_ + static_cast<std::size_t>(rejected);
+    statistics_.rejected_steps =
+        rejected_before_ + static_cast<std::size_t>(rejected + relaxations_failed());
     return t_;
 }
 
@@ -255,19 +289,21 @@ void Arkode::reset(double t) {
     check(calls_->reset(memory_, t, y_.get()), "Reset");
     // A step that failed while it was taken again has left its length behind.
     if (dt_ || retaking_) check(calls_->set_fixed_step(memory_, dt_.value_or(0.0)), "SetFixedStep");
+    if (options_.relaxation) set_relaxation();
     retaking_ = false;
     N_VScale(1.0, y_.get(), accepted_.get());
 }
 
 void Arkode::remember(Archive& archive) {
     Integrator::remember(archive);
-    double ahead = 0.0;  // the step that ARKODE would try next
-    if (!archive.reading()) check(calls_->current_step(memory_, &ahead), "GetCurrentStep");
+    double ahead = archive.reading() ? 0.0 : step_ahead();
     archive(grid_, watch_, ahead);
     if (!archive.reading()) return;
     rejected_before_ = statistics_.rejected_steps;
     create();
-    if (!dt_) check(calls_->set_init_step(memory_, ahead), "SetInitStep");
+    if (dt_) return;
+    check(calls_->set_init_step(memory_, ahead), "SetInitStep");
+    first_step_ = ahead;
 }
 
 }  // namespace spam

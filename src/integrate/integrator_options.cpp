@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "arkode_relaxation.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
 #include <spam/integrate/integrator.hpp>
@@ -84,6 +85,7 @@ double IntegratorOptions::absolute_tolerance(std::string_view field, double scal
 }
 
 void IntegratorOptions::validate() const {
+    if (relaxation) require_relaxation(*this);
     validate_steps(*this, integration_method(method));
     validate_tolerances(*this);
     validate_control(*this);
@@ -99,6 +101,7 @@ std::string IntegratorOptions::describe() const {
     if (min_step != IntegratorOptions{}.min_step)
         more += fmt::format(", least step {:g}", min_step);
     if (max_step) more += fmt::format(", longest step {:g}", *max_step);
+    if (relaxation) more += ", rescaled to keep the energy";
     return fmt::format("{}, adaptive, rtol = {:g}, atol = {:g} x field scale{}{}", method, rtol,
                        atol, more, most);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arkode.hpp"
+#include "arkode_relaxation.hpp"
 #include "cvode.hpp"
 #include "gsl_adaptive.hpp"
 #include "gsl_fixed.hpp"
@@ -49,6 +50,7 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
             "integrator: {} goes on from earlier steps and cannot end one at {}, after which none "
             "of them counts; use rk4 or arkode:DORMAND_PRINCE_7_4_5",
             method.name, ode.events.front().name));
+    if (options.relaxation) require_energy(ode);
     IntegratorOptions resolved = options;
     resolved.method = method.name;
     auto integrator = make(resolved, ode, y, t0, context);

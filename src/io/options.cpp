@@ -122,6 +122,7 @@ void Options::flag(std::string name, bool& target, std::string help) {
             throw InputError(fmt::format("{}: '{}' must be true or false", entry.name, text));
         target = text == "true";
     };
+    entry.unset = [&target, before = target] { target = before; };
     entry.get = [&target] { return std::string(target ? "true" : "false"); };
 }
 

@@ -15,7 +15,7 @@ constexpr Field fields[] = {Field::position, Field::velocity, Field::density, Fi
 
 std::string tolerance_of(Field field) { return fmt::format("atol-{}", field_name(field)); }
 
-/// Options that choose adaptive steps.
+/// Options that choose adaptive steps and have values; a flag counts where it is set.
 const std::vector<std::string>& adaptive_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> result{"rtol", "atol"};
@@ -37,7 +37,7 @@ std::vector<std::string> with(std::string name, const std::vector<std::string>& 
 
 const std::vector<std::string>& IntegratorSettings::names() {
     static const std::vector<std::string> names =
-        with("integrator", with("dt", with("max-steps", adaptive_names())));
+        with("integrator", with("dt", with("max-steps", with("relaxation", adaptive_names()))));
     return names;
 }
 
@@ -65,6 +65,9 @@ void IntegratorSettings::add_to(Options& options) {
                    positive());
     options.number("max-step", max_step_, "longest adaptive step", positive());
     options.number("initial-step", initial_step_, "first adaptive step", positive());
+    options.flag("relaxation", relaxation_,
+                 "arkode: rescale every adaptive step so that the energy is kept to round-off "
+                 "(SUNDIALS 6.6 or later)");
     options.integer("max-steps", max_steps_, "a run of more steps is stopped",
                     between(1, 2'000'000'000));
 }
@@ -101,15 +104,17 @@ void IntegratorSettings::fill(IntegratorOptions& integrator) {
     integrator.controller = controller_;
     integrator.safety = safety_;
     if (min_step_) integrator.min_step = *min_step_;
+    integrator.relaxation = relaxation_;
     integrator.max_step = max_step_;
     integrator.initial_step = initial_step_;
     if (max_steps_) integrator.max_steps = static_cast<std::size_t>(*max_steps_);
 }
 
 IntegratorOptions IntegratorSettings::resolve(Options& options) {
-    options.command_line_wins({"integrator"}, with("dt", adaptive_names()));
-    options.command_line_wins({"dt"}, adaptive_names());
-    options.command_line_wins(adaptive_names(), {"dt"});
+    const auto adaptive = with("relaxation", adaptive_names());
+    options.command_line_wins({"integrator"}, with("dt", adaptive));
+    options.command_line_wins({"dt"}, adaptive);
+    options.command_line_wins(adaptive, {"dt"});
     IntegratorOptions integrator;
     integrator.method = method_;
     refuse_idle(options, method_);

@@ -2,6 +2,7 @@
 #include "run.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/diagnostics/total_energy.hpp>
 #include <spam/problem/run_in_memory.hpp>
 
 #include <fmt/format.h>
@@ -25,6 +26,18 @@ std::string component_name(Field field, std::size_t component) {
     return {};
 }
 
+template <int Dim>
+void add_energy(Ode& ode, Model<Dim>& model, std::size_t& pair_interactions) {
+    ode.no_energy = why_no_energy(model);
+    if (!ode.no_energy.empty()) return;
+    ode.energy = [&model](std::span<const double> y) { return total_energy(model, y); };
+    ode.energy_gradient = [&](double t, std::span<const double> y, std::span<double> gradient) {
+        const std::size_t evaluations = energy_gradient(model, t, y, gradient);
+        pair_interactions += evaluations * model.pairs();
+        return evaluations;
+    };
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,6 +56,7 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
     };
     if (auto event = model.event()) ode.events.push_back(std::move(*event));
     ode.inseparable = model.inseparable();
+    add_energy(ode, model, pair_interactions);
     for (const auto& block : model.layout().blocks())
         ode.blocks.push_back({std::string(field_name(block.field)), block.offset,
                               block.components * model.layout().particles()});

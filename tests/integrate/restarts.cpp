@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that writes a checkpoint and goes on, and one that begins at that checkpoint with everything made
 // anew, have the same bits: every method, fixed and adaptive.
+#include "support/refusal.hpp"
 #include "support/small_hexagons.hpp"
 #include <spam/core/error.hpp>
 
@@ -77,6 +78,9 @@ std::vector<IntegratorOptions> ways_of(const IntegrationMethod& method) {
     options.method = method.name;
     options.rtol = 1e-7;
     if (method.adaptive) ways.push_back(options);
+    options.relaxation = true;
+    if (why_refused(options).empty()) ways.push_back(options);
+    options.relaxation = false;
     options.dt = 0.1;
     if (method.fixed) ways.push_back(options);
     return ways;

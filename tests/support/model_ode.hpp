@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/diagnostics/total_energy.hpp>
 #include <spam/integrate/integrator.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -24,6 +25,11 @@ struct System {
         ode.failure = [this] { return model->failure(); };
         ode.entry_name = [](std::size_t k) { return "entry " + std::to_string(k); };
         ode.inseparable = model->inseparable();
+        ode.energy = [this](std::span<const double> y) { return total_energy(*model, y); };
+        ode.energy_gradient = [this](double t, std::span<const double> y,
+                                     std::span<double> gradient) {
+            return energy_gradient(*model, t, y, gradient);
+        };
         for (const auto& block : model->layout().blocks()) {
             const std::size_t size = block.components * model->layout().particles();
             ode.blocks.push_back({std::string(field_name(block.field)), block.offset, size});

@@ -36,6 +36,14 @@ struct Ode {
     std::vector<Block> blocks{};
     /// Why `velocity` and `position` cannot be advanced in turn; empty where they can.
     std::string inseparable{};
+
+    /// What the rates keep, whatever y is (gradient . rates = 0); empty where they keep nothing such.
+    std::function<double(std::span<const double> y)> energy{};
+    /// Fills dE/dy. Returns how many evaluations of the rates that took.
+    std::function<std::size_t(double t, std::span<const double> y, std::span<double> gradient)>
+        energy_gradient{};
+    /// Why there is no energy: "the scheme does not keep it".
+    std::string no_energy{};
 };
 
 /// How to integrate: a method of integration_methods() (methods.hpp), with fixed steps where `dt` is
@@ -54,6 +62,7 @@ struct IntegratorOptions {
     std::optional<double> max_step{}, initial_step{};
     std::string controller{};        ///< of ARKODE's steps, one of arkode_controllers(); empty: pid
     std::optional<double> safety{};  ///< of ARKODE's steps: part of the one that would just do
+    bool relaxation = false;  ///< ARKODE rescales every adaptive step so that it keeps the energy
     std::optional<std::size_t> max_steps{};  ///< more accepted steps than that stop the run
 
     bool adaptive() const;  ///< precondition: valid

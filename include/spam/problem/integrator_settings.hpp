@@ -30,6 +30,7 @@ class IntegratorSettings {
     std::string method_ = "rk4", controller_;
     std::optional<double> dt_, rtol_, atol_, safety_, min_step_, max_step_, initial_step_;
     std::optional<int> max_steps_;
+    bool relaxation_ = false;
     std::array<std::optional<double>, 5> field_atol_;  ///< by Field
 };
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/rhs/model.hpp>
+
+#include <string>
+
+namespace spam {
+
+/// Why there is no total_energy() that the rates keep whatever y is; empty where there is.
+template <int Dim>
+std::string why_no_energy(const Model<Dim>& model);
+
+/// E = sum m v^2/2 + internal energy; the sums are compensated.
+template <int Dim>
+double total_energy(const Model<Dim>& model, std::span<const double> y);
+
+/// dE/dy, as long as y. Where y holds energies, E = sum m (e + v^2/2):
+///     dE/dv = m v, dE/de = m, all else 0;
+/// where y = (x, v), the internal energy is the potential of the forces:
+///     dE/dx = -m dv/dt, dE/dv = m v.
+/// Returns how many right-hand sides that took. Precondition: why_no_energy() is empty.
+template <int Dim>
+std::size_t energy_gradient(Model<Dim>& model, double t, std::span<const double> y,
+                            std::span<double> gradient);
+
+extern template std::string why_no_energy(const Model<1>&);
+extern template std::string why_no_energy(const Model<2>&);
+extern template std::string why_no_energy(const Model<3>&);
+extern template double total_energy(const Model<1>&, std::span<const double>);
+extern template double total_energy(const Model<2>&, std::span<const double>);
+extern template double total_energy(const Model<3>&, std::span<const double>);
+extern template std::size_t energy_gradient(Model<1>&, double, std::span<const double>,
+                                            std::span<double>);
+extern template std::size_t energy_gradient(Model<2>&, double, std::span<const double>,
+                                            std::span<double>);
+extern template std::size_t energy_gradient(Model<3>&, double, std::span<const double>,
+                                            std::span<double>);
+
+}  // namespace spam

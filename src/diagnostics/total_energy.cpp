@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/sums.hpp>
+#include <spam/diagnostics/total_energy.hpp>
+
+#include <algorithm>
+
+namespace spam {
+
+template <int Dim>
+std::string why_no_energy(const Model<Dim>& model) {
+    if (model.promises().energy == Promise::not_kept) return "the scheme does not keep it";
+    const auto& layout = model.layout();
+    const bool potential = layout.blocks().size() == 2 && layout.has(Field::position);
+    if (!layout.has(Field::velocity) || !(layout.has(Field::energy) || potential))
+        return "y holds neither energies nor positions and velocities alone";
+    return {};
+}
+
+template <int Dim>
+double total_energy(const Model<Dim>& model, std::span<const double> y) {
+    const auto v = ConstState<Dim>(model.layout(), y).velocity();
+    CompensatedSum energy;
+    for (Eigen::Index i = 0; i < v.cols(); ++i) {
+        const double m = model.particles().mass[static_cast<std::size_t>(i)];
+        for (int a = 0; a < Dim; ++a) energy += 0.5 * m * v(a, i) * v(a, i);
+    }
+    energy += model.internal_energy(y);
+    return energy;
+}
+
+template <int Dim>
+std::size_t energy_gradient(Model<Dim>& model, double t, std::span<const double> y,
+                            std::span<double> gradient) {
+    const ConstState<Dim> state(model.layout(), y);
+    const State<Dim> slope(model.layout(), gradient);
+    const auto& mass = model.particles().mass;
+    const Eigen::Map<const Eigen::RowVectorXd> m(mass.data(),
+                                                 static_cast<Eigen::Index>(mass.size()));
+    const bool potential = !state.has(Field::energy);
+    if (potential) {
+        model.rates(t, y, gradient);
+        slope.position() = -(slope.velocity() * m.asDiagonal());
+    } else {
+        std::fill(gradient.begin(), gradient.end(), 0.0);
+        slope.energy() = m;
+    }
+    slope.velocity() = state.velocity() * m.asDiagonal();
+    return potential ? 1 : 0;
+}
+
+template std::string why_no_energy(const Model<1>&);
+template std::string why_no_energy(const Model<2>&);
+template std::string why_no_energy(const Model<3>&);
+template double total_energy(const Model<1>&, std::span<const double>);
+template double total_energy(const Model<2>&, std::span<const double>);
+template double total_energy(const Model<3>&, std::span<const double>);
+template std::size_t energy_gradient(Model<1>&, double, std::span<const double>, std::span<double>);
+template std::size_t energy_gradient(Model<2>&, double, std::span<const double>, std::span<double>);
+template std::size_t energy_gradient(Model<3>&, double, std::span<const double>, std::span<double>);
+
+}  // namespace spam
