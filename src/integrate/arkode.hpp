@@ -34,6 +34,7 @@ class Arkode final : public Integrator {
     void check(int flag, const char* call) const;
     [[noreturn]] void stop(int flag);
     double evolve(double t_stop);
+    void name_spoiled_rate(double h);
     std::span<const double> retake(double h);
     double take_fixed(double from, const Vector& y, double h);
     void take_piece(double h, double t_next);
@@ -74,8 +75,9 @@ class Arkode final : public Integrator {
     KeptController controller_;
     void* memory_ = nullptr;
     SundialsMessages messages_;
-    std::string failure_;  ///< of the ode, the latest since the last accepted step
-    std::string spoiled_;  ///< the first rate of this step that was not finite
+    std::string failure_;   ///< of the ode, the latest since the last accepted step
+    bool looking_ = false;  ///< for rates that are not finite
+    std::string spoiled_;   ///< the first of them in this step
     std::exception_ptr error_;
 };
 

@@ -132,8 +132,10 @@ double Cvode::take_step(double t_stop) {
 }
 
 void Cvode::count() {
-    look_at_errors();
-    shares_.count(statistics_);
+    if (worth_a_look()) {
+        look_at_errors();
+        shares_.count(statistics_);
+    }
     ++statistics_.steps;
     CVodeGetLastStep(memory_, &statistics_.last_step);
     long errors = 0, corrections = 0;

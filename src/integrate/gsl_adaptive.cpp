@@ -100,8 +100,10 @@ double GslAdaptive::take_step(double t_stop) {
     watch_.begin(t_, std::as_const(y_).span());
     begin();
     const Accepted step = accepted_step(t_stop);
-    look_at_errors();
-    shares_.count(statistics_);
+    if (worth_a_look()) {
+        look_at_errors();
+        shares_.count(statistics_);
+    }
     const auto [length, due] = watch_.first_piece(step.length, std::as_const(z_).span(),
                                                   [this](double other) { return retake(other); });
     if (length > 0.0) N_VScale(1.0, z_.get(), y_.get());

@@ -109,9 +109,10 @@ class Integrator {
         double last_step = 0.0;
 
         // Which block of y kept adaptive steps short, by the method's own estimate of their errors; the
-        // last number is shared by all blocks from there on.
+        // last number is shared by all blocks from there on. Of a long y only every eighth step is looked
+        // at: it takes three passes.
         static constexpr std::size_t most_blocks = 6;
-        std::array<std::size_t, most_blocks> limited_by{};  ///< accepted steps
+        std::array<std::size_t, most_blocks> limited_by{};  ///< accepted steps looked at
         std::array<double, most_blocks> error_share{};      ///< of the error, summed over steps
         std::optional<std::size_t> limiting{};              ///< the latest step
 
@@ -134,6 +135,9 @@ class Integrator {
     /// The first rate that is not finite, in words; empty where all are. The stage that spoils first
     /// knows where it began: later ones have spread it.
     std::string spoiled_rate(std::span<const double> y_dot, double t) const;
+
+    /// Whether to find out what limited this adaptive step.
+    bool worth_a_look() const { return y_.size() < 8192 || statistics_.steps % 8 == 0; }
 
     const Ode& ode_;
     Vector& y_;
