@@ -68,25 +68,10 @@ int main(int argc, char** argv) {
     Problem problem("integrator_accuracy", "error against work of many integrators");
     Parameters p;
     WorkPrecision study;
-    study.standard_methods = {"rk4",
-                              "leapfrog",
-                              "arkode:BOGACKI_SHAMPINE_4_2_3",
-                              "arkode:CASH_KARP_6_4_5",
-                              "arkode:DORMAND_PRINCE_7_4_5",
-                              "arkode:VERNER_8_5_6",
-                              "arkode:FEHLBERG_13_7_8",
-                              "gsl:rk8pd",
-                              "cvode:adams"};
     auto& options = problem.options();
-    std::vector<std::string> names{"all"};
+    std::vector<std::string> names;
     for (const auto& system : systems(p)) names.push_back(system.name);
-    options.choice(
-        "problem", names, "which system, or all of them",
-        [&p, names](std::size_t k) { p.problem = names[k]; },
-        [&p, names] {
-            return static_cast<std::size_t>(std::find(names.begin(), names.end(), p.problem) -
-                                            names.begin());
-        });
+    add_system_option(options, names, p.problem);
     options.integer("size", p.size, "of hexagons: 1 + 3n + 3n^2 particles", between(2, 50));
     options.number("speed", p.speed, "of their corners", positive());
     study.add_options(options);

@@ -161,10 +161,9 @@ void Run<Dim>::recall(const CaseMemory& memory) {
 /// way as one that was restarted.
 template <int Dim>
 void Run<Dim>::checkpoint(const Watchers& watchers) {
-    watchers.checkpoint();
-    Archive motion;
-    remember_motion(motion);
-    Archive back(motion.bytes());
+    const CaseMemory written = memory();
+    watchers.checkpoint(written);
+    Archive back(written.motion);
     remember_motion(back);
 }
 

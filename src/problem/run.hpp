@@ -26,8 +26,8 @@ class Run {
 
     struct Watchers {
         std::function<void(double t)> snapshot, step;
-        /// Whether to write memory(); where empty the run makes no barriers.
-        std::function<void()> checkpoint;
+        /// Writes what going on from here later needs; where empty the run makes no barriers.
+        std::function<void(const CaseMemory&)> checkpoint;
         std::function<void(double t, const Remark&)> remark;
         std::function<void(double t, const std::string& text)> warning;
     };

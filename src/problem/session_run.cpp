@@ -223,8 +223,8 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
     const std::size_t number = memory_->cases.size() - 1;
     typename Run<Dim>::Watchers watchers;
     watchers.snapshot = [&run, &snapshots](double t) { snapshots.add(t, run.y()); };
-    watchers.checkpoint = [this, &run, number] {
-        memory_->cases[number] = run.memory();
+    watchers.checkpoint = [this, number](const CaseMemory& written) {
+        memory_->cases[number] = written;
         save_checkpoint();
     };
     watchers.step = [this, &run, t_end = one.plan.t_end](double t) {

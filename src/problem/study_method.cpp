@@ -95,4 +95,27 @@ std::vector<StudyMethod> study_methods(std::string_view list,
     return chosen;
 }
 
+std::vector<std::string> methods_of_every_kind() {
+    return {"rk4",
+            "leapfrog",
+            "arkode:BOGACKI_SHAMPINE_4_2_3",
+            "arkode:CASH_KARP_6_4_5",
+            "arkode:DORMAND_PRINCE_7_4_5",
+            "arkode:VERNER_8_5_6",
+            "arkode:FEHLBERG_13_7_8",
+            "gsl:rk8pd",
+            "cvode:adams"};
+}
+
+void add_system_option(Options& options, std::vector<std::string> names, std::string& chosen) {
+    names.insert(names.begin(), "all");
+    options.choice(
+        "problem", names, "which system, or all of them",
+        [&chosen, names](std::size_t k) { chosen = names[k]; },
+        [&chosen, names] {
+            return static_cast<std::size_t>(std::find(names.begin(), names.end(), chosen) -
+                                            names.begin());
+        });
+}
+
 }  // namespace spam

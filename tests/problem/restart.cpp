@@ -282,6 +282,36 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_restarted_is_refused_in_one_line) {
         }
 }
 
+/// Through the program, as a user would meet them: status 2, one line, no crash, nothing written.
+BOOST_AUTO_TEST_CASE(a_thousand_damaged_files_are_refused) {
+    const Scratch folder;
+    require_ran(run_in(folder, "rotating_hexagon", hexagon("3", {"--t-end", "4", "--out", "out"})));
+    const std::string whole = contents_of(newest_checkpoint(folder / "out").value());
+    std::mt19937 random(11);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+    std::size_t refused = 0;
+    for (int k = 0; k < 1000; ++k) {
+        std::string damaged = whole;
+        if (k % 3 == 0) damaged[below(damaged.size())] ^= static_cast<char>(1 << below(8));
+        if (k % 3 == 1) damaged.resize(below(damaged.size()));
+        if (k % 3 == 2) {
+            const std::size_t at = below(damaged.size() - 512);
+            damaged.replace(at, 512, std::string(512, k % 2 == 0 ? '\0' : '\xff'));
+            if (damaged == whole) continue;
+        }
+        folder.write("damaged.h5", damaged);
+        const Outcome outcome = run_in(folder, "rotating_hexagon", {"--restart", "damaged.h5"});
+        const bool one_line = std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1;
+        if (outcome.status == 2 && one_line && outcome.out.empty())
+            ++refused;
+        else
+            BOOST_ERROR(k << ": status " << outcome.status << " " << outcome.err);
+    }
+    BOOST_TEST_MESSAGE(refused << " refused");
+    BOOST_TEST(refused > 980u);  // some blocks held those bytes before
+    BOOST_TEST(!fs::exists(folder / "rotating_hexagon-out"));
+}
+
 BOOST_AUTO_TEST_CASE(a_restart_may_change_where_the_run_ends) {
     const Scratch folder;
     const Words common = hexagon("3", {"--output-every", "1", "--snapshot-every", "4"});

@@ -34,7 +34,7 @@ class DriftStudy {
     void run(Session& session, const std::vector<Trial<Dim>>& trials);
 
     /// Methods used where --methods is not given.
-    std::vector<std::string> standard_methods;
+    std::vector<std::string> standard_methods = methods_of_every_kind();
 
   private:
     std::string methods_;

@@ -3,6 +3,7 @@
 
 #include <spam/integrate/integrator.hpp>
 #include <spam/integrate/methods.hpp>
+#include <spam/io/options.hpp>
 
 #include <string>
 #include <string_view>
@@ -25,5 +26,11 @@ struct StudyMethod : IntegrationMethod {
 /// (option `methods`) for one that does not exist.
 std::vector<StudyMethod> study_methods(std::string_view list,
                                        const std::vector<std::string>& standard);
+
+/// Of every kind and order one that is worth a curve: where a study's --methods is not given.
+std::vector<std::string> methods_of_every_kind();
+
+/// Adds --problem: one of `names`, or "all".
+void add_system_option(Options& options, std::vector<std::string> names, std::string& chosen);
 
 }  // namespace spam
