@@ -98,8 +98,6 @@ std::string_view to_string(Balance b) { return b == Balance::body ? "body" : "gl
 
 std::string_view to_string(GaussSingular g) { return g == GaussSingular::skip ? "skip" : "stop"; }
 
-std::string_view to_string(Kernel) { return "lucy"; }
-
 std::string_view to_string(Promise p) {
     switch (p) {
         case Promise::exact:

@@ -5,6 +5,7 @@
 #include <spam/core/error.hpp>
 #include <spam/core/lanes.hpp>
 #include <spam/kernel/any_weight.hpp>
+#include <spam/kernel/general_weight.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/kernel/monaghan_cubic.hpp>
 #include <spam/kernel/wn.hpp>
@@ -184,6 +185,50 @@ BOOST_AUTO_TEST_CASE(the_family_w_n) {
     check_in_every_dimension<W4>();
     check_in_every_dimension<W5>();
     check_in_every_dimension<W8>();
+}
+
+namespace {
+
+/// The one formula for all of them against the law's own, in numbers and in lanes.
+template <int Dim>
+void check_general(Kernel kernel, double h) {
+    const GeneralWeight<Dim> general(kernel, h);
+    const AnyWeight<Dim> own = weight_function<Dim>(to_string(kernel), h);
+    BOOST_TEST(general.range() == h);
+    BOOST_TEST(general.continuous_derivatives == own.continuous_derivatives);
+    check_lanes(general);
+    const double unit = own.value(0.0), K = own.minus_slope_over_r(0.0);
+    for (double u = 0.0; u < 1.2; u += 0.0171) {
+        const double r = u * h;
+        BOOST_TEST(std::abs(general.value(r) - own.value(r)) < 4e-15 * unit);
+        BOOST_TEST(std::abs(general.minus_slope_over_r(r) - own.minus_slope_over_r(r)) < 4e-15 * K);
+        const double second = general.second_derivative(r) - own.second_derivative(r);
+        if (own.continuous_derivatives >= 2) BOOST_TEST(std::abs(second) < 2e-14 * K);
+        const double third = general.third_derivative(r) - own.third_derivative(r);
+        if (own.continuous_derivatives >= 3) BOOST_TEST(std::abs(third) < 2e-13 * K / h);
+        if (u < 1.0) continue;
+        BOOST_TEST(general.value(r) == 0.0);
+        BOOST_TEST(general.minus_slope_over_r(r) == 0.0);
+    }
+    BOOST_TEST(general.value(h) == 0.0);
+    BOOST_TEST(general.minus_slope_over_r(h) == 0.0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(one_formula_for_all_of_them) {
+    for (const Kernel kernel : all_kernels())
+        for (const double h : {0.5, 2.7, 3.0, 6.0}) {
+            BOOST_TEST_CONTEXT(to_string(kernel) << ", h = " << h) {
+                check_general<1>(kernel, h);
+                check_general<2>(kernel, h);
+                check_general<3>(kernel, h);
+            }
+        }
+    // Another member of the family is not taken for the one asked for.
+    const GeneralWeight<2> w5(Kernel::w5, 3.0);
+    BOOST_TEST(std::abs(w5.value(1.0) - W4<2>(3.0).value(1.0)) > 1e-3);
+    BOOST_CHECK_THROW(GeneralWeight<2>(Kernel::w5, 0.0), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(constants_as_they_are_written) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/kernel/kernel.hpp>
+
 #include <string>
 #include <string_view>
 
@@ -12,7 +14,6 @@ enum class MeanDensityKind { arithmetic, geometric };
 enum class AngularMomentum { free, gauss, torque_particle, torque_pair };
 enum class Balance { body, global };      ///< what keeps an angular momentum of its own
 enum class GaussSingular { skip, stop };  ///< where Gauss' principle has no solution
-enum class Kernel { lucy };
 
 /// How well an invariant is kept by the equations themselves.
 enum class Promise {
@@ -61,7 +62,6 @@ std::string_view to_string(MeanDensityKind);
 std::string_view to_string(AngularMomentum);
 std::string_view to_string(Balance);
 std::string_view to_string(GaussSingular);
-std::string_view to_string(Kernel);
 std::string_view to_string(Promise);
 
 }  // namespace spam
