@@ -91,6 +91,8 @@ const std::map<std::string, std::string> another_value{
     {"largest-range", "5"},
     {"ranges", "4"},
     {"family", "4"},
+    {"law", "lucy"},
+    {"perturbation", "1e-7"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -118,6 +120,7 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"integrator_accuracy", {}},
     {"invariant_drift", {}},
     {"kernels", {}},
+    {"isomorphism", {}},
     {"turns_survived", {}},
 };
 
