@@ -93,6 +93,9 @@ const std::map<std::string, std::string> another_value{
     {"family", "4"},
     {"law", "lucy"},
     {"perturbation", "1e-7"},
+    {"wave", "thermal"},
+    {"temperature", "1.3"},
+    {"conductivity", "0.7"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -121,6 +124,8 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"invariant_drift", {}},
     {"kernels", {}},
     {"isomorphism", {}},
+    {"diffusion_waves", {}},
+    {"diffusion_waves", {"--wave", "shear"}},
     {"turns_survived", {}},
 };
 

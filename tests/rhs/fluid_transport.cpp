@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Heat and momentum diffuse through a lattice of smooth particles at rates that are known exactly. Both
-// are two gradient sums in turn: a sine of wave number k comes out of each as a cosine, times
-// S(k)/rho_s = c k/rho_s with c = (1/k) sum_j m (-w'(r)/r) x sin(kx), so that on a square lattice with
-// site density rho_s
-//     heat      decays at kappa k^2 c^2/(rho_s^3 c_v)   (physics.md 8),
-//     momentum  is damped at gamma = eta k^2 c^2/rho_s^3  (a transverse wave).
-// So far the model of the error: (c/rho_s)^2 - 1 = -k^2 <x^2>_w + ..., of second order in h/wavelength
-// (the kernel is a filter, twice). Sheared, a lattice under the pressure P is besides not quite a fluid:
-// its sums over w_xx, which are integrals that vanish in the continuum, leave a force
-//     -Omega^2 u,   Omega^2 = 2 (P/rho_s^2) sum_j m w_xx(r) (1 - cos ky),
-// on a displacement u = sin ky, and the wave is a damped oscillator, v'' + gamma v' + Omega^2 v = 0, as long
-// as it displaces particles by much less than their spacing. Where it mixes them the spring is gone.
+// Heat and momentum diffuse through a lattice of smooth particles at rates that are known exactly
+// (diagnostics/diffusion_waves.hpp): what comes out of the equations of motion against lattice sums.
 #include "support/random_state.hpp"
-#include <spam/kernel/any_weight.hpp>
+#include <spam/diagnostics/diffusion_waves.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/rhs/fluid_model.hpp>
 
 #include <boost/test/unit_test.hpp>
 
-#include <complex>
 #include <functional>
 
 using namespace spam;
@@ -37,36 +26,10 @@ struct Lattice {
 
     double half_life(double eta) const { return 0.5 / (eta * k() * k()); }
 
-    /// c^2/rho_s^3 by a sum over sites.
-    double factor() const {
-        const auto w = weight_function<2>(to_string(kernel), range);
-        double rho = 0.0, c = 0.0;
-        const int most = static_cast<int>(range) + 1;
-        for (int x = -most; x <= most; ++x)
-            for (int y = -most; y <= most; ++y) {
-                const double r = std::hypot(x, y);
-                rho += w.value(r);
-                c += w.minus_slope_over_r(r) * x * std::sin(k() * x) / k();
-            }
-        return c * c / (rho * rho * rho);
+    SquareLatticeDiffusion exact() const {
+        return {weight_function<2>(to_string(kernel), range), k()};
     }
-
-    /// Omega^2 for P = rho T, T = 1.
-    double spring() const {
-        const auto w = weight_function<2>(to_string(kernel), range);
-        double rho = 0.0, sum = 0.0;
-        const int most = static_cast<int>(range) + 1;
-        for (int x = -most; x <= most; ++x)
-            for (int y = -most; y <= most; ++y) {
-                const double r = std::hypot(x, y);
-                rho += w.value(r);
-                if (r == 0.0) continue;
-                const double across = -w.minus_slope_over_r(r);  // w'/r
-                const double w_xx = across + (w.second_derivative(r) - across) * x * x / (r * r);
-                sum += w_xx * (1.0 - std::cos(k() * y));
-            }
-        return 2.0 / rho * sum;
-    }
+    double factor() const { return exact().factor; }
 
     FluidModel<2> fluid(double kappa, double eta) const {
         const Box<2> box({1.0 * cells, 1.0 * cells});
@@ -141,16 +104,6 @@ double rest_of_shear_wave(const Lattice& lattice, double eta, double v0) {
     return sum / before;
 }
 
-/// The same of the damped oscillator; without the spring, of friction alone.
-double rest_of_oscillation(const Lattice& lattice, double eta, bool spring) {
-    const std::complex<double> gamma = eta * lattice.k() * lattice.k() * lattice.factor();
-    const std::complex<double> root =
-        std::sqrt(0.25 * gamma * gamma - (spring ? lattice.spring() : 0.0));
-    const auto a = 0.5 * gamma + root, b = 0.5 * gamma - root;
-    const double t = lattice.half_life(eta);
-    return ((a * std::exp(-a * t) - b * std::exp(-b * t)) / (a - b)).real();
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(heat_through_a_frozen_lattice) {
@@ -169,8 +122,10 @@ BOOST_AUTO_TEST_CASE(heat_through_a_frozen_lattice) {
 BOOST_AUTO_TEST_CASE(momentum_across_a_lattice_that_shears) {
     const double eta = 0.8;
     for (const Lattice lattice : {Lattice{24, Kernel::lucy, 3.0}, Lattice{16, Kernel::w5, 3.3}}) {
-        const double expected = rest_of_oscillation(lattice, eta, true);
-        const double friction = rest_of_oscillation(lattice, eta, false);
+        const SquareLatticeDiffusion exact = lattice.exact();
+        const double t = lattice.half_life(eta), P = exact.site_density;  // T = 1
+        const double expected = exact.shear_wave(t, lattice.k(), eta, P);
+        const double friction = exact.shear_wave(t, lattice.k(), eta, 0.0);
         // The first is a spring, the second pushes on (Omega^2 < 0): 2 % and 0.8 % apart.
         BOOST_TEST(std::abs(rest_of_shear_wave(lattice, eta, 1e-6) - expected) < 1e-6);
         BOOST_TEST(std::abs(rest_of_shear_wave(lattice, eta, 1e-6) - friction) > 5e-3);
