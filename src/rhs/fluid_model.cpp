@@ -298,6 +298,12 @@ std::vector<double> FluidModel<Dim>::state(const Points<Dim>& position, const Po
     for (std::size_t i = 0; i < rho.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);
         const double e = fluid_.state.starting_energy(rho[i], T);
+        if (!std::isfinite(fluid_.state.pressure(rho[i], e)))
+            throw InputError(
+                fmt::format("equation of state: density {:.6g} and temperature {:g} of particle {} "
+                            "at the start are outside "
+                            "the law ({}); start thinner or warmer, or change its constants",
+                            rho[i], T, this->particles().id[i], fluid_.state.describe()));
         state.energy()(0, k) = e;
         if (state.has(Field::density)) state.density()(0, k) = rho[i];
         fastest = std::max({fastest, velocity.col(k).norm(), fluid_.state.sound_speed(rho[i], e)});

@@ -96,6 +96,9 @@ const std::map<std::string, std::string> another_value{
     {"wave", "thermal"},
     {"temperature", "1.3"},
     {"conductivity", "0.7"},
+    {"equation-of-state", "van_der_waals"},
+    {"attraction", "0.3"},
+    {"excluded", "0.3"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -125,7 +128,7 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"kernels", {}},
     {"isomorphism", {}},
     {"diffusion_waves", {}},
-    {"diffusion_waves", {"--wave", "shear"}},
+    {"diffusion_waves", {"--wave", "shear", "--equation-of-state", "van_der_waals"}},
     {"turns_survived", {}},
 };
 
