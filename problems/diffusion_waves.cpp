@@ -20,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -67,6 +68,8 @@ struct Parameters {
         return lattice.shear_wave(t, k(), viscosity, P);
     }
 };
+
+constexpr double lattice_life = 60.0;
 
 struct Experiment {
     Wave wave;
@@ -120,9 +123,12 @@ void report(Session& session, const Parameters& p, Wave wave, const RunRecord& r
     session.check_promises(run, prefix);
     const History& h = run.history;
     const double t = h.last("t"), left = h.last("amplitude");
-    // Amplitudes displace particles by amplitude/rate, and a spring is one as long as w'' does not jump.
-    const bool small = wave == Wave::thermal || (p.amplitude / p.continuum_rate(wave) < 0.01 &&
-                                                 p.scheme.kernel != Kernel::w2);
+    // Amplitudes displace particles by amplitude/rate; a spring is one as long as w'' does not jump; and
+    // springs that push grow shorter waves out of rounding until the lattice, which has no strength,
+    // leaves its sites.
+    const bool small =
+        wave == Wave::thermal || (p.amplitude / p.continuum_rate(wave) < 0.01 &&
+                                  p.scheme.kernel != Kernel::w2 && t <= lattice_life);
     session.check({prefix + "amplitude_left", left,
                    small ? std::optional(p.expected(wave, t)) : std::nullopt,
                    wave == Wave::thermal ? 1e-6 : 1e-4, "lattice sums, physics.md 8"});
@@ -234,8 +240,10 @@ int main(int argc, char** argv) {
         for (auto& e : experiments) {
             Plan<2> plan;
             const double life = 1.0 / p.continuum_rate(e.wave);
-            plan.t_end =
-                session.common().t_end.value_or(session.common().smoke ? 0.1 * life : 3.0 * life);
+            plan.t_end = session.common().t_end.value_or(session.common().smoke ? 0.1 * life
+                                                         : e.wave == Wave::thermal
+                                                             ? 3.0 * life
+                                                             : std::min(3.0 * life, lattice_life));
             plan.columns = {amplitude_column(p, e.wave)};
             cases.push_back(
                 {*e.model, e.y0, std::move(plan), single ? "" : std::string(to_string(e.wave))});
