@@ -14,10 +14,10 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// How to run, not what to compute; and an option with one legal value.
-const std::set<std::string> no_part_of_the_case{"config", "out",     "force",    "dry-run", "smoke",
-                                                "quiet",  "help",    "no-plots", "threads", "jobs",
-                                                "kernel", "version", "restart"};
+/// How to run, not what to compute.
+const std::set<std::string> no_part_of_the_case{"config",  "out",   "force",   "dry-run",
+                                                "smoke",   "quiet", "help",    "no-plots",
+                                                "threads", "jobs",  "version", "restart"};
 
 /// What only shows when something happens that may not happen: said in the dry run at least.
 const std::set<std::string> waits_for_something{
@@ -39,6 +39,7 @@ const std::map<std::string, std::string> another_value{
     {"limit-momentum", "0.1"},
     {"limit-angular-momentum", "10"},
     {"limit-energy", "0.1"},
+    {"kernel", "w5"},
     {"range", "2.7"},
     {"density", "summed"},
     {"transport", "average"},
