@@ -211,7 +211,7 @@ template <int Dim>
 std::unique_ptr<PackedParticles<Dim>> DensityPotentialModel<Dim>::packed_with(ListUse use) const {
     using At = DensityRecordPlaces<Dim>;
     return std::make_unique<PackedParticles<Dim>>(
-        potentials_.range, use, this->box(), parts_->sweeps.width,
+        parts_->weight, use, this->box(), parts_->sweeps.width,
         parts_->shape ? At::of_all : At::of_density, point_pack<Dim>());
 }
 

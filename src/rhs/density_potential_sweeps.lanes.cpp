@@ -16,19 +16,10 @@ using T = LanesOf<W>;
 /// Nearest images are looked for everywhere: in open space the box subtracts zeros, which these long
 /// bodies do not feel, and half as much is to be compiled.
 template <int Dim, class R, class Pass, class Store>
-[[gnu::flatten, gnu::noinline]] void sweep_some(const SweepInput<Dim>& in, std::size_t begin,
-                                                std::size_t end, const GeneralWeight<Dim>& weight,
-                                                const std::tuple<Pass>& pass,
-                                                const Store& store_sums) {
-    sweep_block<W, Dim, R, Pass>(in.list, begin, end, weight, *in.box, in.records, store_sums,
-                                 pass);
-}
-
-template <int Dim, class R, class Pass, class Store>
 void sweep_all(const SweepInput<Dim>& in, const GeneralWeight<Dim>& weight, const Pass& pass,
                const Store& store_sums) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_some<Dim, R, Pass>(in, begin, end, weight, {pass}, store_sums);
+        sweep_run<W, Dim, R>(in, begin, end, weight, *in.box, store_sums, std::tuple<Pass>(pass));
     });
 }
 

@@ -147,8 +147,8 @@ void VariableRangeModel<Dim>::make_room() {
     if (packed_ && reach_ <= packed_reach_ && reach_ > 0.7 * packed_reach_) return;
     packed_reach_ = std::min(1.1 * reach_, 0.5 * (reach_ + most_range()));
     packed_ = std::make_unique<PackedParticles<Dim>>(
-        packed_reach_, ListUse::again_and_again, this->box(), sweeps_->width,
-        static_cast<std::size_t>(RangeRecord<Dim>::numbers), sweeps_->pack);
+        GeneralWeight<Dim>(scheme_.kernel, packed_reach_), ListUse::again_and_again, this->box(),
+        sweeps_->width, static_cast<std::size_t>(RangeRecord<Dim>::numbers), sweeps_->pack);
 }
 
 template <int Dim>
