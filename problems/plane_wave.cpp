@@ -31,6 +31,7 @@
 #include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/io/gnuplot.hpp>
+#include <spam/kernel/any_weight.hpp>
 #include <spam/setup/periodic_solid.hpp>
 #include <spam/spam.hpp>
 
