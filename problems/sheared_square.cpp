@@ -20,10 +20,10 @@
 // that much the smaller it is.
 #include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/outline.hpp>
+#include <spam/diagnostics/vibrations.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/spam.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -81,13 +81,13 @@ double shear_mode_frequency(int degree) {
             M(i, j) = integral(p, q);
             M(n + i, n + j) = integral(r, s);
         }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, M);
+    const Vibrations modes = vibrations(K, M);
     // How much of u_x = y/2, u_y = x/2 is in each mode; rotation is one as well, of frequency 0.
     Eigen::VectorXd shear = Eigen::VectorXd::Zero(2 * n);
     shear[0] = shear[n] = 1.0;
     Eigen::Index best = 0;
-    (solver.eigenvectors().transpose() * M * shear).cwiseAbs().maxCoeff(&best);
-    return 2.0 * std::sqrt(solver.eigenvalues()[best]);  // a side of 2
+    (modes.shapes.transpose() * (M * shear).eval()).cwiseAbs().maxCoeff(&best);
+    return 2.0 * std::sqrt(modes.omega_squared[best]);  // a side of 2
 }
 
 // ---- particles ----
