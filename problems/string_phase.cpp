@@ -17,10 +17,10 @@
 //
 // keeps them apart. clumped_fraction: the part of the particles with another one nearer than 0.4.
 //
-// With the s = 0.7 of the standard case nobody is clumped, but chains of single particles remain: a
-// particle less than half as far from its neighbours in the chain as from those across is as good for
-// rho0. Cores as wide as the spacing, --core 0.1 --core-range 1.2, leave an even fluid and a hole (as
-// many particles as there are do not fill the box at rho0).
+// With the s = 0.7 of the standard case nobody is clumped, but particles still line up in chains around
+// holes: all along them the density is rho0, and cores shorter than the spacing have nothing against it.
+// Wider ones, --core 0.1 --core-range 1.2, leave an even fluid with one hole (320 particles of density 1
+// do not fill the box).
 //
 // Without --core both are run; names in result.json without a prefix then belong to the one without a
 // core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
@@ -180,10 +180,10 @@ void draw(Session& session, const Parameters& p, const std::vector<Sample>& samp
         curves.curves.push_back({samples[k].title, runs[k].history.column("t"),
                                  runs[k].history.column("clumped_fraction")});
     }
-    const auto title = fmt::format("Embedded-atom fluid, {} particles, relaxed to t = {:g}",
-                                   p.particles, runs.front().statistics.t_end);
+    const auto title =
+        fmt::format("Embedded-atom fluid at t = {:g}", runs.front().statistics.t_end);
     session.note_drawn(draw_configurations(session.plots_folder(), "configurations", title, panels,
-                                           panels.size(), "distance to the nearest other"));
+                                           panels.size(), "nearest neighbour"));
     session.note_drawn(draw_curves(session.plots_folder(), "clumped_fraction", title, {curves}));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/error.hpp>
+#include <spam/core/lanes.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/core/tensor.hpp>
 #include <spam/kernel/weight_function.hpp>
@@ -39,7 +40,7 @@ struct WeightAt {
     WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij)
         : WeightAt(weight, r_ij, dot(r_ij, r_ij), std::sqrt(dot(r_ij, r_ij))) {}
     template <SmoothWeightFunction Weight>
-    WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij, const T& r2, const T& r) {
+    SPAM_INLINE WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij, const T& r2, const T& r) {
         const T inverse_r = r / (r2 + T(1e-300));  // zero at r = 0, without a branch
         n = inverse_r * r_ij;
         value = weight.value(r);
