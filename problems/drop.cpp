@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a square drop becomes round by surface tension, and only by it, [HH07] 7 and 8; 7 s
+// spam-list: a square drop becomes round by surface tension, and only by it, [HH07] 7 and 8; 5 s
 //
 // Surface tension from density gradients, [HH07] 7 and 8.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a relaxing embedded-atom fluid forms strings unless particles have cores, [HH07] 8; 7 s
+// spam-list: a relaxing embedded-atom fluid forms strings unless particles have cores, [HH07] 8; 5 s
 //
 // The string phase and its cure, [HH07] 8.
 //

@@ -52,6 +52,7 @@ SPAM_INLINE WeightAt<Dim, T> weight_at(const GeneralWeight<Dim>& weight, const P
 /// f_i = sum_j m_j K(r_ij), the particle itself counted.
 template <int Dim, class... Terms>
 struct DensityFields {
+    static constexpr bool light = sizeof...(Terms) == 1;  // sweep.hpp
     GeneralWeight<Dim> weight;
 
     template <class T>
