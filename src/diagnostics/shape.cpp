@@ -45,6 +45,15 @@ double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& b
     return std::sqrt(closest2);
 }
 
+template <int Dim>
+double clumped_fraction(const Points<Dim>& position, double distance, const Box<Dim>& box) {
+    const PairList<Dim> list(position, distance, box);
+    std::size_t clumped = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list.neighbours(i).size() > 1) ++clumped;  // than itself
+    return static_cast<double>(clumped) / static_cast<double>(list.size());
+}
+
 Survival survival(const History& history) {
     const auto t = history.column("t"), error = history.column("shape_error"),
                pair = history.column("closest_pair");
@@ -65,5 +74,8 @@ template double shape_error<3>(const Points<3>&, const Points<3>&, double);
 template double closest_pair<1>(const Points<1>&, double, const Box<1>&);
 template double closest_pair<2>(const Points<2>&, double, const Box<2>&);
 template double closest_pair<3>(const Points<3>&, double, const Box<3>&);
+template double clumped_fraction<1>(const Points<1>&, double, const Box<1>&);
+template double clumped_fraction<2>(const Points<2>&, double, const Box<2>&);
+template double clumped_fraction<3>(const Points<3>&, double, const Box<3>&);
 
 }  // namespace spam

@@ -27,10 +27,10 @@ void check_strength(const char* name, double value) {
 }
 
 void check_core(const DensityPotentials& p) {
-    check_strength("core energy", p.core.e_c);
+    check_strength("core", p.core.e_c);
     if (p.core.e_c > 0.0 && !(p.core.s > 0.0 && p.core.s < p.range))
         throw InputError(
-            fmt::format("core range: {} must lie above 0 and below the weight function's range {}; "
+            fmt::format("core-range: {} must lie above 0 and below the weight function's range {}; "
                         "0.7 spacings are usual",
                         p.core.s, p.range));
 }
@@ -38,7 +38,7 @@ void check_core(const DensityPotentials& p) {
 template <int Dim>
 DensityPotentials validated(const DensityPotentials& p, double spacing) {
     valid_range(p.range, spacing);
-    check_strength("surface tension", p.surface_tension);
+    check_strength("surface-tension", p.surface_tension);
     check_strength("strength", p.strength);
     check_core(p);
     if (!p.state && p.surface_tension == 0.0 && p.strength == 0.0 && p.core.e_c == 0.0)

@@ -4,6 +4,7 @@
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/outline.hpp>
+#include <spam/diagnostics/roundness.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/rhs/bonded_model.hpp>
 #include <spam/setup/initial_state.hpp>
@@ -143,4 +144,43 @@ BOOST_AUTO_TEST_CASE(a_body_survives_until_its_shape_or_a_pair_is_lost) {
     BOOST_TEST(!survived(0.6, 0.2).whole);
     BOOST_TEST(survived(0.6, 0.2).end == "clumped and deformed");
     BOOST_TEST(survived(std::nan(""), 0.9).t == 3.0);
+}
+
+BOOST_AUTO_TEST_CASE(how_far_a_body_is_from_round) {
+    // Of n x n evenly spaced sites, with <x^2> and <x^4> of n whole numbers about their mean.
+    for (const int n : {2, 5, 40}) {
+        const double x2 = (n * n - 1) / 12.0, x4 = x2 * (3 * n * n - 7) / 20.0;
+        const std::vector<double> mass(std::size_t(n * n), 2.0);
+        BOOST_TEST(fourfold_moment(square_lattice<2>({n, n}), mass) ==
+                       std::abs(x4 - 3.0 * x2 * x2) / (x4 + x2 * x2),
+                   boost::test_tools::tolerance(1e-13));
+        if (n == 40)
+            BOOST_TEST(std::abs(fourfold_moment(square_lattice<2>({n, n}), mass) - 3.0 / 7.0) <
+                       1e-3);
+    }
+    // Six-fold symmetry has no fourfold part; nor has a ring of unequal masses that alternate so.
+    const Points<2> hexagon = triangular_hexagon(5);
+    BOOST_TEST(fourfold_moment(hexagon, std::vector<double>(std::size_t(hexagon.cols()), 1.0)) <
+               1e-14);
+    Points<2> ring(2, 16);
+    std::vector<double> mass(16);
+    for (int k = 0; k < 16; ++k) {
+        const double angle = k * std::numbers::pi / 8.0;
+        ring.col(k) << std::cos(angle) + 7.0, std::sin(angle) - 3.0;  // wherever it lies
+        mass[std::size_t(k)] = 1.0 + 0.5 * std::cos(4.0 * angle);
+    }
+    BOOST_TEST(fourfold_moment(ring, std::vector<double>(16, 1.0)) < 1e-13);
+    BOOST_TEST(fourfold_moment(ring, mass) == 0.25, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(clumped_are_those_with_a_near_neighbour) {
+    Points<2> x = square_lattice<2>({10, 10});
+    const Box<2> box({10.0, 10.0});
+    BOOST_TEST(clumped_fraction<2>(x, 0.4, box) == 0.0);
+    BOOST_TEST(clumped_fraction<2>(x, 1.01, box) == 1.0);
+    x.col(37) = x.col(36) + Point<2>(0.3, 0.2);  // two at one place
+    x.col(0) = Point<2>(9.8, 8.8);   // near the one at (0, 9), across both borders: alone
+    x.col(90) = Point<2>(0.1, 9.0);  // which comes nearer
+    BOOST_TEST(clumped_fraction<2>(x, 0.4, box) == 0.04, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(clumped_fraction<2>(x, 0.4, {}) == 0.02, boost::test_tools::tolerance(1e-14));
 }

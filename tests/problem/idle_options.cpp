@@ -100,6 +100,14 @@ const std::map<std::string, std::string> another_value{
     {"equation-of-state", "van_der_waals"},
     {"attraction", "0.3"},
     {"excluded", "0.3"},
+    {"particles", "300"},
+    {"side", "19"},
+    {"seed", "7"},
+    {"rho0", "0.9"},
+    {"core", "0.2"},
+    {"core-range", "0.9"},
+    {"surface-tension", "0.2"},
+    {"disorder", "0.2"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -131,6 +139,10 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"diffusion_waves", {}},
     {"diffusion_waves", {"--wave", "shear", "--equation-of-state", "van_der_waals"}},
     {"turns_survived", {}},
+    {"string_phase", {}},
+    {"string_phase", {"--core", "0"}},
+    {"drop", {}},
+    {"drop", {"--core", "0.1", "--disorder", "0.1"}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

@@ -327,9 +327,9 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     BOOST_TEST(says(with([](auto& p) { p.kernel = Kernel::lucy; }), "use w4 or smoother"));
     BOOST_TEST(says(with([](auto& p) { p.kernel = Kernel::w2; }), "a gradient potential needs"));
     BOOST_TEST(says(with([](auto& p) { p.range = 0.9; }), "range: 0.9"));
-    BOOST_TEST(says(with([](auto& p) { p.core.s = 2.4; }), "core range: 2.4"));
-    BOOST_TEST(says(with([](auto& p) { p.core.e_c = -0.1; }), "core energy: -0.1"));
-    BOOST_TEST(says(with([](auto& p) { p.surface_tension = NAN; }), "surface tension: nan"));
+    BOOST_TEST(says(with([](auto& p) { p.core.s = 2.4; }), "core-range: 2.4"));
+    BOOST_TEST(says(with([](auto& p) { p.core.e_c = -0.1; }), "core: -0.1"));
+    BOOST_TEST(says(with([](auto& p) { p.surface_tension = NAN; }), "surface-tension: nan"));
     BOOST_TEST(says(with([](auto& p) { p.strength = -1.0; }), "strength: -1"));
     BOOST_TEST(says(refusal<2>(everything<2>(), Box<2>({4.5, 4.5})), "box: periodic length"));
     DensityPotentials curved = everything<1>();

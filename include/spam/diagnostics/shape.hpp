@@ -20,6 +20,10 @@ double shape_error(const Points<Dim>& reference, const Points<Dim>& position, do
 template <int Dim>
 double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& box);
 
+/// The part of the particles with another one nearer than `distance`.
+template <int Dim>
+double clumped_fraction(const Points<Dim>& position, double distance, const Box<Dim>& box);
+
 /// How long a body kept its shape, and how it lost it.
 struct Survival {
     double t;              ///< of the first row without it; of the last one where it was kept

@@ -45,13 +45,14 @@ struct SlopeRecord : PointRecord<Dim, T> {
 
 /// The weight function of a pair, seen from i.
 template <int Dim, class T>
-WeightAt<Dim, T> weight_at(const GeneralWeight<Dim>& weight, const Pair<Dim, T>& pair) {
+SPAM_INLINE WeightAt<Dim, T> weight_at(const GeneralWeight<Dim>& weight, const Pair<Dim, T>& pair) {
     return {weight, T(-1.0) * pair.r_ji, pair.r2, pair.r};
 }
 
 /// f_i = sum_j m_j K(r_ij), the particle itself counted.
 template <int Dim, class... Terms>
 struct DensityFields {
+    static constexpr bool light = sizeof...(Terms) == 1;  // sweep.hpp
     GeneralWeight<Dim> weight;
 
     template <class T>

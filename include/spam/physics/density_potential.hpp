@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/error.hpp>
+#include <spam/core/lanes.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/core/tensor.hpp>
 #include <spam/kernel/weight_function.hpp>
@@ -26,9 +27,9 @@ namespace spam {
 /// The weight function at r_ij, seen from i.
 template <int Dim, class T = double>
 struct WeightAt {
+    Vec<Dim, T> r_ij;
     Vec<Dim, T> n;    ///< r_ij/r; zero where the particles coincide
     T value;          ///< w
-    T slope;          ///< w'
     T slope_over_r;   ///< w'/r
     T second;         ///< w''
     T second_over_r;  ///< (w'' - w'/r)/r, without the part that is the same in all directions; zero
@@ -36,15 +37,17 @@ struct WeightAt {
     T third;          ///< w'''
 
     template <SmoothWeightFunction Weight>
-    WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij)
-        : WeightAt(weight, r_ij, dot(r_ij, r_ij), std::sqrt(dot(r_ij, r_ij))) {}
+    WeightAt(const Weight& weight, const Vec<Dim, T>& separation)
+        : WeightAt(weight, separation, dot(separation, separation),
+                   std::sqrt(dot(separation, separation))) {}
     template <SmoothWeightFunction Weight>
-    WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij, const T& r2, const T& r) {
+    SPAM_INLINE WeightAt(const Weight& weight, const Vec<Dim, T>& separation, const T& r2,
+                         const T& r)
+        : r_ij(separation) {
         const T inverse_r = r / (r2 + T(1e-300));  // zero at r = 0, without a branch
         n = inverse_r * r_ij;
         value = weight.value(r);
         slope_over_r = -weight.minus_slope_over_r(r);
-        slope = slope_over_r * r;
         second = weight.second_derivative(r);
         second_over_r = (second - slope_over_r) * inverse_r;
         third = weight.third_derivative(r);

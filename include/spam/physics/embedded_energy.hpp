@@ -21,7 +21,7 @@ struct DensityItself {
     /// G grad_i w
     template <int Dim, class T>
     static Vec<Dim, T> pull(const T& G, const WeightAt<Dim, T>& at) {
-        return (G * at.slope) * at.n;
+        return (G * at.slope_over_r) * at.r_ij;
     }
 };
 

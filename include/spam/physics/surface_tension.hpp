@@ -20,7 +20,7 @@ struct SurfaceTension {
 
     template <int Dim, class T>
     static Vec<Dim, T> weigh(const WeightAt<Dim, T>& at) {
-        return at.slope * at.n;
+        return at.slope_over_r * at.r_ij;
     }
     template <int Dim>
     double energy(double /*mass*/, const Vec<Dim>& g) const {

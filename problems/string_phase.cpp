@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: a relaxing embedded-atom fluid forms strings unless particles have cores, [HH07] 8; 5 s
+//
+// The string phase and its cure, [HH07] 8.
+//
+//      . : .   .'       .  .  .  .       Particles at random places of a periodic box move down the
+//     :     ':'           .  .  .  .     slope of an energy of the density alone,
+//      ':. .'  '.  or   .  .  .  .
+//         '     :'        .  .  .  .         Phi = sum_i m e(rho_i),  e = (rho/rho0 - 1)^2/(2 rho0)
+//
+//     m v_dot_i = -d Phi/d r_i - m gamma v_i
+//
+// until friction has brought them to rest. Nothing in Phi tells two particles at one place from two that
+// lie apart as long as the density at the particles is rho0: they gather in strings and clumps. A core,
+//
+//     Phi += sum_pairs e_c (1 - r^2/s^2)^4,   r < s,
+//
+// keeps them apart. clumped_fraction: the part of the particles with another one nearer than 0.4.
+//
+// With the s = 0.7 of the standard case nobody is clumped, but particles still line up in chains around
+// holes: all along them the density is rho0, and cores shorter than the spacing have nothing against it.
+// Wider ones, --core 0.1 --core-range 1.2, leave an even fluid with one hole (320 particles of density 1
+// do not fill the box).
+//
+// Without --core both are run; names in result.json without a prefix then belong to the one without a
+// core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
+#include <spam/io/gnuplot.hpp>
+#include <spam/material/embedded_atom.hpp>
+#include <spam/neighbors/pair_list.hpp>
+#include <spam/rhs/damped_model.hpp>
+#include <spam/rhs/density_potential_model.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace spam;
+
+constexpr double near = 0.4;         // clumped: another particle nearer than this
+constexpr double core_energy = 0.1;  // where both are run
+
+struct Parameters {
+    int particles = 320;
+    double side = 20.0;
+    std::optional<double> core;
+    double core_range = 0.7;
+    double damping = 0.1;
+    double rho0 = 1.0;
+    int seed = 1;
+    Kernel kernel = Kernel::lucy;
+    double range = 3.5;
+};
+
+struct Sample {
+    std::string label, prefix, title;
+    bool core;
+    std::unique_ptr<DampedModel> model;
+};
+
+/// The same places for every computer: the standard fixes the generator's numbers.
+Points<2> random_places(const Parameters& p) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
+    Points<2> x(2, p.particles);
+    for (double& coordinate : x.reshaped())
+        coordinate = p.side * (static_cast<double>(random() >> 11) * 0x1p-53);
+    return x;
+}
+
+Sample make_sample(const Parameters& p, double e_c) {
+    const Box<2> box({p.side, p.side});
+    DensityPotentials potentials;
+    potentials.state = EmbeddedAtom{1.0, p.rho0};
+    if (e_c > 0.0) potentials.core = {e_c, p.core_range};
+    potentials.kernel = p.kernel;
+    potentials.range = p.range;
+    auto model = std::make_unique<DensityPotentialModel<2>>(
+        make_particles<2>(random_places(p), 1.0, 1.0, box), potentials, box);
+    return {"", "",
+            e_c > 0.0 ? fmt::format("core {:g} of range {:g}", e_c, p.core_range) : "no core",
+            e_c > 0.0,
+            std::make_unique<DampedModel>(std::move(model), p.damping, Friction::all_motion)};
+}
+
+std::vector<Sample> samples_of(const Parameters& p) {
+    std::vector<Sample> all;
+    if (p.core) {
+        all.push_back(make_sample(p, *p.core));
+        return all;
+    }
+    all.push_back(make_sample(p, 0.0));
+    all.push_back(make_sample(p, core_energy));
+    all[0].label = "no_core";
+    all[1].label = "core";
+    all[1].prefix = "core_";
+    return all;
+}
+
+Column<2> clumped_fraction_column() {
+    return {"clumped_fraction", [](const Model<2>& model, std::span<const double> y) {
+                return clumped_fraction<2>(ConstState<2>(model.layout(), y).position(), near,
+                                           model.box());
+            }};
+}
+
+// ---- what was found ----
+
+/// The case of the lecture, from any random start.
+bool is_standard(const Parameters& p, const RunRecord& run) {
+    const Parameters standard;
+    return p.particles == standard.particles && p.side == standard.side &&
+           (!p.core || *p.core == 0.0 || *p.core == core_energy) &&
+           p.core_range == standard.core_range && p.damping == standard.damping &&
+           p.rho0 == standard.rho0 && p.kernel == standard.kernel && p.range == standard.range &&
+           run.complete && run.statistics.t_end >= 500.0;
+}
+
+/// Friction takes energy, all that there is: by how much a row lies above the one before, at most.
+double largest_rise(const std::vector<double>& energy) {
+    double rise = 0.0;
+    for (std::size_t k = 1; k < energy.size(); ++k)
+        rise = std::max(rise, energy[k] - energy[k - 1]);
+    return rise;
+}
+
+void report(Session& session, const Parameters& p, const Sample& sample, const RunRecord& run) {
+    const History& h = run.history;
+    Check clumped{
+        sample.prefix + "clumped_fraction", h.last("clumped_fraction"), {}, 0.0, "measured"};
+    if (is_standard(p, run)) {
+        clumped.expected = sample.core ? 0.0 : 0.775;
+        clumped.tolerance = sample.core ? 0.0 : 0.225;
+        clumped.source = sample.core ? "[HH07] 8: a core cures the strings"
+                                     : "[HH07] 8: a string phase, more than 55 % are in it";
+    }
+    session.check(clumped);
+    const auto n = static_cast<double>(run.statistics.particles);
+    session.check({sample.prefix + "momentum_per_particle",
+                   std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
+                   0.0, 1e-12, "pairwise forces, and a friction that stops what does not move"});
+    session.check({sample.prefix + "energy_rise_per_particle", largest_rise(h.column("energy")) / n,
+                   0.0, 1e-9, "friction takes energy and never gives it back"});
+    session.check(
+        {sample.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
+    session.check({sample.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
+    session.check_promises(run, sample.prefix);
+}
+
+/// Of every particle, to the nearest other one; the range where there is none.
+std::vector<double> nearest_distances(const Points<2>& x, double range, const Box<2>& box) {
+    const PairList<2> list(x, range, box);
+    std::vector<double> nearest(list.size(), range);
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+        for (const std::uint32_t j : list.neighbours(i)) {
+            if (j == i) continue;
+            Point<2> r = x.col(static_cast<Eigen::Index>(i)) - x.col(j);
+            for (int a = 0; a < 2; ++a) r[a] -= box.length(a) * std::round(r[a] / box.length(a));
+            nearest[i] = std::min(nearest[i], r.norm());
+        }
+    return nearest;
+}
+
+void draw(Session& session, const Parameters& p, const std::vector<Sample>& samples,
+          const std::vector<RunRecord>& runs) {
+    Points<2> frame(2, 4);
+    frame << 0.0, p.side, p.side, 0.0, 0.0, 0.0, p.side, p.side;
+    std::vector<ConfigurationPanel> panels;
+    CurvePanel curves{
+        "", "t", fmt::format("part of the particles nearer than {:g}", near), false, {}};
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const auto& model = *samples[k].model;
+        const Points<2> x = ConstState<2>(model.layout(), runs[k].y).position();
+        panels.push_back({samples[k].title,
+                          model.box().wrapped(x),
+                          nearest_distances(x, p.range, model.box()),
+                          {frame}});
+        curves.curves.push_back({samples[k].title, runs[k].history.column("t"),
+                                 runs[k].history.column("clumped_fraction")});
+    }
+    const auto title =
+        fmt::format("Embedded-atom fluid at t = {:g}", runs.front().statistics.t_end);
+    session.note_drawn(draw_configurations(session.plots_folder(), "configurations", title, panels,
+                                           panels.size(), "nearest neighbour"));
+    session.note_drawn(draw_curves(session.plots_folder(), "clumped_fraction", title, {curves}));
+}
+
+void refuse_contradictions(const Session& session, const Parameters& p) {
+    if (p.core == 0.0 && session.given("core-range"))
+        throw InputError("core-range: has no meaning for --core 0; leave it out");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("string_phase",
+                    "strings of an embedded-atom fluid and their cure by cores, [HH07] 8");
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("particles", p.particles, "at random places in the box", between(2, 1000000));
+    options.number("side", p.side, "of the periodic box", positive());
+    options.integer("seed", p.seed, "of the random places", between(0, 1000000000));
+    options.number("rho0", p.rho0, "density at which the fluid has no pressure", positive());
+    options.number("core", p.core, "energy of a core, 0 for none (both: 0 and 0.1)",
+                   non_negative());
+    options.number("core-range", p.core_range, "distance at which cores touch", positive());
+    options.number("damping", p.damping, "rate of the friction", positive());
+    options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
+    options.number("range", p.range, "distance at which the weight function vanishes", positive());
+
+    return problem.main(argc, argv, [&](Session& session) {
+        refuse_contradictions(session, p);
+        if (!p.core) session.leave_out_of_case({"core"});
+        if (p.core == 0.0) session.leave_out_of_case({"core-range"});
+        auto samples = samples_of(p);
+        std::vector<Case<2>> cases;
+        for (auto& sample : samples) {
+            auto y0 = initial_state<2>(*sample.model, 1.0, 1.0, at_rest<2>());
+            sample.model->layout().set_scale(Field::velocity, 0.1);
+            Plan<2> plan;
+            plan.t_end = session.common().smoke ? 20.0 : 500.0;
+            plan.columns = {clumped_fraction_column(), closest_pair_column<2>()};
+            cases.push_back({*sample.model, std::move(y0), std::move(plan), sample.label});
+        }
+        const auto runs = session.run_all(std::move(cases));
+        for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, samples[k], runs[k]);
+        if (session.plots()) draw(session, p, samples, runs);
+    });
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The problems of potentials of the density as a user runs them: strings and their cure, a drop that
+// becomes round and one that does not. Each case is what the other's claim would have to fail for.
+#include "problem/result_files.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <map>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+Outcome run_in(const Scratch& folder, const std::string& name, Words arguments) {
+    arguments.insert(arguments.end(), {"--out", "out", "--no-plots"});
+    return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(240));
+}
+
+/// Results by name of a call that must succeed; and what it claims.
+struct Results {
+    std::map<std::string, double> value;
+    std::size_t claims = 0;
+
+    Results(const std::string& name, const Words& arguments, const char* column) {
+        const Scratch folder;
+        const Outcome outcome = run_in(folder, name, arguments);
+        BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.out << outcome.err);
+        for (const auto& item : json_of(folder / "out/result.json")) {
+            BOOST_TEST(item["holds"] == true, item.dump());
+            value[item["name"]] = item["value"];
+            if (item["name"] == column && !item["expected"].is_null()) ++claims;
+        }
+        if (std::filesystem::exists(folder / "out/invariants.csv"))
+            BOOST_TEST(Csv(folder / "out/invariants.csv").column(column).back() ==
+                       value.at(column));
+    }
+};
+
+std::string refusal(const std::string& name, const Words& arguments) {
+    const Scratch folder;
+    const Outcome outcome = run_in(folder, name, arguments);
+    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(folder.listing().empty());
+    BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    return outcome.err;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(strings_form_without_a_core) {
+    const Results found("string_phase", {"--core", "0"}, "clumped_fraction");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("clumped_fraction") > 0.55);
+}
+BOOST_AUTO_TEST_CASE(a_core_keeps_all_particles_apart_wherever_they_start) {
+    const Results found("string_phase", {"--core", "0.1", "--seed", "5"}, "clumped_fraction");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("clumped_fraction") == 0.0);
+    BOOST_TEST(found.value.at("closest_pair") > 0.55);
+}
+
+BOOST_AUTO_TEST_CASE(a_square_drop_stays_square) {
+    const Results found("drop", {"--surface-tension", "0"}, "m4");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("m4") > 0.2);
+}
+BOOST_AUTO_TEST_CASE(surface_tension_makes_it_round) {
+    const Results found("drop", {"--surface-tension", "0.1"}, "m4");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("m4") < 0.06);
+}
+
+BOOST_AUTO_TEST_CASE(other_cases_claim_nothing) {
+    const Results strings("string_phase", {"--smoke"}, "clumped_fraction");
+    BOOST_TEST(strings.claims == 0U);
+    BOOST_TEST(strings.value.contains("core_clumped_fraction"));
+    const Results drop("drop", {"--smoke", "--disorder", "0.1"}, "m4");
+    BOOST_TEST(drop.claims == 0U);
+    BOOST_TEST(drop.value.contains("tension_m4"));
+}
+
+BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
+    BOOST_TEST(contains(refusal("string_phase", {"--core", "0", "--core-range", "1"}),
+                        "core-range: has no meaning for --core 0"));
+    BOOST_TEST(contains(refusal("string_phase", {"--core", "0.1", "--core-range", "4"}),
+                        "core-range: 4 must lie above 0 and below"));
+    BOOST_TEST(contains(refusal("string_phase", {"--side", "6"}), "enlarge the box"));
+    BOOST_TEST(contains(refusal("drop", {"--seed", "3"}), "seed: has no meaning without disorder"));
+    BOOST_TEST(contains(refusal("drop", {"--core-range", "0.5"}), "core-range: has no meaning"));
+    BOOST_TEST(contains(refusal("drop", {"--surface-tension", "0.1", "--kernel", "w2"}),
+                        "a gradient potential needs a weight function"));
+}
