@@ -147,6 +147,21 @@ Points<Dim> FieldInterpolation<Dim>::density_gradient(const Places& at) const {
 }
 
 template <int Dim>
+Eigen::MatrixXd FieldInterpolation<Dim>::sum(const Field& f, const Places& at) const {
+    Eigen::MatrixXd result(f.rows(), at.cols());
+    parallel_for(static_cast<std::size_t>(at.cols()), [&](std::size_t k) {
+        const auto p = static_cast<Eigen::Index>(k);
+        double* const sum = result.col(p).data();
+        std::fill_n(sum, f.rows(), 0.0);
+        each_near(at.col(p), [&](Eigen::Index j, const Point<Dim>&, double r) {
+            const double mw = mass_[static_cast<std::size_t>(j)] * weight_.value(r);
+            for (Eigen::Index c = 0; c < f.rows(); ++c) sum[c] += mw * f(c, j);
+        });
+    });
+    return result;
+}
+
+template <int Dim>
 Eigen::MatrixXd FieldInterpolation<Dim>::value(const Field& f, const Places& at) const {
     Eigen::MatrixXd result(f.rows(), at.cols());
     parallel_for(static_cast<std::size_t>(at.cols()), [&](std::size_t k) {
