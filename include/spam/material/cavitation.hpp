@@ -27,6 +27,9 @@ struct Cavitating {
     double temperature(double rho, double e) const requires ThermalEquationOfState<Law> {
         return law.temperature(rho, e);
     }
+    double energy(double rho, double T) const requires ThermalEquationOfState<Law> {
+        return law.energy(rho, T);
+    }
     std::string describe() const {
         return fmt::format("{}, tension at most {:.6g}", law.describe(), tension_limit);
     }

@@ -40,8 +40,9 @@ class AnyEquationOfState {
     double pressure(double rho, double e) const { return loop_->pressure(rho, e); }
     double sound_speed(double rho, double e) const { return loop_->sound_speed(rho, e); }
     double temperature(double rho, double e) const { return loop_->temperature(rho, e); }
-    /// Energy per mass at density rho and temperature T where the law says so, NaN where it does not.
-    double energy(double rho, double T) const { return loop_->energy(rho, T); }
+    /// Energy per mass at density rho and temperature T; of a cold law whatever T is. 0 where the law
+    /// says neither (a clamped one may: it is work from there on).
+    double starting_energy(double rho, double T) const { return loop_->starting_energy(rho, T); }
     double cold_energy(double rho) const { return loop_->cold_energy(rho); }
     std::string describe() const { return loop_->describe(); }
 
@@ -60,7 +61,7 @@ class AnyEquationOfState {
         virtual double pressure(double rho, double e) const = 0;
         virtual double sound_speed(double rho, double e) const = 0;
         virtual double temperature(double rho, double e) const = 0;
-        virtual double energy(double rho, double T) const = 0;
+        virtual double starting_energy(double rho, double T) const = 0;
         virtual double cold_energy(double rho) const = 0;
         virtual std::string describe() const = 0;
     };
@@ -86,9 +87,13 @@ class AnyEquationOfState {
             if constexpr (has_temperature<Law>) return law.temperature(rho, e);
             return nan;
         }
-        double energy(double rho, double T) const override {
-            if constexpr (ThermalEquationOfState<Law>) return law.energy(rho, T);
-            return nan;
+        double starting_energy(double rho, double T) const override {
+            if constexpr (requires { law.energy(rho, T); })
+                return law.energy(rho, T);
+            else if constexpr (ColdEquationOfState<Law>)
+                return law.cold_energy(rho);
+            else
+                return 0.0;
         }
         double cold_energy(double rho) const override {
             if constexpr (ColdEquationOfState<Law>) return law.cold_energy(rho);

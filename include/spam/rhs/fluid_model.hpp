@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/kernel/kernel.hpp>
+#include <spam/kernel/general_weight.hpp>
 #include <spam/material/fluid.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -63,19 +63,25 @@ class FluidModel final : public Model<Dim> {
     std::vector<double> temperature(std::span<const double> y) const;
 
     /// y at `position` (Dim x N) with these velocities, densities summed there where y carries them, and
-    /// the energy of temperature T (thermal law) or the cold energy (T is then not read). Scales of the
-    /// layout are set for the tolerances.
+    /// the energy of temperature T (thermal law) or the cold energy (T is then not read), else none.
+    /// Scales of the layout are set for the tolerances.
     std::vector<double> state(const Points<Dim>& position, const Points<Dim>& velocity,
                               double T = 0.0);
 
   private:
-    bool load(std::span<const double> y, std::span<double> y_dot);
-    bool close(std::span<const double> y, std::span<double> y_dot);
+    bool meaningful(std::span<const double> e, std::span<double> y_dot);
+    void fill_records();
+    void close(std::size_t first_slot, const std::uint32_t* particle, std::size_t count,
+               const Mat<Dim>* grad_v, const Vec<Dim>* grad_T) const;
+    std::vector<double> summed_density(const Points<Dim>& x) const;
+    double estimate_damping() const;
+    std::size_t stride() const;
     PackedFields fields(std::span<const double> y) const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
 
     Fluid fluid_;
     FluidScheme scheme_;
+    GeneralWeight<Dim> weight_;
     std::unique_ptr<const FluidSweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
     double damping_ = 0.0;
