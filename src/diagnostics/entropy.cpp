@@ -50,17 +50,31 @@ double GasEntropy<Dim>::of_particles(Heat heat) const {
     return total / mass_.sum();
 }
 
+/// energy(sums, rho): e at a node.
 template <int Dim>
-double GasEntropy<Dim>::on_grid(const FieldGrid<Dim>& grid, Heat heat) const {
+template <class Energy>
+double GasEntropy<Dim>::integral(const FieldGrid<Dim>& grid, Heat heat,
+                                 const Energy& energy) const {
     const Eigen::MatrixXd sum = fields_.sum(carried_, grid.points());
     double total = 0.0;
     for (Eigen::Index p = 0; p < sum.cols(); ++p) {
         const double rho = sum(0, p);
         if (!(rho > 0.0)) continue;
-        const double e_int = sum(1, p) / rho + heat_of_motion<Dim>(sum.col(p), heat);
+        const double e_int = energy(sum(1, p), rho) + heat_of_motion<Dim>(sum.col(p), heat);
         total += rho * entropy<Dim>(e_int, rho);
     }
     return total * grid.spacing.prod() / mass_.sum();
+}
+
+template <int Dim>
+double GasEntropy<Dim>::on_grid(const FieldGrid<Dim>& grid, Heat heat,
+                                const std::function<double(double rho)>& energy) const {
+    return integral(grid, heat, [&](double, double rho) { return energy(rho); });
+}
+
+template <int Dim>
+double GasEntropy<Dim>::on_grid(const FieldGrid<Dim>& grid, Heat heat) const {
+    return integral(grid, heat, [](double rho_e, double rho) { return rho_e / rho; });
 }
 
 template class GasEntropy<1>;

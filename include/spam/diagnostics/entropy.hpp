@@ -4,6 +4,7 @@
 #include <spam/diagnostics/field_grid.hpp>
 #include <spam/diagnostics/field_interpolation.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace spam {
@@ -33,11 +34,17 @@ class GasEntropy {
     /// sum m_i s_i / sum m_i with rho and e of the particles, <v> and <v^2> at their places.
     double of_particles(Heat heat) const;
 
-    /// Integral of rho s over the nodes of a periodic grid / sum m, with rho(r), <e>, <v>, <v^2> there.
-    /// Where there is no gas there is no entropy.
+    /// Integral of rho s over the nodes of a periodic grid / sum m, with rho(r), <v>, <v^2> there, and
+    /// e(rho) of the gas where density alone decides. Where there is no gas there is no entropy.
+    double on_grid(const FieldGrid<Dim>& grid, Heat heat,
+                   const std::function<double(double rho)>& energy) const;
+    /// Likewise, of any gas, with <e>.
     double on_grid(const FieldGrid<Dim>& grid, Heat heat) const;
 
   private:
+    template <class Energy>
+    double integral(const FieldGrid<Dim>& grid, Heat heat, const Energy& energy) const;
+
     FieldInterpolation<Dim> fields_;
     Points<Dim> position_;
     Eigen::VectorXd mass_, density_, energy_;

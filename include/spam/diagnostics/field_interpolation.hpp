@@ -55,6 +55,7 @@ class FieldInterpolation {
     std::array<std::int64_t, Dim> cells_;
     std::vector<std::size_t> start_;
     std::vector<Eigen::Index> particle_;
+    Points<Dim> sorted_;  ///< positions in the order of particle_
 };
 
 extern template class FieldInterpolation<1>;
