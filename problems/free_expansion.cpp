@@ -112,7 +112,8 @@ void run(Session& session, const Parameters& p) {
         gases.back().label = fmt::format("n{}", cells);
         gases.back().prefix = gases.back().label + "_";
     }
-    const double t_end = session.common().t_end.value_or((Dim == 2 ? 1.5 : 3.0) * sizes.back());
+    const double plateau = Dim == 1 ? 3.0 * sizes.back() : std::max(1.5 * sizes.back(), 60.0);
+    const double t_end = session.common().t_end.value_or(smoke ? 24.0 : plateau);
     std::vector<Case<Dim>> cases;
     for (auto& gas : gases)
         cases.push_back({*gas.model, gas.y0, plan_of(session, gas, p, t_end), gas.label});

@@ -93,7 +93,7 @@ std::vector<Plateau> plateaus(const Gas<1>& gas, bool standard, double range) {
 }
 
 /// When the gas has filled its box and the entropy grows no more, in cells.
-constexpr double plateau_from(int dim) { return dim == 2 ? 1.25 : 2.0; }
+double plateau_from(int dim, int cells) { return dim == 1 ? 2.5 : cells < 32 ? 2.0 : 1.25; }
 
 }  // namespace
 
@@ -114,12 +114,15 @@ void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const Run
     } else {
         session.check_promises(run, gas.prefix);
     }
+    // On the line, where P/rho^2 is not the same for all, pairs share their work out otherwise.
+    const bool same_energy = standard && Dim == 2;
     say("energy_against_density", energy_against_density(gas, run),
-        standard ? 0.0 : std::optional<double>{}, 1e-4,
-        "e is a function of rho: [HH01] after eq 20, to the error of the integrator");
-    const bool plateau = end >= (plateau_from(Dim) + 0.125) * n;
+        same_energy ? 0.0 : std::optional<double>{}, 1e-3,
+        same_energy ? "[HH01] after eq 20: e = rho/2 need not be integrated; to the error of RK4"
+                    : "measured");
+    const bool plateau = end >= (plateau_from(Dim, gas.cells) + 0.125) * n;
     for (const Plateau& one : plateaus(gas, standard && plateau, p.range))
-        say(one.column, mean_since(h, one.column, plateau ? plateau_from(Dim) * n : end),
+        say(one.column, mean_since(h, one.column, plateau ? plateau_from(Dim, gas.cells) * n : end),
             one.expected, one.tolerance, one.source);
     say("entropy_sum_largest", h.largest("entropy_sum"),
         Dim == 1 && standard && plateau && p.range == 40.0 && gas.cells == 2000

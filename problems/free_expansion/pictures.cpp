@@ -92,9 +92,7 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
 }
 
 const char* title_of(const std::string& column) {
-    return column == "entropy_sum"    ? "sum over particles"
-           : column == "entropy_grid" ? "integral over a grid"
-                                      : "full v² in place of its fluctuation";
+    return column == "entropy_sum" ? "particles" : column == "entropy_grid" ? "grid" : "full v²";
 }
 
 template <int Dim>
@@ -135,7 +133,7 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
         }
         if (several || c + 1 == columns.size())
             panels.back().curves.push_back(
-                {.title = "equilibrium", .x = {0.0, last}, .y = {1.0, 1.0}, .style = 6});
+                {.title = "equilibrium", .x = {0.0, last}, .y = {1.0, 1.0}, .style = 4});
     }
     const std::string of = several ? std::string("three gases")
                                    : fmt::format("{} smooth particles", gases[0].particles());
