@@ -83,18 +83,19 @@ Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t
     plan.t_end = t_end;
     plan.output_every = t_end / (p.compare ? 192.0 : 96.0);
     plan.columns = entropy_columns(gas);
-    plan.on_snapshot = [&gas, &p, folder](double t, const Model<Dim>&, Values y) {
+    plan.on_snapshot = [&session, &gas, &p, folder](double t, const Model<Dim>&, Values y) {
         for (Scene& scene : gas.scenes) scene.look(t, y);
         write_fields(folder(), gas, t, y);
         if constexpr (Dim == 2)
-            if (p.movie && t == 0.0) draw_frame(folder(), gas, 0, t, y);
+            if (p.movie && t == 0.0) session.note_drawn(draw_frame(folder(), gas, 0, t, y));
     };
     plan.memory = [&gas](Archive& archive) { archive(gas.scenes, gas.field_times); };
     if constexpr (Dim == 2)
         if (p.movie)
             plan.revise = [&gas, &session, folder](double t, Model<2>&, std::span<double> y) {
                 const double every = *session.common().output_every;
-                draw_frame(folder(), gas, static_cast<int>(std::lround(t / every)), t, y);
+                session.note_drawn(
+                    draw_frame(folder(), gas, static_cast<int>(std::lround(t / every)), t, y));
                 return false;
             };
     return plan;

@@ -93,8 +93,8 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
 void draw(Session& session, const Gas<2>& gas);
 void draw(Session& session, const Gas<1>& gas);
 
-/// Frames of a film in <folder>/frames.
-void draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
+/// A frame of a film in <folder>/frames; false where it could not be drawn.
+bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
                 std::span<const double> y);
 /// Puts them together, or says why not.
 void make_movie(Session& session, const RunFolder& folder);

@@ -169,7 +169,7 @@ void draw(Session& session, const Gas<1>& gas) {
         panels));
 }
 
-void draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
+bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
                 std::span<const double> y) {
     const auto fields = fields_of(gas, y);
     ContourPanel density = tones(fields.grid, fields.density), kinetic = density;
@@ -178,12 +178,14 @@ void draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t
     kinetic.colours = ContourPanel::Colours{0.0, 0.25, "kinetic energy"};
     const RunFolder frames = folder.inside("frames");
     const std::string name = fmt::format("frame_{:04}", number);
-    draw_contours(frames, name, fmt::format("t = {:.1f}", t), {dots(gas, y), density, kinetic}, 3,
-                  room_of(gas));
+    if (!draw_contours(frames, name, fmt::format("t = {:.1f}", t), {dots(gas, y), density, kinetic},
+                       3, room_of(gas)))
+        return false;
     for (const char* part : {".dat", ".gp"}) {  // a hundred scripts help nobody
         std::error_code ignored;
         std::filesystem::remove(frames / (name + part), ignored);
     }
+    return true;
 }
 
 void make_movie(Session& session, const RunFolder& folder) {

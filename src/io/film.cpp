@@ -12,8 +12,8 @@ namespace spam {
 std::string make_film(const RunFolder& folder, std::string_view name, int frames_per_second) {
     std::string command =
         "cd -- \"$1\" && command -v ffmpeg >/dev/null || exit 127\n"
-        "exec ffmpeg -y -loglevel error -framerate \"$3\" -i frame_%04d.png -pix_fmt yuv420p "
-        "\"$2\" </dev/null >/dev/null 2>&1";
+        "exec ffmpeg -y -loglevel error -framerate \"$3\"  -pattern_type glob "
+        "-i 'frame_*.png' -pix_fmt yuv420p \"$2\" </dev/null >/dev/null 2>&1";
     std::string shell = "sh", flag = "-c", self = "film", path = folder.path().string(),
                 file = std::string(name) + ".mp4", rate = std::to_string(frames_per_second);
     char* argv[] = {shell.data(), flag.data(), command.data(), self.data(),

@@ -8,8 +8,8 @@
 
 namespace spam {
 
-/// <name>.mp4 from the pictures frame_0000.png, frame_0001.png, ... in the folder, by ffmpeg, in place
-/// of an older one. Returns why there is none ("ffmpeg is not installed", "ffmpeg failed"), or nothing.
+/// <name>.mp4 from the pictures frame_*.png in the folder, in the order of their names, by ffmpeg, in
+/// place of an older one. Returns why there is none ("ffmpeg is not installed", "ffmpeg failed"), or nothing.
 std::string make_film(const RunFolder& folder, std::string_view name, int frames_per_second);
 
 }  // namespace spam
