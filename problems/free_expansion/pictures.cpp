@@ -118,7 +118,11 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
     if (several) last = std::min(last, 1.5);
     for (std::size_t c = 0; c < columns.size(); ++c) {
         if (several || panels.empty())
-            panels.push_back({several ? title_of(columns[c]) : "", "t / n", unit, false, {}});
+            panels.push_back({several ? title_of(columns[c]) : "",
+                              Dim == 1 ? "t / N" : "t / n",
+                              unit,
+                              false,
+                              {}});
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const int style = static_cast<int>(several ? k : c) + 1;
             Curve curve = entropy_curve(
@@ -148,9 +152,10 @@ void draw(Session& session, const Gas<2>& gas) {
 
 /// Density and velocity along the line.
 void draw(Session& session, const Gas<1>& gas) {
-    std::vector<CurvePanel> panels{{"density", "x / N", "ρ", false, {}},
-                                   {"velocity", "x / N", "<v>", false, {}},
-                                   {"hidden motion", "x / N", "(<v²> − <v>²) / 2", false, {}}};
+    std::vector<CurvePanel> panels{
+        {"density", "x / N", "ρ", false, {}},
+        {"velocity", "x / N", "<v>", false, {}},
+        {"velocity fluctuation", "x / N", "(<v²> − <v>²) / 2", false, {}}};
     for (const Scene* scene : seen(gas)) {
         const auto fields = fields_of(gas, scene->y);
         const Points<1> at = fields.grid.points();
