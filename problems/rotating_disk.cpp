@@ -171,7 +171,7 @@ std::vector<Column<2>> deviation_columns(const Body& body) {
 /// The case whose numbers are known.
 bool is_standard(const Session& session, const Parameters& p) {
     auto options = Problem::scheme_option_names();
-    options.insert(options.end(), {"damping", "range", "t-end"});
+    options.insert(options.end(), {"damping", "kernel", "range", "t-end"});
     options.insert(options.end(), IntegratorSettings::names().begin(),
                    IntegratorSettings::names().end());
     for (const auto& option : options)

@@ -110,6 +110,7 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
     if (p.lagrangian()) refuse(names, "--formulation total_lagrangian (no choice of that kind)");
     if (!p.md() && !p.lagrangian()) refuse({"penalty"}, "--formulation updated");
     if (p.lagrangian()) refuse({"torques"}, "--formulation total_lagrangian (no pair torques)");
+    if (p.lagrangian()) refuse({"kernel"}, "--formulation total_lagrangian (always Lucy's)");
     names.insert(names.end(), {"kernel", "range", "formulation", "penalty", "torques"});
     if (p.md()) refuse(names, "--model md (springs between initial neighbours)");
 }
@@ -120,8 +121,9 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
 /// or total Lagrangian and up to 100 turns.
 bool is_standard(const Session& session, const Parameters& p, const Model<2>& model) {
     const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
-    if (solid && (solid->scheme().range != 3.0 || solid->scheme().density == Density::summed ||
-                  solid->scheme().viscosity > 0.0 || solid->scheme().closest_approach > 0.0))
+    if (solid && (solid->scheme().kernel != Kernel::lucy || solid->scheme().range != 3.0 ||
+                  solid->scheme().density == Density::summed || solid->scheme().viscosity > 0.0 ||
+                  solid->scheme().closest_approach > 0.0))
         return false;
     if (p.lagrangian() && (session.scheme().range != 3.0 || p.penalty < 0.1 || p.penalty > 10.0))
         return false;
@@ -262,9 +264,9 @@ int main(int argc, char** argv) {
             hexagons.push_back(make_hexagon(p, p.model, session.scheme(), ""));
             if (p.md() || p.lagrangian()) {
                 session.leave_out_of_case(scheme_names);
-                session.leave_out_of_case({"torques"});
+                session.leave_out_of_case({"torques", "kernel"});
             }
-            if (p.md()) session.leave_out_of_case({"kernel", "range", "formulation"});
+            if (p.md()) session.leave_out_of_case({"range", "formulation"});
             if (!p.lagrangian()) session.leave_out_of_case({"penalty"});
         } else {
             session.leave_out_of_case(scheme_options);

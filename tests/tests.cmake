@@ -22,6 +22,9 @@ spam_test(neighbors/ordering unit)
 spam_test(rhs/purity property)
 spam_test(rhs/pair_potential property)
 spam_test(rhs/fluid_model property)
+spam_test(rhs/fluid_transport property)
+spam_test(rhs/variable_range property)
+spam_test(rhs/density_potential_model property)
 spam_test(rhs/damped_model property)
 spam_test(rhs/total_lagrangian property)
 spam_test(rhs/total_lagrangian_contract unit)
@@ -70,7 +73,7 @@ if(NOT SPAM_LEVELS STREQUAL "generic")
     set_tests_properties(core.lanes.${level} PROPERTIES LABELS unit)
     set(tests core.lanes.${level})
     foreach(name rhs.oracle rhs.conservation rhs.purity rhs.pair_potential
-                 rhs.total_lagrangian
+                 rhs.density_potential_model rhs.total_lagrangian
                  neighbors.cluster_list)
       add_test(NAME ${name}.${level} COMMAND test.${name})
       set_tests_properties(${name}.${level} PROPERTIES LABELS property)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/sums.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
-#include <spam/kernel/lucy.hpp>
+#include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/stress_force.hpp>
 
@@ -37,7 +37,7 @@ std::vector<Record<2>> records(const SmoothParticleModel<2>& model, std::span<co
 PairTorques pair_torques(const SmoothParticleModel<2>& model, std::span<const double> y) {
     const Points<2> position = ConstState<2>(model.layout(), y).position();
     const auto particle = records(model, y, model.box().wrapped(position));
-    const Lucy<2> weight(model.scheme().range);
+    const GeneralWeight<2> weight(model.scheme().kernel, model.scheme().range);
     const PairList<2> list(position, model.scheme().range, model.box());
     PairTorques torques;
     std::vector<CompensatedSum> sums(particle.size());

@@ -107,7 +107,7 @@ const std::vector<std::string>& Problem::scheme_option_names() {
 void Problem::use_scheme(const Scheme& standard) {
     scheme_ = standard;
     options_.group("Weight function");
-    options_.choice<Kernel>("kernel", scheme_.kernel, {Kernel::lucy}, "weight function");
+    options_.choice<Kernel>("kernel", scheme_.kernel, all_kernels(), "weight function");
     options_.number("range", scheme_.range, "distance at which the weight function vanishes",
                     positive());
     options_.group("Scheme");

@@ -6,6 +6,7 @@
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/physics/fluid_record.hpp>
+#include <spam/physics/mean_density.hpp>
 #include <spam/rhs/fluid_model.hpp>
 
 #include <fmt/format.h>
@@ -52,19 +53,12 @@ void check(const Fluid& fluid, const FluidScheme& scheme, int dim) {
 }
 
 template <int Dim>
-FluidSweeps<Dim> best_sweeps(const Fluid& fluid, const FluidScheme& scheme) {
+FluidSweeps<Dim> best_sweeps(const Fluid& fluid) {
     return at_level(instruction_set(), [&](auto level) {
-        FluidSweeps<Dim> sweeps =
-            fluid_sweeps<Dim, level>(has_gradients(fluid), scheme.mean_density);
+        FluidSweeps<Dim> sweeps = fluid_sweeps<Dim, level>(has_gradients(fluid));
         sweeps.pack = pack_for<Dim, level>();
         return sweeps;
     });
-}
-
-template <int Dim>
-FluidInput<Dim> input(PackedParticles<Dim>& packed, const GeneralWeight<Dim>& weight,
-                      std::size_t stride) {
-    return {packed.list().view(), {packed.record(0), stride}, &weight, &packed.list().box()};
 }
 
 /// The largest k-space factor of a gradient sum, max over k of |sum_j (m_j/rho) (grad w) sin kx| in the
@@ -107,7 +101,7 @@ FluidModel<Dim>::FluidModel(Particles<Dim> particles, const Fluid& fluid, const 
       fluid_(fluid),
       scheme_(scheme),
       weight_(scheme.kernel, scheme.range),
-      sweeps_(std::make_unique<const FluidSweeps<Dim>>(best_sweeps<Dim>(fluid, scheme))),
+      sweeps_(std::make_unique<const FluidSweeps<Dim>>(best_sweeps<Dim>(fluid))),
       density_(this->particles().size()),
       pressure_(density_.size()),
       temperature_(density_.size()) {
@@ -119,7 +113,7 @@ FluidModel<Dim>::FluidModel(Particles<Dim> particles, const Fluid& fluid, const 
 
 template <int Dim>
 std::unique_ptr<PackedParticles<Dim>> FluidModel<Dim>::packed_with(ListUse use) const {
-    return std::make_unique<PackedParticles<Dim>>(scheme_.range, use, this->box(), sweeps_->width,
+    return std::make_unique<PackedParticles<Dim>>(weight_, use, this->box(), sweeps_->width,
                                                   stride(), sweeps_->pack);
 }
 
@@ -161,7 +155,8 @@ void FluidModel<Dim>::rates(double, std::span<const double> y, std::span<double>
     const State<Dim> rate(this->layout(), y_dot);
     if (!packed_->follow(this->particles().size(), fields(y)))
         return this->fail(y_dot, "a position is not finite");
-    const FluidInput<Dim> in = input(*packed_, weight_, stride());
+    SweepInput<Dim> in = packed_->input();
+    in.constants.mean_density = scheme_.mean_density;
     FluidOutput<Dim> out;
     if (rate.has(Field::density)) {
         std::copy_n(state.density().data(), density_.size(), density_.begin());
@@ -221,7 +216,8 @@ void FluidModel<Dim>::fill_records() {
         const std::size_t i = order[slot];
         double* const record = packed_->record(slot);
         if (gradients) {
-            record[GradientRecord<Dim>::rho_at] = density_[i];
+            record[GradientRecord<Dim>::rho_at] =
+                EitherMean::number(scheme_.mean_density, density_[i]);
             record[GradientRecord<Dim>::rho_at + 1] = temperature_[i];
         } else {
             record[InviscidRecord<Dim>::a_at] = pressure_[i] / (density_[i] * density_[i]);
@@ -258,7 +254,7 @@ std::vector<double> FluidModel<Dim>::summed_density(const Points<Dim>& x) const 
         return rho;
     FluidOutput<Dim> out;
     out.rho = rho.data();
-    sweeps_->density(input(*packed, weight_, stride()), out);
+    sweeps_->density(packed->input(), out);
     return rho;
 }
 
@@ -298,6 +294,12 @@ std::vector<double> FluidModel<Dim>::state(const Points<Dim>& position, const Po
     for (std::size_t i = 0; i < rho.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);
         const double e = fluid_.state.starting_energy(rho[i], T);
+        if (!std::isfinite(fluid_.state.pressure(rho[i], e)))
+            throw InputError(
+                fmt::format("equation of state: density {:.6g} and temperature {:g} of particle {} "
+                            "at the start are outside "
+                            "the law ({}); start thinner or warmer, or change its constants",
+                            rho[i], T, this->particles().id[i], fluid_.state.describe()));
         state.energy()(0, k) = e;
         if (state.has(Field::density)) state.density()(0, k) = rho[i];
         fastest = std::max({fastest, velocity.col(k).norm(), fluid_.state.sound_speed(rho[i], e)});

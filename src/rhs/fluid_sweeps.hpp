@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "pack.hpp"
-#include <spam/core/instruction_set.hpp>
-#include <spam/core/tensor.hpp>
-#include <spam/kernel/general_weight.hpp>
-#include <spam/neighbors/box.hpp>
-#include <spam/neighbors/cluster_view.hpp>
-#include <spam/physics/scheme.hpp>
+#include "sweeps.hpp"
 
 namespace spam {
 
-/// What the sweeps of FluidModel read ...
-template <int Dim>
-struct FluidInput {
-    ClusterView list;
-    Records records;  ///< InviscidRecord, or ConductingRecord filled in sweep by sweep
-    const GeneralWeight<Dim>* weight;
-    const Box<Dim>* box;
-};
-
-/// ... and write, by number of particle. What is null is not wanted.
+/// What the sweeps of FluidModel write, by number of particle. Their records are those of SweepInput,
+/// InviscidRecord, or ConductingRecord filled in sweep by sweep. What is null is not wanted.
 template <int Dim>
 struct FluidOutput {
     double* rho = nullptr;      ///< N, the summed density
@@ -36,7 +22,7 @@ struct FluidOutput {
 };
 
 template <int Dim>
-using FluidSweep = void (*)(const FluidInput<Dim>&, const FluidOutput<Dim>&);
+using FluidSweep = void (*)(const SweepInput<Dim>&, const FluidOutput<Dim>&);
 
 /// Compiled for an instruction set.
 template <int Dim>
@@ -50,6 +36,6 @@ struct FluidSweeps {
 
 /// Defined in fluid_sweeps.lanes.cpp for every level. `conducting`: with friction or conduction.
 template <int Dim, InstructionSet Level>
-FluidSweeps<Dim> fluid_sweeps(bool conducting, MeanDensityKind mean);
+FluidSweeps<Dim> fluid_sweeps(bool conducting);
 
 }  // namespace spam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_sweeps.hpp"
 
-#include <spam/neighbors/sweep.hpp>
+#include "sweep_clusters.hpp"
 #include <spam/physics/continuity.hpp>
 #include <spam/physics/density_sum.hpp>
 #include <spam/physics/fluid_record.hpp>
@@ -17,22 +17,10 @@ namespace {
 constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
 using T = LanesOf<W>;
 
-/// One sweep over the clusters [begin, end). Any weight function and any box: in a free direction
-/// the box takes off an exact zero.
-template <int Dim, class Record, class... Passes, class Store>
-SPAM_INLINE void sweep_fluid(const FluidInput<Dim>& in, std::size_t begin, std::size_t end,
-                             const Store& store_sums) {
-    const GeneralWeight<Dim> weight =
-        *in.weight;  // copies that no store can be suspected to change
-    const Box<Dim> box = *in.box;
-    sweep_block<W, Dim, Record, Passes...>(in.list, begin, end, weight, box, in.records,
-                                           store_sums);
-}
-
 template <int Dim>
-void density(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
+void density(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_fluid<Dim, InviscidRecord<Dim>, DensitySum>(
+        sweep_clusters<GeneralSweep, W, Dim, InviscidRecord<Dim>, DensitySum>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
                 for_each_lane<W>(in.list, slot,
                                  [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
@@ -40,13 +28,13 @@ void density(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
     });
 }
 
-template <int Dim, class Mean>
-void gradient(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
+template <int Dim>
+void gradient(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
         Mat<Dim> grad_v[clusters_per_block * W];
         Vec<Dim> grad_T[clusters_per_block * W];
-        sweep_fluid<Dim, GradientRecord<Dim>, VelocityGradient<Dim, Mean>,
-                    TemperatureGradient<Dim, Mean>>(
+        sweep_clusters<GeneralSweep, W, Dim, GradientRecord<Dim>, VelocityGradient<Dim, EitherMean>,
+                       TemperatureGradient<Dim, EitherMean>>(
             in, begin, end,
             [&](std::size_t slot, const auto&, const auto& velocity, const auto& temperature) {
                 const Mat<Dim, T> of_v = velocity.value();
@@ -64,7 +52,7 @@ void gradient(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
 
 /// Rates of the cluster that begins at `slot`.
 template <int Dim>
-SPAM_INLINE void store_rates(const FluidInput<Dim>& in, const FluidOutput<Dim>& out,
+SPAM_INLINE void store_rates(const SweepInput<Dim>& in, const FluidOutput<Dim>& out,
                              std::size_t slot, const Vec<Dim, T>& v_dot, const T& rho_dot,
                              const T& e_dot) {
     for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
@@ -76,9 +64,9 @@ SPAM_INLINE void store_rates(const FluidInput<Dim>& in, const FluidOutput<Dim>& 
 }
 
 template <int Dim>
-void inviscid_force(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
+void inviscid_force(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_fluid<Dim, InviscidRecord<Dim>, PressureForce<Dim>, Continuity>(
+        sweep_clusters<GeneralSweep, W, Dim, InviscidRecord<Dim>, PressureForce<Dim>, Continuity>(
             in, begin, end,
             [&](std::size_t slot, const auto&, const auto& force, const auto& continuity) {
                 store_rates(in, out, slot, force.v_dot, continuity.rho_dot, force.e_dot());
@@ -87,33 +75,31 @@ void inviscid_force(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
 }
 
 template <int Dim>
-void conducting_force(const FluidInput<Dim>& in, const FluidOutput<Dim>& out) {
+void conducting_force(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_fluid<Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>, Continuity>(
-            in, begin, end,
-            [&](std::size_t slot, const auto&, const auto& force, const auto& heat,
-                const auto& continuity) {
-                store_rates(in, out, slot, force.v_dot, continuity.rho_dot,
-                            T(force.e_dot() + heat.e_dot));
-            });
+        sweep_clusters<GeneralSweep, W, Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>,
+                       Continuity>(in, begin, end,
+                                   [&](std::size_t slot, const auto&, const auto& force,
+                                       const auto& heat, const auto& continuity) {
+                                       store_rates(in, out, slot, force.v_dot, continuity.rho_dot,
+                                                   T(force.e_dot() + heat.e_dot));
+                                   });
     });
 }
 
 }  // namespace
 
 template <int Dim, InstructionSet Level>
-FluidSweeps<Dim> fluid_sweeps(bool conducting, MeanDensityKind mean) {
+FluidSweeps<Dim> fluid_sweeps(bool conducting) {
     FluidSweeps<Dim> sweeps{W};
     sweeps.density = density<Dim>;
     sweeps.force = conducting ? conducting_force<Dim> : inviscid_force<Dim>;
-    if (conducting)
-        sweeps.gradient = mean == MeanDensityKind::arithmetic ? gradient<Dim, ArithmeticMean>
-                                                              : gradient<Dim, GeometricMean>;
+    if (conducting) sweeps.gradient = gradient<Dim>;
     return sweeps;
 }
 
-template FluidSweeps<1> fluid_sweeps<1, InstructionSet::SPAM_LEVEL>(bool, MeanDensityKind);
-template FluidSweeps<2> fluid_sweeps<2, InstructionSet::SPAM_LEVEL>(bool, MeanDensityKind);
-template FluidSweeps<3> fluid_sweeps<3, InstructionSet::SPAM_LEVEL>(bool, MeanDensityKind);
+template FluidSweeps<1> fluid_sweeps<1, InstructionSet::SPAM_LEVEL>(bool);
+template FluidSweeps<2> fluid_sweeps<2, InstructionSet::SPAM_LEVEL>(bool);
+template FluidSweeps<3> fluid_sweeps<3, InstructionSet::SPAM_LEVEL>(bool);
 
 }  // namespace spam

@@ -43,7 +43,7 @@ SPAM_INLINE Mat<Dim, T> read(const SweepInput<Dim>& in, const LagrangianOutput<D
 template <int Dim>
 void gradient(const SweepInput<Dim>& in, const LagrangianOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<W, Dim, ReferenceRecord<Dim>, DeformationGradient<Dim>>(
+        sweep_clusters<LucysSweep, W, Dim, ReferenceRecord<Dim>, DeformationGradient<Dim>>(
             in, begin, end, [&](std::size_t slot, const auto& i, const auto& sums) {
                 write<Dim>(in, out, slot, DeformedRecord<Dim>::F_at, sums.A * i.K);
             });
@@ -56,7 +56,7 @@ template <int Dim>
 void penalty(const SweepInput<Dim>& in, const LagrangianOutput<Dim>& out) {
     const T v_dot_factor = out.penalty * out.inverse_density, M_factor = -out.penalty;
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<W, Dim, DeformedRecord<Dim>, ZeroEnergyPenalty<Dim>>(
+        sweep_clusters<LucysSweep, W, Dim, DeformedRecord<Dim>, ZeroEnergyPenalty<Dim>>(
             in, begin, end, [&](std::size_t slot, const auto& i, const auto& sums) {
                 constexpr int at = StressedRecord<Dim>::B_at;
                 const Mat<Dim, T> P = read<Dim>(in, out, slot, at) + M_factor * sums.M;
@@ -71,7 +71,7 @@ void penalty(const SweepInput<Dim>& in, const LagrangianOutput<Dim>& out) {
 template <int Dim>
 void force(const SweepInput<Dim>& in, const LagrangianOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<W, Dim, StressedRecord<Dim>, ReferenceForce<Dim>>(
+        sweep_clusters<LucysSweep, W, Dim, StressedRecord<Dim>, ReferenceForce<Dim>>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
                 const Vec<Dim, T> v_dot = T(out.inverse_density) * sums.force;
                 for_each_lane<W>(in.list, slot, [&](int l, std::size_t n) {
@@ -85,7 +85,7 @@ void force(const SweepInput<Dim>& in, const LagrangianOutput<Dim>& out) {
 template <int Dim>
 void energy(const SweepInput<Dim>& in, const LagrangianOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<W, Dim, DeformedRecord<Dim>, PenaltyEnergy<Dim>>(
+        sweep_clusters<LucysSweep, W, Dim, DeformedRecord<Dim>, PenaltyEnergy<Dim>>(
             in, begin, end, [&](std::size_t slot, const auto& i, const auto& sums) {
                 const T value = T(out.penalty) * i.volume * sums.energy;
                 for_each_lane<W>(in.list, slot,

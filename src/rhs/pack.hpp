@@ -4,6 +4,7 @@
 #include <spam/core/instruction_set.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/neighbors/displacement.hpp>
+#include <spam/physics/scheme.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@ struct PackInput {
     const Box<Dim>* box;
     Displacement<Dim> displacement;
     std::size_t stride;
+    MeanDensityKind mean_density;
 };
 
 /// How many particles ...
@@ -29,7 +31,7 @@ struct PackCount {
     std::size_t invalid = 0;  ///< have a density that is not positive
 };
 
-/// Writes the records: x (wrapped), v, m, rho and A = sigma/rho^2 (physics/record.hpp). Without rho the
+/// Writes the records: x (wrapped), v, m, rho (or EitherMean's number) and A = sigma/rho^2 (physics/record.hpp). Without rho the
 /// last two are left alone; with `density_only` the others are.
 template <int Dim>
 using Pack = PackCount (*)(const PackInput<Dim>&, bool density_only, double* records);

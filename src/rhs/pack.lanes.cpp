@@ -3,6 +3,7 @@
 
 #include <spam/core/parallel.hpp>
 #include <spam/core/tensor.hpp>
+#include <spam/physics/mean_density.hpp>
 
 namespace spam {
 namespace {
@@ -12,7 +13,7 @@ template <int Dim>
                                                        double* record) {
     constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
     const double rho = in.rho[i], scale = 1.0 / (rho * rho);
-    record[2 * Dim + 1] = rho;
+    record[2 * Dim + 1] = EitherMean::number(in.mean_density, rho);
     for (std::size_t k = 0; k < n; ++k) record[2 * Dim + 2 + k] = scale * in.sigma[i * n + k];
     return static_cast<std::size_t>(!(rho > 0.0));
 }

@@ -24,6 +24,7 @@ std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_
     in.box = &list_.box();
     in.displacement = list_.displacement();
     in.stride = stride_;
+    in.mean_density = fields.mean_density;
     const PackCount count = make_records_(in, density_only, records_.data());
     invalid_ = count.invalid;
     return count.far;
@@ -84,7 +85,7 @@ template <int Dim>
 void PackedParticles<Dim>::choose_skin() {
     if (served_ < 8) share_ = std::min(1.25 * share_, most_share);
     if (served_ > 60) share_ = std::max(share_ / 1.25, least_share);
-    list_.set_skin(skin(range_, share_, list_.box()));
+    list_.set_skin(skin(weight_.range(), share_, list_.box()));
     served_ = 0;
 }
 

@@ -14,6 +14,7 @@ struct PackedFields {
     const double *x, *v, *m;        ///< v is not read for PointRecord
     const double* rho = nullptr;    ///< null where it is not part of the state
     const double* sigma = nullptr;  ///< D(D+1)/2 each
+    MeanDensityKind mean_density = MeanDensityKind::arithmetic;
 };
 
 enum class ListUse { once, again_and_again };
@@ -25,11 +26,11 @@ class PackedParticles {
   public:
     /// `stride`: numbers in a record; `make_records` writes them; the rest as for ClusterList. A list
     /// that is used again looks a little beyond the range, so that it lasts some right-hand sides.
-    PackedParticles(double range, ListUse use, const Box<Dim>& box, int width, std::size_t stride,
-                    Pack<Dim> make_records)
-        : list_(range, use == ListUse::once ? 0.0 : skin(range, first_share, box), box, width,
-                stride),
-          range_(range),
+    PackedParticles(const GeneralWeight<Dim>& weight, ListUse use, const Box<Dim>& box, int width,
+                    std::size_t stride, Pack<Dim> make_records)
+        : list_(weight.range(), use == ListUse::once ? 0.0 : skin(weight.range(), first_share, box),
+                box, width, stride),
+          weight_(weight),
           stride_(stride),
           make_records_(make_records) {}
 
@@ -45,7 +46,7 @@ class PackedParticles {
     const ClusterList<Dim>& list() const { return list_; }
     double* record(std::size_t slot) { return &records_[slot * stride_]; }
     SweepInput<Dim> input() const {
-        return {list_.view(), {records_.data(), stride_}, range_, &list_.box()};
+        return {list_.view(), {records_.data(), stride_}, weight_.range(), &list_.box(), &weight_};
     }
 
   private:
@@ -58,7 +59,7 @@ class PackedParticles {
     std::size_t pack(const PackedFields& fields, bool density_only);
 
     ClusterList<Dim> list_;
-    double range_;
+    GeneralWeight<Dim> weight_;
     std::size_t stride_;
     Pack<Dim> make_records_;
     std::vector<double> records_;  ///< by slot

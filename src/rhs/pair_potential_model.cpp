@@ -39,7 +39,7 @@ PairPotentialModel<Dim>::~PairPotentialModel() = default;
 template <int Dim>
 std::unique_ptr<PackedParticles<Dim>> PairPotentialModel<Dim>::packed_with(ListUse use) const {
     return std::make_unique<PackedParticles<Dim>>(
-        range_, use, this->box(), sweeps_->width,
+        GeneralWeight<Dim>(Kernel::lucy, range_), use, this->box(), sweeps_->width,
         static_cast<std::size_t>(PointRecord<Dim>::numbers), sweeps_->pack);
 }
 

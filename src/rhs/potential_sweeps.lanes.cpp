@@ -35,7 +35,7 @@ PackCount pack(const PackInput<Dim>& in, bool, double* records) {
 template <int Dim>
 void force(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<W, Dim, PointRecord<Dim>, PairPotential<Dim>>(
+        sweep_clusters<LucysSweep, W, Dim, PointRecord<Dim>, PairPotential<Dim>>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
                 for_each_lane<W>(in.list, slot, [&](int l, std::size_t i) {
                     store<Dim>(out.v_dot, i, l, sums.v_dot);
@@ -50,7 +50,7 @@ template <int Dim, InstructionSet Level>
 Sweeps<Dim> potential_sweeps() {
     Sweeps<Dim> sweeps{W};
     sweeps.pack = pack<Dim>;
-    sweeps.density = density_sweep<W, Dim, PointRecord<Dim>>;
+    sweeps.density = density_sweep<LucysSweep, W, Dim, PointRecord<Dim>>;
     sweeps.first = force<Dim>;
     return sweeps;
 }

@@ -7,7 +7,7 @@
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
-#include <spam/kernel/lucy.hpp>
+#include <spam/kernel/any_weight.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/physics/record.hpp>
@@ -122,7 +122,7 @@ ViscosityConstants SmoothParticleModel<Dim>::viscosity() {
     if (!(scheme_.viscosity > 0.0)) return {};
     const PairList<Dim> list(this->particles().reference_position, scheme_.range, this->box());
     double rho = 0.0, slope = 0.0;
-    const Lucy<Dim> weight(scheme_.range);
+    const auto weight = weight_function<Dim>(to_string(scheme_.kernel), scheme_.range);
     const auto& x = this->particles().reference_position;
     for (std::size_t i = 0; i < list.size(); ++i)
         for (const std::uint32_t j : list.neighbours(i)) {
@@ -156,7 +156,7 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
     if (!load(y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
     SweepInput<Dim> in = packed_->input();
-    in.viscosity = viscosity_;
+    in.constants = {scheme_.mean_density, viscosity_};
     SweepOutput<Dim> out;
     out.x_dot = rate.position().data();
     out.v_dot = rate.velocity().data();
@@ -176,6 +176,7 @@ void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::spa
     if (torques_) torques_->balance(groups(), out.x_dot, v);
     if (sweeps_->second != nullptr) {
         load_transport({out.x_dot, this->particles().size() * Dim});
+        if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
         sweeps_->second(in, out);
     }
     if (gauss_) gauss_->constrain(groups(), state.position().data(), out.x_dot, v, out.v_dot);
@@ -185,15 +186,18 @@ template <int Dim>
 std::unique_ptr<PackedParticles<Dim>> SmoothParticleModel<Dim>::packed_with(ListUse use) const {
     const int numbers =
         sweeps_->second != nullptr ? TransportRecord<Dim>::numbers : Record<Dim>::numbers;
-    return std::make_unique<PackedParticles<Dim>>(scheme_.range, use, this->box(), sweeps_->width,
+    return std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, scheme_.range),
+                                                  use, this->box(), sweeps_->width,
                                                   static_cast<std::size_t>(numbers), sweeps_->pack);
 }
 
 template <int Dim>
 PackedFields SmoothParticleModel<Dim>::fields(std::span<const double> y) const {
     const ConstState<Dim> state(this->layout(), y);
-    return {state.position().data(), state.velocity().data(), this->particles().mass.data(),
-            state.has(Field::density) ? state.density().data() : nullptr, state.stress().data()};
+    return {
+        state.position().data(),       state.velocity().data(),
+        this->particles().mass.data(), state.has(Field::density) ? state.density().data() : nullptr,
+        state.stress().data(),         scheme_.mean_density};
 }
 
 /// List and records for this state.

@@ -10,44 +10,64 @@
 namespace spam {
 inline namespace SPAM_LANES {
 
-/// In a periodic box: runs of clusters that have images for neighbours and runs that have none.
-template <int W, int Dim, class R, class... Passes, class Weight, class Store>
-[[gnu::flatten, gnu::noinline]] void sweep_runs(const SweepInput<Dim>& in, std::size_t begin,
-                                                std::size_t end, const Weight& weight,
-                                                const Store& store_sums,
-                                                const std::tuple<Passes...>& passes) {
-    const std::uint8_t* const direct = in.list.direct;
-    for (std::size_t next = begin; begin < end; begin = next) {
-        while (++next < end && direct[next] == direct[begin]) continue;
-        if (direct[begin] == 0)
-            sweep_block<W, Dim, R, Passes...>(in.list, begin, next, weight, *in.box, in.records,
-                                              store_sums, passes);
-        else
-            sweep_block<W, Dim, R, Passes...>(in.list, begin, next, weight, OpenSpace(), in.records,
-                                              store_sums, passes);
-    }
+/// sweep_block() in a function of its own: the loop has the registers to itself, and is compiled once
+/// wherever it is called from.
+template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
+[[gnu::flatten, gnu::noinline]] void sweep_run(const SweepInput<Dim>& in, std::size_t begin,
+                                               std::size_t end, const Weight& weight,
+                                               const Space& space, const Store& store_sums,
+                                               const std::tuple<Passes...>& passes) {
+    // Copies, which nothing outside can change: they save instructions in the loop.
+    const Weight own = weight;
+    const ClusterView list = in.list;
+    const Records records = in.records;
+    sweep_block<W, Dim, R, Passes...>(list, begin, end, own, space, records, store_sums, passes);
 }
 
 /// With its constants where it has any.
 template <class Pass, int Dim>
 Pass pass_of(const SweepInput<Dim>& in) {
-    if constexpr (requires { Pass::with(in.viscosity); })
-        return Pass::with(in.viscosity);
+    if constexpr (requires { Pass::with(in.constants); })
+        return Pass::with(in.constants);
     else
         return {};
 }
 
-/// sweep_block() with Lucy's weight function, looking for nearest images only where there are any.
-template <int W, int Dim, class R, class... Passes, class Store>
+/// Lucy's own formula, looking for nearest images only where there are any: in a periodic box runs of
+/// clusters that have images for neighbours and runs that have none. On a line looking costs less than
+/// compiling twice.
+struct LucysSweep {
+    template <int W, int Dim, class R, class... Passes, class Store>
+    static void run(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
+                    const Store& store, const std::tuple<Passes...>& passes) {
+        const Lucy<Dim> weight(in.range);
+        const std::uint8_t* const direct = in.list.direct;
+        for (std::size_t next = begin; begin < end; begin = next) {
+            next = direct == nullptr ? end : begin + 1;
+            while (next < end && direct[next] == direct[begin]) ++next;
+            if (Dim > 1 && (direct == nullptr || direct[begin] != 0))
+                sweep_run<W, Dim, R>(in, begin, next, weight, OpenSpace(), store, passes);
+            else
+                sweep_run<W, Dim, R>(in, begin, next, weight, *in.box, store, passes);
+        }
+    }
+};
+
+/// Any weight function, compiled once: nearest images are always looked for.
+struct GeneralSweep {
+    template <int W, int Dim, class R, class... Passes, class Store>
+    static void run(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
+                    const Store& store, const std::tuple<Passes...>& passes) {
+        sweep_run<W, Dim, R>(in, begin, end, *in.weight, *in.box, store, passes);
+    }
+};
+
+/// `Kind`: one of the two above.
+template <class Kind, int W, int Dim, class R, class... Passes, class Store>
 void sweep_clusters(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
                     const Store& store_sums) {
-    const Lucy<Dim> weight(in.range);
-    const std::tuple<Passes...> passes{pass_of<Passes>(in)...};
-    if (in.list.direct != nullptr)
-        sweep_runs<W, Dim, R, Passes...>(in, begin, end, weight, store_sums, passes);
-    else
-        sweep_block<W, Dim, R, Passes...>(in.list, begin, end, weight, OpenSpace(), in.records,
-                                          store_sums, passes);
+    Kind::template run<W, Dim, R>(in, begin, end, store_sums,
+                                  std::tuple<Passes...>{pass_of<Passes>(in)...});
 }
 
 template <int Dim, class T>
@@ -56,10 +76,10 @@ SPAM_INLINE void store(double* field, std::size_t i, int l, const Vec<Dim, T>& v
 }
 
 /// The density, summed, of all particles.
-template <int W, int Dim, class R>
+template <class Kind, int W, int Dim, class R>
 void density_sweep(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<W, Dim, R, DensitySum>(
+        sweep_clusters<Kind, W, Dim, R, DensitySum>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
                 for_each_lane<W>(in.list, slot,
                                  [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });

@@ -4,10 +4,11 @@
 #include "pack.hpp"
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/tensor.hpp>
+#include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/neighbors/cluster_view.hpp>
+#include <spam/physics/pass_constants.hpp>
 #include <spam/physics/scheme.hpp>
-#include <spam/physics/viscosity.hpp>
 
 namespace spam {
 
@@ -18,7 +19,8 @@ struct SweepInput {
     Records records;  ///< TransportRecord where there is a second sweep, else Record
     double range;     ///< of the weight function
     const Box<Dim>* box;
-    ViscosityConstants viscosity{};
+    const GeneralWeight<Dim>* weight = nullptr;  ///< not read by what is compiled for Lucy's
+    PassConstants constants{};
 };
 
 /// ... and write, by number of particle. What is null is not wanted.
@@ -26,7 +28,7 @@ template <int Dim>
 struct SweepOutput {
     double* x_dot = nullptr;            ///< Dim x N, the transport velocity
     double* v_dot = nullptr;            ///< Dim x N
-    double* rho_dot = nullptr;          ///< N
+    double* rho_dot = nullptr;          ///< N, continuity first, chain rule second
     double* e_dot = nullptr;            ///< N
     double* rho = nullptr;              ///< N, the summed density
     double* positive_torque = nullptr;  ///< N, TorqueSums
@@ -52,9 +54,14 @@ struct Sweeps {
     Sweep<Dim> second = nullptr;  ///< null where the first finds everything
 };
 
-/// Defined in sweeps.lanes.cpp for every level.
+/// The best there are, without `pack`. Defined in sweeps.lanes.cpp for every level.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> sweeps_of(const Scheme& scheme);
+
+/// For any scheme, with the weight function and the mean density chosen at run time, of records that
+/// hold EitherMean's number; in general_sweeps.lanes.cpp.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> general_sweeps(const Scheme& scheme);
 
 /// For PairPotentialModel, of PointRecord, in potential_sweeps.lanes.cpp.
 template <int Dim, InstructionSet Level>

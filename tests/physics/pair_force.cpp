@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // F_ij = -F_ji bit for bit, and the balance of pair torques.
+#include <spam/kernel/general_weight.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/physics/mean_density.hpp>
@@ -32,13 +33,12 @@ TransportRecord<Dim> random_record(std::mt19937_64& random) {
 }
 
 /// How often f(i, j) differs from -f(j, i) in any bit, of 10000 random pairs.
-template <int Dim, class Force>
-int asymmetric_pairs(const Force& force) {
+template <int Dim, class Force, class Weight = Lucy<Dim>>
+int asymmetric_pairs(const Force& force, const Weight& w = Weight(3.0)) {
     std::mt19937_64 random(31);
     int count = 0;
     for (int k = 0; k < 10000; ++k) {
         const auto i = random_record<Dim>(random), j = random_record<Dim>(random);
-        const Lucy<Dim> w(3.0);
         const auto ij = make_pair<Dim, double>(w, separation(Box<Dim>(), i.x, j.x), i, j);
         const auto ji = make_pair<Dim, double>(w, separation(Box<Dim>(), j.x, i.x), j, i);
         const auto f_ij = force(ij, i, j), f_ji = force(ji, j, i);
@@ -58,6 +58,11 @@ const auto balanced = [](const auto& pair, const auto& i, const auto& j) {
 const auto viscous = [](const auto& pair, const auto& i, const auto& j) {
     return ViscousForce<2, ArithmeticMean>{{0.4, 1.1, 1.3}}.force(pair, i, j);
 };
+auto viscous_with(MeanDensityKind kind) {
+    return [kind](const auto& pair, const auto& i, const auto& j) {
+        return ViscousForce<2, EitherMean>::with({kind, {0.4, 1.1, 1.3}}).force(pair, i, j);
+    };
+}
 // sigma/rho^2 of one particle only: momentum would drift.
 const auto one_sided = [](const auto& pair, const auto& i, const auto&) {
     return i.A * pair.grad_w;
@@ -71,6 +76,35 @@ BOOST_AUTO_TEST_CASE(forces_are_antisymmetric_bit_for_bit) {
     BOOST_TEST(asymmetric_pairs<2>(balanced) == 0);
     BOOST_TEST(asymmetric_pairs<2>(viscous) == 0);
     BOOST_TEST(asymmetric_pairs<2>(one_sided) > 9000);
+}
+
+BOOST_AUTO_TEST_CASE(forces_chosen_at_run_time_are_antisymmetric_bit_for_bit) {
+    for (const Kernel kernel : all_kernels()) {
+        const GeneralWeight<2> w(kernel, 3.0);
+        BOOST_TEST(asymmetric_pairs<2>(stress, w) == 0);
+        BOOST_TEST(asymmetric_pairs<2>(balanced, w) == 0);
+        BOOST_TEST(asymmetric_pairs<2>(viscous_with(MeanDensityKind::arithmetic), w) == 0);
+        BOOST_TEST(asymmetric_pairs<2>(viscous_with(MeanDensityKind::geometric), w) == 0);
+        BOOST_TEST(asymmetric_pairs<2>(one_sided, w) > 9000);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(either_mean_is_one_or_the_other) {
+    std::mt19937_64 random(35);
+    std::uniform_real_distribution<double> u(0.2, 3.0);
+    const auto arithmetic = MeanDensityKind::arithmetic, geometric = MeanDensityKind::geometric;
+    const auto over = [](MeanDensityKind kind, double number, double a, double b) {
+        return EitherMean::of(kind).over(number, EitherMean::number(kind, a),
+                                         EitherMean::number(kind, b));
+    };
+    for (int k = 0; k < 1000; ++k) {
+        const double m = u(random), a = u(random), b = u(random);
+        const double expected = ArithmeticMean::factor * ArithmeticMean::over(m, a, b);
+        BOOST_TEST(over(arithmetic, m, a, b) == expected);
+        BOOST_TEST(over(geometric, m, a, b) == m / std::sqrt(a * b),
+                   boost::test_tools::tolerance(1e-15));
+        BOOST_TEST(std::abs(over(geometric, m, a, b) - expected) > 0.0);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(viscosity_is_central_and_only_resists_approach) {

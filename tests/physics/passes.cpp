@@ -55,8 +55,8 @@ struct Cloud {
 /// A pass, with constants where it holds any.
 template <class Pass>
 Pass one() {
-    if constexpr (requires { Pass::with(ViscosityConstants{}); })
-        return Pass::with(ViscosityConstants{0.4, 1.1, 1.3});
+    if constexpr (requires { Pass::with(PassConstants{}); })
+        return Pass::with({MeanDensityKind::geometric, {0.4, 1.1, 1.3}});
     else
         return {};
 }
@@ -145,14 +145,14 @@ void every_pass() {
     every_width<Dim, Continuity>("continuity");
     every_width<Dim, ChainRuleContinuity>("chain rule");
     every_width<Dim, VelocityGradient<Dim, ArithmeticMean>>("velocity gradient");
-    every_width<Dim, VelocityGradient<Dim, GeometricMean>>("velocity gradient, geometric");
+    every_width<Dim, VelocityGradient<Dim, EitherMean>>("velocity gradient, geometric");
     every_width<Dim, PlainTransport<Dim>>("v");
     every_width<Dim, AverageTransport<Dim>>("<v>");
     every_width<Dim, MonaghanTransport<Dim, ArithmeticMean>>("<v>_Monaghan");
-    every_width<Dim, MonaghanTransport<Dim, GeometricMean>>("<v>_Monaghan, geometric");
+    every_width<Dim, MonaghanTransport<Dim, EitherMean>>("<v>_Monaghan, geometric");
     every_width<Dim, StressForce<Dim>>("stress force");
     every_width<Dim, ViscousForce<Dim, ArithmeticMean>>("viscous force");
-    every_width<Dim, ViscousForce<Dim, GeometricMean>>("viscous force, geometric");
+    every_width<Dim, ViscousForce<Dim, EitherMean>>("viscous force, geometric");
     if constexpr (Dim == 2) {
         every_width<Dim, TorqueSums>("torque sums");
         every_width<Dim, BalancedStressForce>("balanced stress force");

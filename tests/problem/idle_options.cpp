@@ -16,8 +16,8 @@ namespace {
 
 /// How to run, not what to compute; and an option with one legal value.
 const std::set<std::string> no_part_of_the_case{
-    "config",  "out",  "force",  "dry-run", "smoke",   "quiet", "help", "no-plots",
-    "threads", "jobs", "kernel", "version", "restart", "walls", "movie"};
+    "config",   "out",     "force", "dry-run", "smoke",   "quiet", "help",
+    "no-plots", "threads", "jobs",  "version", "restart", "walls", "movie"};
 
 /// What only shows when something happens that may not happen: said in the dry run at least.
 const std::set<std::string> waits_for_something{
@@ -39,6 +39,7 @@ const std::map<std::string, std::string> another_value{
     {"limit-momentum", "0.1"},
     {"limit-angular-momentum", "10"},
     {"limit-energy", "0.1"},
+    {"kernel", "w5"},
     {"range", "2.7"},
     {"density", "summed"},
     {"transport", "average"},
@@ -94,6 +95,14 @@ const std::map<std::string, std::string> another_value{
     {"dimension", "1"},
     {"particles", "196"},
     {"seed", "9"},
+    {"law", "lucy"},
+    {"perturbation", "1e-7"},
+    {"wave", "thermal"},
+    {"temperature", "1.3"},
+    {"conductivity", "0.7"},
+    {"equation-of-state", "van_der_waals"},
+    {"attraction", "0.3"},
+    {"excluded", "0.3"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -124,6 +133,9 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"free_expansion", {}},
     {"free_expansion", {"--dimension", "1"}},
     {"free_expansion", {"--compare"}},
+    {"isomorphism", {}},
+    {"diffusion_waves", {}},
+    {"diffusion_waves", {"--wave", "shear", "--equation-of-state", "van_der_waals"}},
     {"turns_survived", {}},
 };
 

@@ -238,6 +238,14 @@ BOOST_AUTO_TEST_CASE(states_outside_the_law_name_the_particle) {
 }
 
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
+    FluidModel<2> dense(jittered_particles<2>(8, 31), {VanDerWaals{0.5, 3.0, 2}}, {.range = 2.6});
+    const Points<2> x = dense.particles().reference_position;
+    try {
+        dense.state(x, Points<2>::Zero(2, x.cols()), 1.0);
+        BOOST_TEST(false);
+    } catch (const InputError& error) {
+        BOOST_TEST(says(error.what(), "at the start are outside the law (van der Waals"));
+    }
     const Fluid gas{IdealGas{}};
     BOOST_TEST(why_refused(gas, {.range = 2.6}).empty());
     BOOST_TEST(says(why_refused(gas, {.density = Density::chain_rule}), "density: chain_rule"));

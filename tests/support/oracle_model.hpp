@@ -23,7 +23,8 @@ enum class Mutation {
     half_list,            ///< pairs of i with later j only
     viscous_recession,    ///< viscosity that also holds back what separates
     printed_multipliers,  ///< Gauss' beta without its minus sign, as printed
-    absolute_position     ///< a force that knows where the origin is
+    absolute_position,    ///< a force that knows where the origin is
+    lucys_weight          ///< that weight function, whatever the scheme says
 };
 
 /// The equations of smooth particles written straight from the papers as loops over all pairs, with
@@ -84,19 +85,46 @@ class OracleModel final : public Model<Dim> {
     bool skip(int i, int j) const { return mutation_ == Mutation::half_list && j < i; }
 
     double weight(double r) const {
+        const double h = scheme_.range, u = r / h, pi = std::numbers::pi;
+        if (u >= 1.0) return 0.0;
+        if (spline()) {
+            const double A = amplitude();
+            return u < 0.5 ? A * (1.0 - 6.0 * u * u + 6.0 * u * u * u)
+                           : 2.0 * A * std::pow(1.0 - u, 3);
+        }
+        const int n = family();
+        const double C = Dim == 1   ? (n + 2) / (4.0 * h)
+                         : Dim == 2 ? (n + 2) * (n + 3) / (6.0 * pi * h * h)
+                                    : (n + 2) * (n + 3) * (n + 4) / (32.0 * pi * h * h * h);
+        return C * (1.0 + n * u) * std::pow(1.0 - u, n);
+    }
+    double slope(double r) const {  // w'
+        const double h = scheme_.range, u = r / h;
+        if (spline())
+            return amplitude() / h *
+                   (u < 0.5 ? -12.0 * u + 18.0 * u * u : -6.0 * (1.0 - u) * (1.0 - u));
+        const int n = family();  // from w itself
+        return weight(r) * (n / (h + n * r) - n / (h - r));
+    }
+    /// Monaghan's spline, [HH07] 3; else a member of the family w_n there.
+    bool spline() const {
+        return scheme_.kernel == Kernel::monaghan && mutation_ != Mutation::lucys_weight;
+    }
+    double amplitude() const {
         const double h = scheme_.range, pi = std::numbers::pi;
-        if (r >= h) return 0.0;
-        const double C = Dim == 1   ? 5.0 / (4.0 * h)
-                         : Dim == 2 ? 5.0 / (pi * h * h)
-                                    : 105.0 / (16.0 * pi * h * h * h);
-        return C * (1.0 + 3.0 * r / h) * std::pow(1.0 - r / h, 3);
+        return Dim == 1   ? 4.0 / (3.0 * h)
+               : Dim == 2 ? 40.0 / (7.0 * pi * h * h)
+                          : 8.0 / (pi * h * h * h);
+    }
+    int family() const {
+        if (scheme_.kernel == Kernel::lucy || mutation_ == Mutation::lucys_weight) return 3;
+        return to_string(scheme_.kernel).back() - '0';
     }
     V gradient(int i, int j) const {
         const V r = x_[at(i)] - x_[at(j)];
         const double h = scheme_.range, d = r.norm();
         if (d >= h || d == 0.0) return V::Zero();
-        // From w itself: w' = w (3/(h + 3r) - 3/(h - r)).
-        return weight(d) * (3.0 / (h + 3.0 * d) - 3.0 / (h - d)) / d * r;
+        return slope(d) / d * r;
     }
     double mean(int i, int j) const {
         return scheme_.mean_density == MeanDensityKind::arithmetic

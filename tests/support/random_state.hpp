@@ -70,7 +70,7 @@ inline double relative_difference(std::span<const double> a, std::span<const dou
 
 /// Every scheme that makes sense in Dim dimensions.
 template <int Dim>
-std::vector<Scheme> all_schemes() {
+std::vector<Scheme> all_schemes(Kernel kernel = Kernel::lucy) {
     std::vector<Scheme> schemes;
     for (const auto density : {Density::continuity, Density::summed, Density::chain_rule})
         for (const auto transport : {Transport::plain, Transport::average, Transport::monaghan})
@@ -87,6 +87,7 @@ std::vector<Scheme> all_schemes() {
                                            .mean_density = mean,
                                            .angular_momentum = L,
                                            .viscosity = viscosity,
+                                           .kernel = kernel,
                                            .range = 2.6});
                     }
     return schemes;

@@ -177,6 +177,19 @@ struct Lanes {
 };
 
 namespace detail {
+template <class Number>
+SPAM_INLINE Number rounded(Number x) {
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_assoc_barrier)
+    return __builtin_assoc_barrier(x);
+#endif
+#endif
+#if defined(__x86_64__)
+    __asm__("" : "+x"(x));
+#endif
+    return x;
+}
+
 template <int W>
 struct LaneType {
     using type = Lanes<W>;
@@ -205,6 +218,16 @@ SPAM_INLINE LanesOf<W> load_lanes(const double* from) {
 template <int W>
 SPAM_INLINE void store_lanes(double* to, const Lanes<W>& x) {
     __builtin_memcpy(to, &x.v, sizeof x.v);
+}
+
+/// x as a number of its own, where a product that becomes part of a fused operation would not be one.
+template <class T>
+SPAM_INLINE T rounded(const T& x) {
+    if constexpr (requires { x.v; }) {
+        return detail::rounded(x.v);
+    } else {
+        return detail::rounded(x);
+    }
 }
 
 SPAM_INLINE double sqrt_by_products(double x) { return std::sqrt(x); }

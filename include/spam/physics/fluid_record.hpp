@@ -40,7 +40,7 @@ struct GradientRecord {
     Vec<Dim, T> x;
     Vec<Dim, T> v;
     T m{};
-    T rho{};
+    T rho{};  ///< EitherMean's number (mean_density.hpp)
     T temperature{};
 
     template <class F>

@@ -3,20 +3,26 @@
 
 #include <spam/core/tensor.hpp>
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/pass_constants.hpp>
 
 namespace spam {
 
 /// (grad T)_i = sum_j m_j (T_j - T_i) grad_i w_ij / rho_ij, [HH07] 4.
 template <int Dim, class MeanDensity>
 struct TemperatureGradient {
+    [[no_unique_address]] MeanDensity mean{};
+    static TemperatureGradient with(const PassConstants& c) {
+        return {MeanDensity::of(c.mean_density)};
+    }
+
     template <class T>
     struct Sums {
         Vec<Dim, T> grad_T;  ///< by `factor`
         constexpr Vec<Dim, T> value() const { return T(MeanDensity::factor) * grad_T; }
     };
     template <class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T volume = j.m / MeanDensity::divisor(i.rho, j.rho);
+    void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        const T volume = mean.over(j.m, i.rho, j.rho);
         sums.grad_T += (volume * (j.temperature - i.temperature)) * pair.grad_w;
     }
 };

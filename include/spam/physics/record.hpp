@@ -37,7 +37,7 @@ struct Record {
     Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
     Vec<Dim, T> v;
     T m{};
-    T rho{};
+    T rho{};  ///< or what the mean density takes instead (mean_density.hpp, EitherMean)
     SymTensor<Dim, T>
         A;  ///< sigma/rho^2, stored: formed inside the pair, FMA would break F_ij = -F_ji
 

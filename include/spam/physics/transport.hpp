@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/pass_constants.hpp>
 
 /// The velocity u that moves the particles, r_dot = u. It is a field, never an edit of v: stress
 /// and energy go on using v.
@@ -45,13 +46,18 @@ struct AverageTransport {
 /// v and sum m u x v = 0.
 template <int Dim, class MeanDensity>
 struct MonaghanTransport {
+    [[no_unique_address]] MeanDensity mean{};
+    static MonaghanTransport with(const PassConstants& c) {
+        return {MeanDensity::of(c.mean_density)};
+    }
+
     template <class T>
     struct Sums {
         Vec<Dim, T> correction;  ///< by `factor`
     };
     template <class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T volume = j.m / MeanDensity::divisor(i.rho, j.rho);
+    void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        const T volume = mean.over(j.m, i.rho, j.rho);
         sums.correction += pair.w * (volume * pair.v_ji);
     }
     template <class T, class Record>

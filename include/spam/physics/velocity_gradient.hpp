@@ -3,6 +3,7 @@
 
 #include <spam/core/tensor.hpp>
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/pass_constants.hpp>
 
 namespace spam {
 
@@ -10,14 +11,19 @@ namespace spam {
 /// [HHM04] IX prints (v_i - v_j), which would contradict its own continuity equation.
 template <int Dim, class MeanDensity>
 struct VelocityGradient {
+    [[no_unique_address]] MeanDensity mean{};
+    static VelocityGradient with(const PassConstants& c) {
+        return {MeanDensity::of(c.mean_density)};
+    }
+
     template <class T>
     struct Sums {
         Mat<Dim, T> grad_v;  ///< by `factor`
         constexpr Mat<Dim, T> value() const { return T(MeanDensity::factor) * grad_v; }
     };
     template <class T, class Record>
-    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        const T volume = j.m / MeanDensity::divisor(i.rho, j.rho);
+    void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        const T volume = mean.over(j.m, i.rho, j.rho);
         const Vec<Dim, T> v = volume * pair.v_ji;
         for (int a = 0; a < Dim; ++a)
             for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) += pair.grad_w[a] * v[b];

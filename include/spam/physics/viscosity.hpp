@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/physics/pass_constants.hpp>
 #include <spam/physics/stress_force.hpp>
 
 namespace spam {
-
-/// Constants of the artificial viscosity: what a pass holds of them.
-struct ViscosityConstants {
-    double alpha = 0.0;
-    double sound_speed = 0.0;
-    double length = 0.0;  ///< half the range: what other codes call h
-};
 
 /// Von Neumann's artificial viscosity as a pair force, [HHM04] IV and IX; form of its reference [1],
 /// with the quadratic term twice the linear one. For approaching particles, v_ij . r_ij < 0,
@@ -24,15 +18,19 @@ struct ViscousForce {
     using Sums = ForceSums<Dim, T>;
 
     ViscosityConstants constants{};
-    static ViscousForce with(const ViscosityConstants& constants) { return {constants}; }
+    [[no_unique_address]] MeanDensity mean{};
+    static ViscousForce with(const PassConstants& c) {
+        return {c.viscosity, MeanDensity::of(c.mean_density)};
+    }
 
     template <class T, class Record>
     Vec<Dim, T> force(const Pair<Dim, T>& pair, const Record& i, const Record& j) const {
         const double l = constants.length;
         const T approach = positive_part(-dot(pair.v_ji, pair.r_ji));
         const T mu = T(l) * approach / (pair.r2 + T(0.01 * l * l));
-        const T Pi = T(constants.alpha * MeanDensity::factor) * mu *
-                     (T(constants.sound_speed) + T(2.0) * mu) / MeanDensity::divisor(i.rho, j.rho);
+        const T Pi = mean.over(T(constants.alpha * MeanDensity::factor) * mu *
+                                   (T(constants.sound_speed) + T(2.0) * mu),
+                               i.rho, j.rho);
         return -Pi * pair.grad_w;
     }
     template <class T, class Record>

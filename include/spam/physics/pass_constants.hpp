@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/physics/scheme.hpp>
+
+namespace spam {
+
+/// Constants of the artificial viscosity (viscosity.hpp).
+struct ViscosityConstants {
+    double alpha = 0.0;
+    double sound_speed = 0.0;
+    double length = 0.0;  ///< half the range: what other codes call h
+};
+
+/// What passes that hold constants are made from, by their with().
+struct PassConstants {
+    MeanDensityKind mean_density = MeanDensityKind::arithmetic;
+    ViscosityConstants viscosity{};
+};
+
+}  // namespace spam

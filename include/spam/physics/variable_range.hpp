@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/lanes.hpp>
+#include <spam/kernel/general_weight.hpp>
+#include <spam/neighbors/pair.hpp>
+
+/// Ranges that follow the density, h_i = eta (m_i/rho_i)^(1/D), so that every particle has about as many
+/// neighbours wherever the gas is thin. With the density of a particle summed with its own range,
+///     rho_i = sum_j m_j w(r_ij; h_i),
+/// the derivative of sum m e(rho) along a motion of particle i gives forces that are equal and opposite
+/// and central, and rates that keep m, p, L and sum m (e + v^2/2) for any equation of state:
+///     Omega_i   = 1 + (h_i/(D rho_i)) sum_j m_j dw/dh(r_ij; h_i)        ("grad-h")
+///     rho_dot_i = (1/Omega_i) sum_j m_j v_ij . grad_i w(r_ij; h_i),      e_dot_i = (P_i/rho_i^2) rho_dot_i
+///     v_dot_i   = -sum_j m_j (a_i grad_i w(r_ij; h_i) + a_j grad_i w(r_ij; h_j)),  a = P/(Omega rho^2)
+/// In terms of the weight function of range one, W(u), with -W'/u = S(u):
+///     w(r; h) = W(r/h)/h^D,   grad_i w = S(r/h)/h^(D+2) r_ji,   dw/dh = (u^2 S - D W)/h^(D+1)
+namespace spam {
+inline namespace SPAM_LANES {
+
+/// The first numbers are those of Record (record.hpp), so that the same code packs them.
+template <int Dim, class T = double>
+struct RangeRecord {
+    template <class U>
+    using With = RangeRecord<Dim, U>;
+    static constexpr int inverse_range_at = 2 * Dim + 1;
+    static constexpr int pull_at = inverse_range_at + 1;
+    static constexpr int numbers = pull_at + 1;
+
+    Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
+    Vec<Dim, T> v;
+    T m{};
+    T inverse_range{};  ///< 1/h
+    T pull{};           ///< a/h^(D+2)
+
+    template <class F>
+    constexpr void visit(const F& f) {
+        int k = 0;
+        for (T& c : x.c) f(c, k++);
+        for (T& c : v.c) f(c, k++);
+        f(m, k++);
+        f(inverse_range, k++);
+        f(pull, k++);
+    }
+};
+
+/// What Omega and rho_dot are made of: the particle's own range alone.
+template <int Dim>
+struct OwnRangeSums {
+    GeneralWeight<Dim> unit;  ///< of range 1
+
+    template <class T>
+    struct Sums {
+        T spread{};    ///< sum m_j (D W - u^2 S) = -h^(D+1) sum m_j dw/dh
+        T approach{};  ///< sum m_j S v_ji . r_ji
+    };
+    template <class T, class Record>
+    void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        const T u = pair.r * i.inverse_range;
+        const T S = unit.minus_slope_over_r(u);
+        sums.spread += j.m * (T(double(Dim)) * unit.value(u) - u * u * S);
+        sums.approach += j.m * S * dot(pair.v_ji, pair.r_ji);
+    }
+};
+
+/// Both ranges: the force of the pair, equal and opposite to the last bit.
+template <int Dim>
+struct BothRangesForce {
+    GeneralWeight<Dim> unit;
+
+    template <class T>
+    struct Sums {
+        Vec<Dim, T> v_dot;
+    };
+    template <class T, class Record>
+    void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        // Rounded before they are added: a product inside a fused operation would be another one seen
+        // from j.
+        const T own = rounded(i.pull * unit.minus_slope_over_r(pair.r * i.inverse_range));
+        const T other = rounded(j.pull * unit.minus_slope_over_r(pair.r * j.inverse_range));
+        sums.v_dot -= (j.m * (own + other)) * pair.r_ji;
+    }
+};
+
+}  // namespace SPAM_LANES
+}  // namespace spam

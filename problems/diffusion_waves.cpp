@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: heat and momentum diffuse through smooth particles, at rates known exactly; 1 s
+//
+// Newton's viscosity and Fourier's law in smooth particles, [HH07] 4, on a square lattice of cells x cells
+// particles of an ideal gas or of van der Waals' fluid, periodic in both directions:
+//
+//     thermal   T = T0 + amplitude sin kx, particles nailed down      T at k = 2 pi/cells
+//     shear     v_x = amplitude sin ky, particles free                ~~~~~>  <~~~~~
+//
+// Gradients of smooth particles are filters, and diffusion is two of them in turn: heat decays at
+// kappa k^2 c^2/(rho_s^3 c_v) instead of kappa k^2/(rho c_v), and the friction of a shear wave is smaller
+// by the same factor (diagnostics/diffusion_waves.hpp; physics.md 8: 0.9398 for 24 cells and h = 3). A
+// lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
+#include "diffusion_waves/frozen_model.hpp"
+#include <spam/diagnostics/diffusion_waves.hpp>
+#include <spam/io/gnuplot.hpp>
+#include <spam/material/ideal_gas.hpp>
+#include <spam/material/van_der_waals.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diffusion_waves {
+namespace {
+
+enum class Wave { both, thermal, shear };
+
+std::string_view to_string(Wave wave) {
+    return wave == Wave::both ? "both" : wave == Wave::thermal ? "thermal" : "shear";
+}
+
+enum class Matter { ideal_gas, van_der_waals };
+
+std::string_view to_string(Matter matter) {
+    return matter == Matter::ideal_gas ? "ideal_gas" : "van_der_waals";
+}
+
+struct Parameters {
+    Wave wave = Wave::both;
+    Matter matter = Matter::ideal_gas;
+    double attraction = 0.5, excluded = 0.2;  // a and b
+    int cells = 24;
+    double amplitude = 1e-4, temperature = 1.0, conductivity = 1.0, viscosity = 1.0;
+    FluidScheme scheme{};
+
+    double k() const { return 2.0 * std::numbers::pi / cells; }
+    SquareLatticeDiffusion exact() const {
+        return {weight_function<2>(to_string(scheme.kernel), scheme.range), k()};
+    }
+    AnyEquationOfState state() const {
+        if (matter == Matter::ideal_gas) return IdealGas{2, 1.0};
+        return VanDerWaals{attraction, excluded, 2};
+    }
+    /// Of amplitudes, without the filters.
+    double continuum_rate(Wave of) const {
+        return (of == Wave::thermal ? conductivity : viscosity) * k() * k();
+    }
+    /// What is left of the amplitude: by lattice sums.
+    double expected(Wave of, double t) const {
+        const SquareLatticeDiffusion lattice = exact();
+        if (of == Wave::thermal) return std::exp(-continuum_rate(of) * lattice.factor * t);
+        const double rho = lattice.site_density;
+        const double P = state().pressure(rho, state().starting_energy(rho, temperature));
+        return lattice.shear_wave(t, k(), viscosity, P);
+    }
+};
+
+constexpr double lattice_life = 60.0;
+
+struct Experiment {
+    Wave wave;
+    std::unique_ptr<Model<2>> model;
+    std::vector<double> y0;
+};
+
+Experiment prepare(const Parameters& p, Wave wave) {
+    const double side = p.cells;
+    const Box<2> box({side, side});
+    Fluid gas{p.state()};
+    if (wave == Wave::thermal)
+        gas.conduction = FourierConduction{p.conductivity};
+    else
+        gas.viscosity = NewtonViscosity::shear_and_bulk(p.viscosity, 0.0, 2);
+    auto model = std::make_unique<FluidModel<2>>(
+        make_particles<2>(square_lattice<2>({p.cells, p.cells}), 1.0, 1.0, box), gas, p.scheme,
+        box);
+    const Points<2> x = model->particles().reference_position;
+    Points<2> v = Points<2>::Zero(2, x.cols());
+    if (wave == Wave::shear) v.row(0) = p.amplitude * (p.k() * x.row(1).array()).sin();
+    Experiment e{wave, nullptr, model->state(x, v, p.temperature)};
+    if (wave == Wave::shear) {
+        e.model = std::move(model);
+        return e;
+    }
+    State<2>(model->layout(), e.y0).energy().array() +=
+        p.amplitude * (p.k() * x.row(0).array()).sin();  // c_v = 1
+    e.model = std::make_unique<FrozenModel>(std::move(model));
+    return e;
+}
+
+/// The sine in the temperature (that is in e) or the velocity, by its value at the start.
+Column<2> amplitude_column(const Parameters& p, Wave wave) {
+    return {
+        "amplitude",
+        [k = p.k(), start = p.amplitude, wave](const Model<2>& model, std::span<const double> y) {
+            const ConstState<2> state(model.layout(), y);
+            const auto n = static_cast<double>(model.particles().size());
+            const int along = wave == Wave::thermal ? 0 : 1;
+            const Eigen::ArrayXd sine = (k * state.position().row(along).array()).sin().transpose();
+            const Eigen::ArrayXd field = wave == Wave::thermal
+                                             ? Eigen::ArrayXd(state.energy().row(0).transpose())
+                                             : Eigen::ArrayXd(state.velocity().row(0).transpose());
+            return 2.0 / n * (sine * field).sum() / start;
+        }};
+}
+
+void report(Session& session, const Parameters& p, Wave wave, const RunRecord& run,
+            const std::string& prefix) {
+    session.check_promises(run, prefix);
+    const History& h = run.history;
+    const double t = h.last("t"), left = h.last("amplitude");
+    // Amplitudes displace particles by amplitude/rate; a spring is one as long as w'' does not jump; and
+    // springs that push grow shorter waves out of rounding until the lattice, which has no strength,
+    // leaves its sites.
+    const bool small =
+        wave == Wave::thermal || (p.amplitude / p.continuum_rate(wave) < 0.01 &&
+                                  p.scheme.kernel != Kernel::w2 && t <= lattice_life);
+    session.check({prefix + "amplitude_left", left,
+                   small ? std::optional(p.expected(wave, t)) : std::nullopt,
+                   wave == Wave::thermal ? 1e-6 : 1e-4, "lattice sums, physics.md 8"});
+    if (wave == Wave::thermal)
+        session.check({prefix + "rate_by_continuum", -std::log(left) / (t * p.continuum_rate(wave)),
+                       p.exact().factor, 1e-4,
+                       "c^2/rho_s^3, physics.md 8: 0.9398 for 24 cells, h = 3"});
+    session.check({prefix + "amplitude_left_in_continuum",
+                   std::exp(-p.continuum_rate(wave) * t),
+                   {},
+                   0.0,
+                   "for comparison"});
+}
+
+void draw(Session& session, const Parameters& p, const std::vector<Experiment>& experiments,
+          const std::vector<RunRecord>& runs) {
+    std::vector<CurvePanel> panels;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const Wave wave = experiments[k].wave;
+        const auto t = runs[k].history.column("t");
+        CurvePanel panel{wave == Wave::thermal ? "temperature, particles nailed down"
+                                               : "shear wave, particles free",
+                         "t",
+                         "amplitude by its start",
+                         true,
+                         {}};
+        Curve lattice{.title = "lattice sums", .x = t, .y = {}};
+        Curve continuum{.title = "continuum", .x = t, .y = {}};
+        for (const double time : t) {
+            lattice.y.push_back(p.expected(wave, time));
+            continuum.y.push_back(std::exp(-p.continuum_rate(wave) * time));
+        }
+        Curve measured{.title = "smooth particles", .x = {}, .y = {}, .mark = Mark::points};
+        for (std::size_t row = 0; row < t.size(); row += std::max<std::size_t>(1, t.size() / 24)) {
+            measured.x.push_back(t[row]);
+            measured.y.push_back(runs[k].history.column("amplitude")[row]);
+        }
+        panel.curves = {lattice, continuum, measured};
+        panels.push_back(panel);
+    }
+    session.note_drawn(draw_curves(
+        session.plots_folder(), "decay",
+        fmt::format("{0} × {0} smooth particles, range {1:g}", p.cells, p.scheme.range), panels));
+}
+
+void refuse_contradictions(const Options& options, const Parameters& p) {
+    const auto refuse = [&](const char* name, Wave wave) {
+        if (p.wave == wave && options.given(name))
+            throw InputError(
+                fmt::format("{}: has no part in a {} wave; leave it out", name, to_string(wave)));
+    };
+    refuse("conductivity", Wave::shear);
+    refuse("viscosity", Wave::thermal);
+    if (p.matter == Matter::ideal_gas)
+        if (const auto name = options.first_given({"attraction", "excluded"}); !name.empty())
+            throw InputError(fmt::format(
+                "{}: an ideal gas has none; add --equation-of-state van_der_waals, or leave it out",
+                name));
+    if (p.cells <= 2.0 * p.scheme.range)
+        throw InputError(fmt::format(
+            "cells: a box of {} must be wider than twice the range {:g}; give at least {} "
+            "cells, or a shorter --range",
+            p.cells, p.scheme.range, static_cast<int>(2.0 * p.scheme.range) + 1));
+    if (p.wave != Wave::shear && p.amplitude >= p.temperature)
+        throw InputError(
+            fmt::format("amplitude: {:g} takes the temperature {:g} below zero; give a smaller one",
+                        p.amplitude, p.temperature));
+}
+
+}  // namespace
+}  // namespace diffusion_waves
+
+int main(int argc, char** argv) {
+    using namespace diffusion_waves;
+    Problem problem("diffusion_waves",
+                    "heat and momentum diffuse through smooth particles, [HH07] 4");
+    Parameters p;
+    auto& options = problem.options();
+    options.choice<Wave>("wave", p.wave, {Wave::both, Wave::thermal, Wave::shear}, "which");
+    options.integer("cells", p.cells, "n x n particles at spacing 1, one wavelength",
+                    between(4, 2000));
+    options.number("amplitude", p.amplitude, "of temperature and velocity at the start",
+                   positive());
+    options.number("temperature", p.temperature, "of the fluid at the start", positive());
+    options.choice<Matter>("equation-of-state", p.matter,
+                           {Matter::ideal_gas, Matter::van_der_waals}, "of the fluid");
+    options.number("attraction", p.attraction, "a of van der Waals", non_negative());
+    options.number("excluded", p.excluded, "b of van der Waals, a volume by mass", non_negative());
+    options.number("conductivity", p.conductivity, "kappa", positive());
+    options.number("viscosity", p.viscosity, "shear viscosity eta; no bulk viscosity", positive());
+    options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
+                            "sum over neighbours, or continuity equation");
+    options.choice<MeanDensityKind>("mean-density", p.scheme.mean_density,
+                                    {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
+                                    "of pairs, in gradients");
+    options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
+    options.number("range", p.scheme.range, "its range h", between(1.2, 20.0));
+
+    return problem.main(argc, argv, [&](Session& session) {
+        refuse_contradictions(options, p);
+        if (p.matter == Matter::ideal_gas) session.leave_out_of_case({"attraction", "excluded"});
+        if (p.wave == Wave::thermal) session.leave_out_of_case({"viscosity"});
+        if (p.wave == Wave::shear) session.leave_out_of_case({"conductivity"});
+        std::vector<Experiment> experiments;
+        for (const Wave wave : {Wave::thermal, Wave::shear})
+            if (p.wave == wave || p.wave == Wave::both) experiments.push_back(prepare(p, wave));
+        const bool single = experiments.size() == 1;
+        std::vector<Case<2>> cases;
+        for (auto& e : experiments) {
+            Plan<2> plan;
+            const double life = 1.0 / p.continuum_rate(e.wave);
+            plan.t_end = session.common().t_end.value_or(session.common().smoke ? 0.1 * life
+                                                         : e.wave == Wave::thermal
+                                                             ? 3.0 * life
+                                                             : std::min(3.0 * life, lattice_life));
+            plan.columns = {amplitude_column(p, e.wave)};
+            cases.push_back(
+                {*e.model, e.y0, std::move(plan), single ? "" : std::string(to_string(e.wave))});
+        }
+        const auto runs = session.run_all(std::move(cases));
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            report(session, p, experiments[k].wave, runs[k], single ? "" : runs[k].label + "_");
+        if (session.plots()) draw(session, p, experiments, runs);
+    });
+}

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../core/levels.hpp"
+#include "packed_particles.hpp"
+#include "range_sweeps.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/neighbors/pair_list.hpp>
+#include <spam/physics/variable_range.hpp>
+#include <spam/rhs/variable_range_model.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+double power(double h) {
+    double p = h;
+    for (int a = 1; a < Dim; ++a) p *= h;
+    return p;
+}
+
+template <int Dim>
+RangeSweeps<Dim> best_sweeps() {
+    return at_level(instruction_set(), [](auto level) {
+        RangeSweeps<Dim> sweeps = range_sweeps<Dim, level>();
+        sweeps.pack = pack_for<Dim, level>();
+        return sweeps;
+    });
+}
+
+/// Masses and distances of one particle's neighbours.
+struct Surroundings {
+    std::vector<double> mass, r;
+};
+
+/// The h at which sum_j m_j W(r_j/h) is `wanted`; it grows with h. By Newton's method, kept between
+/// bounds. Infinite where it lies beyond `most`.
+template <int Dim>
+double solve_range(const Surroundings& near, const GeneralWeight<Dim>& unit, double wanted,
+                   double start, double most) {
+    const auto sums = [&](double h) {
+        double value = -wanted, slope = 0.0;
+        for (std::size_t k = 0; k < near.r.size(); ++k) {
+            const double u = near.r[k] / h;
+            value += near.mass[k] * unit.value(u);
+            slope += near.mass[k] * u * u * unit.minus_slope_over_r(u) / h;
+        }
+        return std::pair(value, slope);
+    };
+    if (sums(most).first < 0.0) return std::numeric_limits<double>::infinity();
+    double low = 0.0, high = most, h = std::min(start, most);
+    for (int step = 0; step < 200; ++step) {
+        const auto [value, slope] = sums(h);
+        (value < 0.0 ? low : high) = h;
+        double next = slope > 0.0 ? h - value / slope : low;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        if (std::abs(next - h) <= 1e-15 * h) return next;
+        h = next;
+    }
+    return h;
+}
+
+}  // namespace
+
+std::string VariableRangeScheme::describe() const {
+    return fmt::format("{} weight of range {} (m/rho)^(1/D){}", to_string(kernel), range,
+                       without_gradients ? ", gradients of the range left out" : "");
+}
+
+template <int Dim>
+VariableRangeModel<Dim>::~VariableRangeModel() = default;
+
+template <int Dim>
+VariableRangeModel<Dim>::VariableRangeModel(Particles<Dim> particles, const Fluid& fluid,
+                                            const VariableRangeScheme& scheme, const Box<Dim>& box)
+    : Model<Dim>(std::move(particles), box,
+                 {Field::position, Field::velocity, Field::density, Field::energy}),
+      fluid_(fluid),
+      scheme_(scheme),
+      unit_(scheme.kernel, 1.0),
+      sweeps_(std::make_unique<const RangeSweeps<Dim>>(best_sweeps<Dim>())),
+      range_(this->particles().size()),
+      pressure_(range_.size()),
+      pull_(range_.size()) {
+    const double least = std::pow(unit_.value(0.0), 1.0 / Dim);
+    if (!(scheme.range > least) || !std::isfinite(scheme.range))
+        throw InputError(
+            fmt::format("range: {:g} must be above {:.4g} for the {} weight, or a particle alone "
+                        "would have the density that "
+                        "its range asks for; 2 to 4 are usual",
+                        scheme.range, least, to_string(scheme.kernel)));
+    if (fluid.viscosity || fluid.conduction)
+        throw InputError(
+            "range: ranges that follow the density are for fluids without friction and conduction; "
+            "use "
+            "one range for all");
+}
+
+template <int Dim>
+double VariableRangeModel<Dim>::range_of(std::size_t i, double rho) const {
+    const double volume = this->particles().mass[i] / rho;
+    if constexpr (Dim == 1) return scheme_.range * volume;
+    if constexpr (Dim == 2) return scheme_.range * std::sqrt(volume);
+    return scheme_.range * std::cbrt(volume);
+}
+
+/// Half of the shortest periodic length.
+template <int Dim>
+double VariableRangeModel<Dim>::most_range() const {
+    double most = std::numeric_limits<double>::infinity();
+    for (int a = 0; a < Dim; ++a)
+        if (this->box().periodic(a)) most = std::min(most, 0.5 * this->box().length(a));
+    return most;
+}
+
+/// range_ and reach_. Returns whether they make sense.
+template <int Dim>
+bool VariableRangeModel<Dim>::find_ranges(std::span<const double> y, std::span<double> y_dot) {
+    const auto rho = ConstState<Dim>(this->layout(), y).density();
+    std::size_t widest = 0;
+    for (std::size_t i = 0; i < range_.size(); ++i) {
+        const double r = rho(0, static_cast<Eigen::Index>(i));
+        if (!(r > 0.0)) {
+            this->fail(y_dot, fmt::format("density {} of particle {} is not positive", r,
+                                          this->particles().id[i]));
+            return false;
+        }
+        range_[i] = range_of(i, r);
+        if (range_[i] > range_[widest]) widest = i;
+    }
+    reach_ = range_[widest];
+    if (reach_ < most_range()) return true;
+    this->fail(y_dot, fmt::format("range {:g} of particle {} has grown to half of the periodic box",
+                                  reach_, this->particles().id[widest]));
+    return false;
+}
+
+/// A list that reaches as far as the longest range, and some way further as long as ranges grow.
+template <int Dim>
+void VariableRangeModel<Dim>::make_room() {
+    if (packed_ && reach_ <= packed_reach_ && reach_ > 0.7 * packed_reach_) return;
+    packed_reach_ = std::min(1.1 * reach_, 0.5 * (reach_ + most_range()));
+    packed_ = std::make_unique<PackedParticles<Dim>>(
+        GeneralWeight<Dim>(scheme_.kernel, packed_reach_), ListUse::again_and_again, this->box(),
+        sweeps_->width, static_cast<std::size_t>(RangeRecord<Dim>::numbers), sweeps_->pack);
+}
+
+template <int Dim>
+template <class Fill>
+void VariableRangeModel<Dim>::fill(const Fill& fill) {
+    const auto order = packed_->list().order();
+    parallel_for(order.size(),
+                 [&](std::size_t slot) { fill(std::size_t{order[slot]}, packed_->record(slot)); });
+}
+
+template <int Dim>
+void VariableRangeModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+    this->failure_.clear();
+    if (!find_ranges(y, y_dot)) return;
+    make_room();
+    const ConstState<Dim> state(this->layout(), y);
+    const State<Dim> rate(this->layout(), y_dot);
+    const std::size_t n = range_.size();
+    if (!packed_->follow(
+            n, {state.position().data(), state.velocity().data(), this->particles().mass.data()}))
+        return this->fail(y_dot, "a position is not finite");
+    fill([&](std::size_t i, double* record) {
+        record[RangeRecord<Dim>::inverse_range_at] = 1.0 / range_[i];
+    });
+    const RangeInput<Dim> in{packed_->list().view(),
+                             {packed_->record(0), std::size_t{RangeRecord<Dim>::numbers}},
+                             &unit_,
+                             &this->box()};
+    RangeOutput<Dim> out{rate.energy().data(), rate.density().data(), rate.velocity().data()};
+    sweeps_->own_sums(in, out);
+
+    const std::span<const double> rho{state.density().data(), n}, e{state.energy().data(), n};
+    fluid_.state.pressures(rho, e, pressure_);
+    double* const spread = rate.energy().data();  // until they are the rates
+    double* const approach = rate.density().data();
+    const std::size_t bad = parallel_count(n, [&](std::size_t i) {
+        const double h = range_[i], volume = power<Dim>(h);
+        const double Omega =
+            scheme_.without_gradients ? 1.0 : 1.0 - spread[i] / (Dim * rho[i] * volume);
+        const double per_range = 1.0 / (volume * h * h * Omega);
+        const double P_rho2 = pressure_[i] / (rho[i] * rho[i]);
+        pull_[i] = P_rho2 * per_range;
+        const double rho_dot = -approach[i] * per_range;
+        approach[i] = rho_dot;
+        spread[i] = P_rho2 * rho_dot;
+        return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0)};
+    });
+    if (bad > 0) {
+        std::size_t i = 0;
+        while (std::isfinite(pressure_[i]) && i + 1 < n) ++i;
+        return this->fail(
+            y_dot,
+            fmt::format("density {} and energy {} of particle {} are outside the law ({}), or its "
+                        "range changes the wrong way",
+                        rho[i], e[i], this->particles().id[i], fluid_.state.describe()));
+    }
+    fill([&](std::size_t i, double* record) { record[RangeRecord<Dim>::pull_at] = pull_[i]; });
+    sweeps_->force(in, out);
+    rate.position() = state.velocity();
+}
+
+template <int Dim>
+std::vector<double> VariableRangeModel<Dim>::solve_densities(const Points<Dim>& position) const {
+    const auto& mass = this->particles().mass;
+    const Points<Dim> x = this->box().wrapped(position);
+    const double start = scheme_.range * this->particles().spacing, most = most_range();
+    std::vector<double> rho(mass.size());
+    bool found = false;
+    for (double reach = 1.2 * start; !found; reach *= 1.5) {
+        const double look = std::min(reach, 0.999 * most);
+        const PairList<Dim> list(x, look, this->box());
+        found = true;
+        for (std::size_t i = 0; i < rho.size() && found; ++i) {
+            Surroundings near;
+            for (const std::uint32_t j : list.neighbours(i)) {
+                Point<Dim> r = x.col(j) - x.col(static_cast<Eigen::Index>(i));
+                for (int a = 0; a < Dim; ++a) r[a] = this->box().nearest_image(a, r[a]);
+                near.mass.push_back(mass[j]);
+                near.r.push_back(r.norm());
+            }
+            const double h =
+                solve_range<Dim>(near, unit_, mass[i] * power<Dim>(scheme_.range), start, look);
+            found = std::isfinite(h);
+            rho[i] = mass[i] * power<Dim>(scheme_.range / h);
+        }
+        if (!found && (look < reach || reach > 1e6 * start))
+            throw InputError(
+                fmt::format("range: with {:g} (m/rho)^(1/D) a particle finds too few neighbours "
+                            "within half of the "
+                            "periodic box; enlarge the box or shorten --range",
+                            scheme_.range));
+    }
+    return rho;
+}
+
+template <int Dim>
+std::vector<double> VariableRangeModel<Dim>::state(const Points<Dim>& position,
+                                                   const Points<Dim>& velocity, double T) {
+    std::vector<double> y(this->layout().size(), 0.0);
+    const State<Dim> state(this->layout(), y);
+    state.position() = position;
+    state.velocity() = velocity;
+    const auto rho = solve_densities(position);
+    double fastest = 0.0, most = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        const double e = fluid_.state.starting_energy(rho[i], T);
+        state.energy()(0, k) = e;
+        state.density()(0, k) = rho[i];
+        fastest = std::max({fastest, velocity.col(k).norm(), fluid_.state.sound_speed(rho[i], e)});
+        most = std::max(most, std::abs(e));
+        mean += rho[i] / static_cast<double>(rho.size());
+    }
+    if (!(fastest > 0.0)) fastest = 1.0;
+    this->layout().set_scale(Field::position, this->particles().spacing);
+    this->layout().set_scale(Field::velocity, fastest);
+    this->layout().set_scale(Field::density, mean);
+    this->layout().set_scale(Field::energy, std::max(most, fastest * fastest));
+    return y;
+}
+
+template <int Dim>
+std::vector<double> VariableRangeModel<Dim>::ranges(std::span<const double> y) const {
+    const auto rho = ConstState<Dim>(this->layout(), y).density();
+    std::vector<double> h(range_.size());
+    for (std::size_t i = 0; i < h.size(); ++i)
+        h[i] = range_of(i, rho(0, static_cast<Eigen::Index>(i)));
+    return h;
+}
+
+template <int Dim>
+double VariableRangeModel<Dim>::internal_energy(std::span<const double> y) const {
+    const auto e = ConstState<Dim>(this->layout(), y).energy();
+    CompensatedSum sum;
+    for (Eigen::Index i = 0; i < e.cols(); ++i)
+        sum += this->particles().mass[static_cast<std::size_t>(i)] * e(0, i);
+    return sum;
+}
+
+template <int Dim>
+Promises VariableRangeModel<Dim>::promises() const {
+    Promises promises;
+    if (!this->box().periodic()) promises.angular_momentum = Promise::integrator_error;
+    return promises;
+}
+
+template <int Dim>
+void VariableRangeModel<Dim>::remember(Archive& archive) {
+    Model<Dim>::remember(archive);
+    if (archive.reading()) packed_.reset();
+}
+
+template <int Dim>
+std::size_t VariableRangeModel<Dim>::pairs() const {
+    return packed_ ? packed_->list().pairs() : 0;
+}
+
+template <int Dim>
+std::string VariableRangeModel<Dim>::describe() const {
+    return fmt::format("fluid of smooth particles, {}: density integrated, {}", fluid_.describe(),
+                       scheme_.describe());
+}
+
+template class VariableRangeModel<1>;
+template class VariableRangeModel<2>;
+template class VariableRangeModel<3>;
+
+}  // namespace spam

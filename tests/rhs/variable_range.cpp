@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles whose ranges follow their densities: densities and ranges that belong to each other, forces that
+// derive from the energy, everything kept; and what is lost where the gradients of the range are left
+// out, as older codes do.
+#include "support/random_state.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/kernel/any_weight.hpp>
+#include <spam/material/ideal_gas.hpp>
+#include <spam/material/isentropic_gas.hpp>
+#include <spam/material/lucy_gas.hpp>
+#include <spam/rhs/fluid_model.hpp>
+#include <spam/rhs/variable_range_model.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam;
+using namespace spam::test;
+
+namespace {
+
+/// Thinned out towards the right: densities of one to about a half of it.
+template <int Dim>
+Points<Dim> thinned(const Points<Dim>& x) {
+    Points<Dim> y = x;
+    for (Eigen::Index i = 0; i < y.cols(); ++i) y(0, i) *= 1.0 + 0.04 * x(0, i);
+    return y;
+}
+
+template <int Dim>
+VariableRangeModel<Dim> gas(int cells, const Fluid& fluid, VariableRangeScheme scheme,
+                            const Box<Dim>& box = {}) {
+    auto particles = jittered_particles<Dim>(cells, 91, 0.15, box);
+    if (!box.periodic()) particles.reference_position = thinned<Dim>(particles.reference_position);
+    return {std::move(particles), fluid, scheme, box};
+}
+
+template <int Dim>
+std::vector<double> start(VariableRangeModel<Dim>& model, unsigned seed) {
+    const auto& x = model.particles().reference_position;
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> g;
+    Points<Dim> v(Dim, x.cols());
+    for (auto& c : v.reshaped()) c = g(random);
+    return model.state(x, v, 1.3);
+}
+
+/// |d/dt sum m (e + v^2/2)| and |d/dt sum m v|, relative to the sizes of their parts.
+template <int Dim>
+std::pair<double, double> unbalanced(VariableRangeModel<Dim>& model, const std::vector<double>& y) {
+    const auto y_dot = rates_of(model, y);
+    const ConstState<Dim> state(model.layout(), y), rate(model.layout(), y_dot);
+    CompensatedSum energy;
+    Point<Dim> momentum = Point<Dim>::Zero();
+    double size = 0.0, push = 0.0;
+    for (Eigen::Index i = 0; i < state.energy().cols(); ++i) {
+        const double m = model.particles().mass[static_cast<std::size_t>(i)];
+        const double power = m * state.velocity().col(i).dot(rate.velocity().col(i));
+        energy += m * rate.energy()(0, i);
+        energy += power;
+        size += std::abs(m * rate.energy()(0, i)) + std::abs(power);
+        momentum += m * rate.velocity().col(i);
+        push += m * rate.velocity().col(i).norm();
+    }
+    return {std::abs(energy) / size, momentum.norm() / push};
+}
+
+/// The largest |v_dot_i + (1/m_i) d/dr_i sum m e(rho)| relative to the largest v_dot, over some i, with
+/// densities solved anew: what the forces should be the derivatives of.
+template <int Dim>
+double force_error(VariableRangeModel<Dim>& model, std::vector<double> y) {
+    const auto y_dot = rates_of(model, y);
+    const ConstState<Dim> rate(model.layout(), y_dot);
+    const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
+    const auto& m = model.particles().mass;
+    const auto potential = [&](const Points<Dim>& at) {
+        CompensatedSum sum;
+        const auto rho = model.solve_densities(at);
+        for (std::size_t i = 0; i < rho.size(); ++i)
+            sum += m[i] * model.fluid().state.cold_energy(rho[i]);
+        return static_cast<double>(sum);
+    };
+    double worst = 0.0;
+    for (Eigen::Index i = 0; i < x.cols(); i += 7)
+        for (int a = 0; a < Dim; ++a) {
+            const auto moved = [&](double d) {
+                Points<Dim> at = x;
+                at(a, i) += d;
+                return potential(at);
+            };
+            const double d = 2e-3;
+            const double slope =
+                (8.0 * (moved(d) - moved(-d)) - (moved(2.0 * d) - moved(-2.0 * d))) / (12.0 * d);
+            worst = std::max(
+                worst, std::abs(m[static_cast<std::size_t>(i)] * rate.velocity()(a, i) + slope));
+        }
+    return worst / rate.velocity().cwiseAbs().maxCoeff();
+}
+
+template <int Dim>
+void check(int cells, double length) {
+    std::array<double, Dim> lengths;
+    lengths.fill(length);
+    for (const Kernel kernel : {Kernel::lucy, Kernel::monaghan, Kernel::w5})
+        for (const Box<Dim>& box : {Box<Dim>{}, Box<Dim>(lengths)})
+            for (const Fluid& fluid : {Fluid{LucyGas{}}, Fluid{IdealGas{Dim, 1.0}},
+                                       Fluid{IsentropicGas{0.7, 1.1, 1.4}}}) {
+                auto model = gas<Dim>(cells, fluid, {2.4, kernel}, box);
+                const auto y = start(model, 92);
+                const auto [energy, momentum] = unbalanced(model, y);
+                BOOST_TEST(energy < 1e-13);
+                BOOST_TEST(momentum < 1e-13);
+            }
+    auto model = gas<Dim>(cells, {IsentropicGas{0.7, 1.1, 1.4}}, {2.4, Kernel::w5});
+    const auto y = start(model, 92);
+    BOOST_TEST(force_error(model, y) < 1e-7);
+    auto without = gas<Dim>(cells, {IsentropicGas{0.7, 1.1, 1.4}}, {2.4, Kernel::w5, true});
+    BOOST_TEST(force_error(without, y) > 1e-3);
+    BOOST_TEST(unbalanced(without, y).first < 1e-13);  // energy is kept all the same
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(on_the_line) { check<1>(30, 30.0); }
+BOOST_AUTO_TEST_CASE(in_the_plane) { check<2>(9, 9.0); }
+BOOST_AUTO_TEST_CASE(in_space) { check<3>(6, 6.0); }
+
+BOOST_AUTO_TEST_CASE(densities_and_ranges_belong_to_each_other) {
+    auto model = gas<2>(12, {LucyGas{}}, {2.4, Kernel::monaghan});
+    const auto y = start(model, 93);
+    const ConstState<2> state(model.layout(), y);
+    const auto h = model.ranges(y);
+    double smallest = h[0], largest = h[0];
+    for (std::size_t i = 0; i < h.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        const auto w = weight_function<2>("monaghan", h[i]);
+        double rho = 0.0;
+        for (Eigen::Index j = 0; j < state.position().cols(); ++j)
+            rho += model.particles().mass[static_cast<std::size_t>(j)] *
+                   w.value((state.position().col(i) - state.position().col(j)).norm());
+        BOOST_TEST(std::abs(rho - state.density()(0, k)) < 1e-13 * rho);
+        smallest = std::min(smallest, h[i]);
+        largest = std::max(largest, h[i]);
+    }
+    BOOST_TEST(largest > 1.3 * smallest);
+}
+
+BOOST_AUTO_TEST_CASE(the_density_that_is_integrated_follows_the_solved_one) {
+    auto model = gas<2>(10, {LucyGas{}}, {2.4, Kernel::w5});
+    const auto y = start(model, 94), y_dot = rates_of(model, y);
+    const ConstState<2> state(model.layout(), y), rate(model.layout(), y_dot);
+    const double d = 1e-4;
+    const auto later = model.solve_densities(state.position() + d * state.velocity());
+    const auto earlier = model.solve_densities(state.position() - d * state.velocity());
+    for (std::size_t i = 0; i < later.size(); ++i)
+        BOOST_TEST(std::abs((later[i] - earlier[i]) / (2.0 * d) -
+                            rate.density()(0, static_cast<Eigen::Index>(i))) < 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(bits) {
+    auto model = gas<2>(48, {IdealGas{2, 1.0}}, {3.0, Kernel::lucy}, Box<2>({48.0, 48.0}));
+    const auto y = start(model, 95);
+    set_threads(1);
+    const auto alone = rates_of(model, y);
+    set_threads(3);
+    BOOST_TEST((rates_of(model, y) == alone));
+    set_threads(1);
+    // Equal and opposite to the last bit: two particles, seen from both.
+    Points<2> two(2, 2);
+    two << 0.0, 0.83, 0.0, 0.41;
+    auto particles = make_particles<2>(two, 1.0);
+    VariableRangeModel<2> pair(particles, {LucyGas{}}, {2.4, Kernel::w5});
+    auto z = pair.state(two, Points<2>::Zero(2, 2));
+    State<2>(pair.layout(), z).density() << 0.31, 0.77;
+    const auto z_dot = rates_of(pair, z);
+    const auto v_dot = ConstState<2>(pair.layout(), z_dot).velocity();
+    BOOST_TEST((v_dot.col(0) == -v_dot.col(1)));
+    BOOST_TEST(v_dot.col(0).norm() > 0.01);
+}
+
+BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
+    const auto particles = jittered_particles<2>(8, 96);
+    using Model = VariableRangeModel<2>;
+    BOOST_CHECK_THROW(Model(particles, {LucyGas{}}, {1.2}), InputError);
+    BOOST_CHECK_THROW(Model(particles, {LucyGas{}, NewtonViscosity{0.0, 1.0}}, {3.0}), InputError);
+    auto narrow = gas<2>(8, {LucyGas{}}, {4.5}, Box<2>({8.0, 8.0}));
+    BOOST_CHECK_THROW(start(narrow, 97), InputError);
+    auto model = gas<2>(9, {IdealGas{2, 1.0}}, {3.0}, Box<2>({9.0, 9.0}));
+    auto y = start(model, 98);
+    State<2>(model.layout(), y).density()(0, 5) = 0.2;
+    rates_of(model, y);
+    BOOST_TEST(model.failure().find("half of the periodic box") != std::string::npos,
+               model.failure());
+    State<2>(model.layout(), y).density()(0, 5) = -1.0;
+    rates_of(model, y);
+    BOOST_TEST(model.failure().find("not positive") != std::string::npos, model.failure());
+    y = start(model, 98);
+    State<2>(model.layout(), y).energy()(0, 5) = -1.0;
+    rates_of(model, y);
+    BOOST_TEST(model.failure().find("outside the law") != std::string::npos, model.failure());
+}
