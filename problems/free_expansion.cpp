@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: free expansion of a gas and where its entropy comes from, [HH01] Figs. 2, 3; 40 s
+// spam-list: free expansion of a gas and where its entropy comes from, [HH01] Figs. 2, 3; 10 s
 //
 // Free expansion of an ideal gas into four times its room, [HH01].
 //
@@ -23,7 +23,7 @@
 // in place of its fluctuation (entropy_full_v2) streaming passes for heat: 0.4 before anything is mixed.
 // It ends below 1 for want of neighbours: each counts itself, and more so in the thin gas.
 //
-//     --compare          32 x 32, 64 x 64, 128 x 128 on one picture, [HH01] Fig. 3
+//     --compare          32 x 32, 64 x 64, 128 x 128 on one picture, [HH01] Fig. 3; 1 min
 //     --dimension 1      twofold expansion on a line, P = rho^3/3, e = rho^2/6, exercise 1
 //     --particles 100    exercise 4. Text: from an area of 25 to 100; here from 100 to 400 in units of
 //                        half the length, mass 1/4, otherwise the same

@@ -93,8 +93,8 @@ std::vector<Plateau> plateaus(const Gas<1>& gas, bool standard, double range) {
     return all;
 }
 
-/// From when to when the gas has filled its box and the entropy grows no more, in cells. (It falls
-/// again, slowly: particles pair up, and each counts itself.)
+/// From when to when the gas has filled its box and the entropy grows no more, in cells. (Later it falls
+/// again, slowly.)
 std::pair<double, double> plateau_of(int dim, int cells) {
     if (dim == 1) return {2.5, 3.0};
     return cells < 32 ? std::pair{2.0, 6.0} : std::pair{1.25, 1.5};

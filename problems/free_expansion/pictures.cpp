@@ -91,8 +91,10 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
         session.note_drawn(draw_log_log(session.plots_folder(), "spectrum", picture));
 }
 
-const char* title_of(const std::string& column) {
-    return column == "entropy_sum" ? "particles" : column == "entropy_grid" ? "grid" : "full v²";
+const char* title_of(const std::string& column, bool short_one) {
+    if (column == "entropy_sum") return short_one ? "particles" : "sum over particles";
+    if (column == "entropy_grid") return short_one ? "grid" : "integral over a grid";
+    return short_one ? "full v²" : "full v² in place of its fluctuation";
 }
 
 template <int Dim>
@@ -118,17 +120,17 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
     if (several) last = std::min(last, 1.5);
     for (std::size_t c = 0; c < columns.size(); ++c) {
         if (several || panels.empty())
-            panels.push_back({several ? title_of(columns[c]) : "",
+            panels.push_back({several ? title_of(columns[c], false) : "",
                               Dim == 1 ? "t / N" : "t / n",
                               unit,
                               false,
                               {}});
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const int style = static_cast<int>(several ? k : c) + 1;
-            Curve curve = entropy_curve(
-                gases[k], runs[k].history, columns[c],
-                several ? fmt::format("{} particles", gases[k].particles()) : title_of(columns[c]),
-                style);
+            Curve curve = entropy_curve(gases[k], runs[k].history, columns[c],
+                                        several ? fmt::format("{} particles", gases[k].particles())
+                                                : title_of(columns[c], true),
+                                        style);
             while (!curve.x.empty() && curve.x.back() > last + 1e-9) {
                 curve.x.pop_back();
                 curve.y.pop_back();
