@@ -67,6 +67,9 @@ void FieldInterpolation<Dim>::sort_into_cells() {
     std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
     for (std::size_t j = 0; j < cell.size(); ++j)
         particle_[next[cell[j]]++] = static_cast<Eigen::Index>(j);
+    sorted_.resize(Dim, position_.cols());
+    for (Eigen::Index e = 0; e < sorted_.cols(); ++e)
+        sorted_.col(e) = position_.col(particle_[static_cast<std::size_t>(e)]);
 }
 
 /// The cells that the range about x reaches along axis a: the first, unwrapped, and how many.
@@ -100,20 +103,28 @@ void FieldInterpolation<Dim>::each_near(const Point<Dim>& place, const Visit& vi
     }
     std::int64_t all = 1;
     for (const auto n : number) all *= n;
+    const double range2 = weight_.range() * weight_.range();
     for (std::int64_t c = 0; c < all; ++c) {
         std::int64_t rest = c, cell = 0, stride = 1;
+        Point<Dim> here = at;  // as seen from the particles' images in this cell
+        bool nearest = true;
         for (std::size_t a = 0; a < Dim; ++a) {
-            const std::int64_t k = first[a] + rest % number[a];
+            const std::int64_t n = cells_[a], k = first[a] + rest % number[a];
+            const std::int64_t inside = (k % n + n) % n;
             rest /= number[a];
-            cell += ((k % cells_[a] + cells_[a]) % cells_[a]) * stride;
-            stride *= cells_[a];
+            cell += inside * stride;
+            stride *= n;
+            const auto axis = static_cast<int>(a);
+            here(axis) -= static_cast<double>((k - inside) / n) * box_.length(axis);
+            nearest = nearest && (n >= 3 || !box_.periodic(axis));  // else a cell holds two images
         }
         for (std::size_t e = start_[static_cast<std::size_t>(cell)];
              e < start_[static_cast<std::size_t>(cell) + 1]; ++e) {
-            Point<Dim> s;
-            for (int a = 0; a < Dim; ++a)
-                s(a) = box_.nearest_image(a, at(a) - position_(a, particle_[e]));
-            if (const double r = s.norm(); r < weight_.range()) visit(particle_[e], s, r);
+            Point<Dim> s = here - sorted_.col(static_cast<Eigen::Index>(e));
+            if (!nearest)
+                for (int a = 0; a < Dim; ++a) s(a) = box_.nearest_image(a, s(a));
+            const double r2 = s.squaredNorm();
+            if (r2 < range2) visit(particle_[e], s, std::sqrt(r2));
         }
     }
 }
@@ -144,6 +155,21 @@ Points<Dim> FieldInterpolation<Dim>::density_gradient(const Places& at) const {
         gradient.col(p) = sum;
     });
     return gradient;
+}
+
+template <int Dim>
+Eigen::MatrixXd FieldInterpolation<Dim>::sum(const Field& f, const Places& at) const {
+    Eigen::MatrixXd result(f.rows(), at.cols());
+    parallel_for(static_cast<std::size_t>(at.cols()), [&](std::size_t k) {
+        const auto p = static_cast<Eigen::Index>(k);
+        double* const sum = result.col(p).data();
+        std::fill_n(sum, f.rows(), 0.0);
+        each_near(at.col(p), [&](Eigen::Index j, const Point<Dim>&, double r) {
+            const double mw = mass_[static_cast<std::size_t>(j)] * weight_.value(r);
+            for (Eigen::Index c = 0; c < f.rows(); ++c) sum[c] += mw * f(c, j);
+        });
+    });
+    return result;
 }
 
 template <int Dim>

@@ -141,6 +141,37 @@ BOOST_AUTO_TEST_CASE(logarithmic_axes) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(contours) {
+    const auto grid = FieldGrid<2>::over(Box<2>({8.0, 4.0}), {16, 8});
+    const Points<2> at = grid.points();
+    ContourPanel tones{.title = awkward, .side = awkward, .grid = grid};
+    for (const auto& r : at.colwise()) tones.values.push_back(std::sin(r.x()) + r.y() - 2.0);
+    ContourPanel colours = tones, flat = tones, dots{.title = "", .side = "", .particles = at};
+    colours.colours = ContourPanel::Colours{-1.0, 2.0, awkward};
+    colours.periodic = false;
+    flat.values.assign(grid.size(), 1.0);
+    const ContourPanel none{.title = "no particles"};
+    const Scratch folder;
+    const std::vector<ContourPanel> panels{tones, colours, dots, flat, none};
+    const ContourRoom room{{0.0, 0.0}, {8.0, 4.0}};
+    check_picture(folder, draw_contours(plots(folder), "picture", awkward, panels, 2, room), 640,
+                  540);
+    // Frames of a film are alike, and their sides even.
+    const Scratch film;
+    const RunFolder frames = plots(film);
+    draw_contours(frames, "picture", "t", {dots}, 1, room);
+    ContourPanel later = dots;
+    later.particles = Points<2>(2, 0);
+    draw_contours(frames, "next", "t", {later}, 1, room);
+    if (!have_gnuplot()) return;
+    const auto head = [&](const char* name) {
+        return contents_of(film / ("plots/" + std::string(name) + ".png")).substr(16, 8);
+    };
+    BOOST_TEST(head("picture") == head("next"));
+    BOOST_TEST(static_cast<unsigned char>(head("next")[3]) % 2 == 0);
+    BOOST_TEST(static_cast<unsigned char>(head("next")[7]) % 2 == 0);
+}
+
 /// What the other tests rely on: a script that is wrong (its file name ends a string) is noticed.
 BOOST_AUTO_TEST_CASE(a_wrong_script_is_no_picture) {
     const Scratch folder;

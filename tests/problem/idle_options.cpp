@@ -14,10 +14,10 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// How to run, not what to compute.
-const std::set<std::string> no_part_of_the_case{"config",  "out",   "force",   "dry-run",
-                                                "smoke",   "quiet", "help",    "no-plots",
-                                                "threads", "jobs",  "version", "restart"};
+/// How to run, not what to compute; and an option with one legal value.
+const std::set<std::string> no_part_of_the_case{
+    "config",   "out",     "force", "dry-run", "smoke",   "quiet", "help",
+    "no-plots", "threads", "jobs",  "version", "restart", "walls", "movie"};
 
 /// What only shows when something happens that may not happen: said in the dry run at least.
 const std::set<std::string> waits_for_something{
@@ -92,6 +92,9 @@ const std::map<std::string, std::string> another_value{
     {"largest-range", "5"},
     {"ranges", "4"},
     {"family", "4"},
+    {"dimension", "1"},
+    {"particles", "196"},
+    {"seed", "9"},
     {"law", "lucy"},
     {"perturbation", "1e-7"},
     {"wave", "thermal"},
@@ -135,6 +138,9 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"integrator_accuracy", {}},
     {"invariant_drift", {}},
     {"kernels", {}},
+    {"free_expansion", {}},
+    {"free_expansion", {"--dimension", "1"}},
+    {"free_expansion", {"--compare"}},
     {"isomorphism", {}},
     {"diffusion_waves", {}},
     {"diffusion_waves", {"--wave", "shear", "--equation-of-state", "van_der_waals"}},

@@ -31,7 +31,10 @@ class FieldInterpolation {
     Eigen::RowVectorXd density(const Places& at) const;
     /// Dim x M
     Points<Dim> density_gradient(const Places& at) const;
-    /// `f`: C x N, the particles' values of C components. C x M.
+    /// `f`: C x N, the particles' values of C components. C x M: sum_j m_j f_j w, that is rho f, and 0
+    /// where nothing is near.
+    Eigen::MatrixXd sum(const Field& f, const Places& at) const;
+    /// Likewise, f.
     Eigen::MatrixXd value(const Field& f, const Places& at) const;
     /// (C Dim) x M, row a + Dim c: d f_c / d x_a. Of velocities: (grad v)_ac column by column.
     Eigen::MatrixXd gradient(const Field& f, const Places& at) const;
@@ -52,6 +55,7 @@ class FieldInterpolation {
     std::array<std::int64_t, Dim> cells_;
     std::vector<std::size_t> start_;
     std::vector<Eigen::Index> particle_;
+    Points<Dim> sorted_;  ///< positions in the order of particle_
 };
 
 extern template class FieldInterpolation<1>;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <spam/core/state.hpp>
+#include <spam/diagnostics/field_grid.hpp>
 #include <spam/io/run_folder.hpp>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,6 +88,34 @@ struct ConfigurationPanel {
 bool draw_configurations(const RunFolder& folder, std::string_view name, std::string_view title,
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
                          std::string_view colour_label);
+
+/// One frame of a row: a field on a grid, or particles where it has no values.
+struct ContourPanel {
+    std::string title;             ///< above the frame
+    std::string side{};            ///< beside it, upwards
+    FieldGrid<2> grid{};           ///< nodes of the field
+    std::vector<double> values{};  ///< one a node
+    bool periodic = true;          ///< the field goes on beyond the last nodes
+    Points<2> particles{};         ///< each drawn `dot` wide
+    double dot = 0.7;
+    double level = 0.0;  ///< in two tones: white above, black below
+    struct Colours {
+        double low, high;
+        std::string label;
+    };
+    std::optional<Colours> colours{};  ///< in place of tones, with a key below the frame
+};
+
+/// The part of the plane that every frame shows.
+struct ContourRoom {
+    Point<2> low, high;
+};
+
+/// Frames in rows of `columns`, all of the same size and scale whatever they show: pictures of a film.
+/// Precondition: as many values as nodes, where there are any.
+bool draw_contours(const RunFolder& folder, std::string_view name, std::string_view title,
+                   const std::vector<ContourPanel>& panels, std::size_t columns,
+                   const ContourRoom& room);
 
 /// One horizontal bar. What is not finite has no bar, only its text.
 struct Bar {

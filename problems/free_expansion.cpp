@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: free expansion of a gas and where its entropy comes from, [HH01] Figs. 2, 3; 10 s
+//
+// Free expansion of an ideal gas into four times its room, [HH01].
+//
+//     +-------------+      n x n smooth particles (64 x 64) of mass and spacing 1 at rest, each off
+//     |             |      its site by 0.1 (u - 1/2), in the middle of a periodic box of side 2n. The
+//     |    o o o    |      edges of the gas reach the box at t = n/4, the gas of the neighbouring
+//     |    o o o    |      box: sound waves cross, and what was ordered motion ends as motion that
+//     |    o o o    |      neighbours do not share.
+//     |             |
+//     +-------------+
+//
+//     x_dot = v,   v_dot_i = -sum_j m_j (P_i/rho_i^2 + P_j/rho_j^2) grad_i w_ij = -sum_j m_j grad_i w_ij
+//     P = rho^2/2,   e = rho/2: the isentrope of a plane ideal gas, no viscosity, no heat flow
+//
+// Nothing in the equations makes entropy, and yet the gas must end with N k ln 4 more. It is in the
+// velocities: what differs from the mean of the neighbours is heat, [HH01] eq 22 (see
+// diagnostics/entropy.hpp for its sign),
+//     S = N k <ln(e_int/rho)>,   e_int = e + (<v^2> - <v>^2)/2,
+// summed over particles (entropy_sum) or integrated over a grid (entropy_grid), as a part of N k ln 4.
+// Nothing happens before the gas meets the box; within another n it has nearly all. With the whole v^2
+// in place of its fluctuation (entropy_full_v2) streaming passes for heat: 0.4 before anything is mixed.
+// It ends below 1 for want of neighbours: each counts itself, and more so in the thin gas.
+//
+//     --compare          32 x 32, 64 x 64, 128 x 128 on one picture, [HH01] Fig. 3; 1 min
+//     --dimension 1      twofold expansion on a line, P = rho^3/3, e = rho^2/6, exercise 1
+//     --particles 100    exercise 4. Text: from an area of 25 to 100; here from 100 to 400 in units of
+//                        half the length, mass 1/4, otherwise the same
+//     --cost             seconds against the number of particles, exercise 4
+//     --movie            frames, and a film where ffmpeg is installed
+#include "free_expansion/gas.hpp"
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace free_expansion {
+namespace {
+
+/// Cells along an edge from --particles, where that was given.
+void settle_particles(Session& session, Parameters& p) {
+    if (!p.particles) return;
+    const int n = *p.particles;
+    const int edge =
+        p.dimension == 1 ? n : static_cast<int>(std::lround(std::sqrt(static_cast<double>(n))));
+    if (p.dimension == 2 && edge * edge != n)
+        throw InputError(
+            fmt::format("particles: {} is not a square; near it are {} and {}", n,
+                        static_cast<int>(std::pow(std::floor(std::sqrt(n)), 2)),
+                        static_cast<int>(std::pow(std::floor(std::sqrt(n)) + 1.0, 2))));
+    if (session.given("cells") && p.cells != edge)
+        throw InputError(
+            fmt::format("particles: {} and --cells {} contradict; leave one out", n, p.cells));
+    p.cells = edge;
+    session.leave_out_of_case({"cells"});
+}
+
+/// Options that have no meaning beside others.
+void refuse_contradictions(const Session& session, const Options& options, const Parameters& p) {
+    const auto refuse = [&](const std::vector<std::string>& names, const char* because) {
+        const std::string name = options.first_given(names);
+        if (!name.empty())
+            throw InputError(
+                fmt::format("{}: has no effect with {}; leave one out", name, because));
+    };
+    if (p.compare)
+        refuse({"cells", "particles", "dimension", "movie", "cost"}, "--compare (three sizes)");
+    if (p.cost) refuse({"cells", "particles", "dimension", "movie"}, "--cost (five sizes)");
+    if (p.movie && p.dimension == 1) refuse({"movie"}, "--dimension 1");
+    if (p.movie && session.common().no_plots) refuse({"movie"}, "--no-plots");
+}
+
+template <int Dim>
+Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t_end) {
+    using Values = std::span<const double>;
+    const auto folder = [&session, &gas] {
+        return gas.label.empty() ? session.folder() : session.folder().inside(gas.label);
+    };
+    Plan<Dim> plan;
+    plan.t_end = t_end;
+    plan.output_every = t_end / (p.compare ? 192.0 : 96.0);
+    plan.columns = entropy_columns(gas);
+    plan.on_snapshot = [&session, &gas, &p, folder](double t, const Model<Dim>&, Values y) {
+        for (Scene& scene : gas.scenes) scene.look(t, y);
+        write_fields(folder(), gas, t, y);
+        if constexpr (Dim == 2)
+            if (p.movie && t == 0.0) session.note_drawn(draw_frame(folder(), gas, 0, t, y));
+    };
+    plan.memory = [&gas](Archive& archive) { archive(gas.scenes, gas.field_times); };
+    if constexpr (Dim == 2)
+        if (p.movie)
+            plan.revise = [&gas, &session, folder](double t, Model<2>&, std::span<double> y) {
+                const double every = *session.common().output_every;
+                session.note_drawn(
+                    draw_frame(folder(), gas, static_cast<int>(std::lround(t / every)), t, y));
+                return false;
+            };
+    return plan;
+}
+
+template <int Dim>
+void run(Session& session, const Parameters& p) {
+    const bool smoke = session.common().smoke;
+    std::vector<int> sizes{p.cells};
+    if (p.compare) sizes = smoke ? std::vector{8, 12, 16} : std::vector{32, 64, 128};
+    std::vector<Gas<Dim>> gases;
+    for (const int cells : sizes) {
+        gases.push_back(make_gas<Dim>(cells, p));
+        if (!p.compare) continue;
+        gases.back().label = fmt::format("n{}", cells);
+        gases.back().prefix = gases.back().label + "_";
+    }
+    const double plateau = Dim == 1 ? 3.0 * sizes.back() : std::max(1.5 * sizes.back(), 60.0);
+    const double t_end = session.common().t_end.value_or(smoke ? 24.0 : plateau);
+    std::vector<Case<Dim>> cases;
+    for (auto& gas : gases)
+        cases.push_back({*gas.model, gas.y0, plan_of(session, gas, p, t_end), gas.label});
+    const auto runs = session.run_all(std::move(cases));
+    for (std::size_t k = 0; k < runs.size(); ++k) check(session, p, gases[k], runs[k]);
+    if (p.movie) make_movie(session, session.folder());
+    if (!session.plots()) return;
+    draw_entropy(session, gases, runs);
+    if (runs.size() == gases.size()) draw(session, gases.back());
+}
+
+}  // namespace
+}  // namespace free_expansion
+
+int main(int argc, char** argv) {
+    using namespace free_expansion;
+    Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25);
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("dimension", p.dimension, "2: fourfold expansion; 1: twofold, on a line",
+                    between(1, 2));
+    options.integer("cells", p.cells, "particles along an edge of the gas, at spacing 1",
+                    between(2, 4000));
+    options.integer("particles", p.particles, "in place of cells: a square number of particles",
+                    between(4, 16000000));
+    options.choice<Walls>("walls", p.walls, {Walls::periodic}, "what the gas meets");
+    options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
+    options.number("range", p.range, "range h: no pair interacts beyond", positive());
+    options.integer("seed", p.seed, "of the offsets from the lattice", between(0, 1000000000));
+    options.flag("compare", p.compare, "three sizes on one picture, [HH01] Fig. 3");
+    options.flag("cost", p.cost, "seconds against the number of particles, [HH01] exercise 4");
+    options.flag("movie", p.movie, "frames of a film");
+    options.exclude_from_case({"movie"});
+
+    return problem.main(argc, argv, [&](Session& session) {
+        refuse_contradictions(session, options, p);
+        if (session.common().smoke && !session.given("cells") && !p.particles) p.cells = 16;
+        settle_particles(session, p);
+        if (p.compare || p.cost) session.leave_out_of_case({"cells", "dimension"});
+        if (p.cost) return measure_cost(session, p);
+        p.dimension == 1 ? run<1>(session, p) : run<2>(session, p);
+    });
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gas.hpp"
+#include <spam/io/csv.hpp>
+#include <spam/io/gnuplot.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace free_expansion {
+namespace {
+
+/// So long: while the gas is dense. It is where it is cheapest to measure, and dearest to compute.
+constexpr double length = 8.0;
+
+/// Processor time between the first time it was looked at and the last: others on the machine cost
+/// seconds, but not these.
+struct Clock {
+    double from = -1.0, until = 0.0;
+    std::clock_t start = 0, end = 0;
+
+    void look(double t) {
+        end = std::clock();
+        until = t;
+        if (from < 0.0) from = t, start = end;
+    }
+    double seconds_per_unit_time() const {
+        const double span = until - from;
+        return static_cast<double>(end - start) / CLOCKS_PER_SEC / std::max(span, 1e-300);
+    }
+};
+
+std::vector<Gas<2>> gases_of(const Parameters& p, bool smoke) {
+    const std::vector<int> sizes = smoke ? std::vector{10, 16} : std::vector{10, 32, 64, 128, 256};
+    std::vector<Gas<2>> gases;
+    for (const int n : sizes) {
+        gases.push_back(make_gas<2>(n, p));
+        gases.back().label = fmt::format("n{}", n);
+        gases.back().prefix = gases.back().label + "_";
+    }
+    return gases;
+}
+
+void draw_cost(Session& session, const LogLogCurve& seconds) {
+    LogLogCurve linear{1, true, seconds.x, {}};
+    for (const double n : seconds.x) linear.y.push_back(seconds.y.back() * n / seconds.x.back());
+    session.note_drawn(draw_log_log(session.plots_folder(), "cost",
+                                    {"What a unit of time costs",
+                                     {{"", "particles", "processor seconds", {seconds, linear}}},
+                                     1,
+                                     {"measured", "proportional to N"},
+                                     "RK4, dt = 0.25: 16 right-hand sides; Lucy's weight, h = 6"}));
+}
+
+}  // namespace
+
+void measure_cost(Session& session, const Parameters& p) {
+    auto gases = gases_of(p, session.common().smoke);
+    const double t_end = session.common().t_end.value_or(session.common().smoke ? 2.0 : length);
+    std::vector<Case<2>> cases;
+    std::vector<Clock> clocks(gases.size());
+    for (auto& gas : gases) {
+        Clock& clock = clocks[cases.size()];
+        Plan<2> plan;
+        plan.t_end = plan.output_every = plan.snapshot_every = t_end;
+        plan.on_snapshot = [&clock](double t, const Model<2>&, std::span<const double>) {
+            clock.look(t);
+        };
+        cases.push_back({*gas.model, gas.y0, std::move(plan), gas.label});
+    }
+    const auto runs = session.run_all(std::move(cases));
+    CsvWriter csv(session.folder() / "cost.csv",
+                  {"particles", "right_hand_sides", "pairs", "wall_seconds_per_unit_time",
+                   "seconds_per_unit_time"});
+    LogLogCurve curve{0, false, {}, {}};
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const RunStatistics& s = runs[k].statistics;
+        const auto n = static_cast<double>(s.particles);
+        const double seconds = clocks[k].seconds_per_unit_time();
+        const double evaluations = static_cast<double>(s.rhs_evaluations);
+        const double pairs = static_cast<double>(s.pair_interactions);
+        csv.add(std::vector<double>{n, evaluations, pairs, s.wall_seconds / s.t_end, seconds});
+        session.check_promises(runs[k], gases[k].prefix);
+        session.check({gases[k].prefix + "seconds_per_unit_time", seconds, {}, 0.0, "measured"});
+        session.check(
+            {gases[k].prefix + "pairs_per_particle", pairs / evaluations / n, {}, 0.0, "measured"});
+        session.check({gases[k].prefix + "nanoseconds_per_pair",
+                       1e9 * seconds * s.t_end / pairs,
+                       {},
+                       0.0,
+                       "measured"});
+        curve.x.push_back(n);
+        curve.y.push_back(seconds);
+    }
+    if (session.plots()) draw_cost(session, curve);
+}
+
+}  // namespace free_expansion

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gas.hpp"
+
+#include <spam/core/error.hpp>
+#include <spam/diagnostics/entropy.hpp>
+#include <spam/io/image_file.hpp>
+#include <spam/material/isentropic_gas.hpp>
+#include <spam/material/lucy_gas.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace free_expansion {
+namespace {
+
+template <class Number, int Dim>
+std::array<Number, Dim> all_along(Number n) {
+    std::array<Number, Dim> all;
+    all.fill(n);
+    return all;
+}
+
+/// Nodes `spacing` apart or a little closer.
+template <int Dim>
+FieldGrid<Dim> grid_of(const Gas<Dim>& gas, double spacing) {
+    const int nodes = static_cast<int>(std::ceil(gas.side() / spacing));
+    return FieldGrid<Dim>::over(gas.model->box(), all_along<int, Dim>(nodes));
+}
+
+template <int Dim>
+AnyWeight<Dim> weight_of(const FluidModel<Dim>& model) {
+    return weight_function<Dim>(to_string(model.scheme().kernel), model.scheme().range);
+}
+
+}  // namespace
+
+void Scene::look(double now, std::span<const double> state) {
+    if (t >= 0.0 && std::abs(now - wanted) >= std::abs(t - wanted)) return;
+    t = now;
+    y.assign(state.begin(), state.end());
+}
+
+AnyEquationOfState law_of(int dim) {
+    if (dim == 1) return IsentropicGas{1.0 / 3.0, 1.0, 3.0};
+    return LucyGas{};
+}
+
+template <int Dim>
+Gas<Dim> make_gas(int cells, const Parameters& p) {
+    if (!(cells > p.range))
+        throw InputError(
+            fmt::format("cells: the periodic box of {0} (twice --cells {1}) is not wider than "
+                        "twice --range {2:g}; "
+                        "use at least --cells {3}, or a shorter range",
+                        2 * cells, cells, p.range, static_cast<int>(std::floor(p.range)) + 1));
+    const Box<Dim> box(all_along<double, Dim>(2.0 * cells));
+    Points<Dim> sites = square_lattice<Dim>(all_along<int, Dim>(cells));
+    sites.array() += 0.5 * (cells + 1.0);
+    Gas<Dim> gas{cells,
+                 std::make_unique<FluidModel<Dim>>(
+                     make_particles<Dim>(sites, 1.0, 1.0, box), Fluid{law_of(Dim)},
+                     FluidScheme{Density::summed, p.kernel, p.range}, box),
+                 {}};
+    std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
+    Points<Dim> x = gas.model->particles().reference_position;
+    for (Eigen::Index i = 0; i < x.cols(); ++i)  // the same numbers with every library
+        for (int a = 0; a < Dim; ++a)
+            x(a, i) += 0.1 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+    gas.y0 = gas.model->state(x, Points<Dim>::Zero(Dim, x.cols()));
+    for (const double at : drawn_at) gas.scenes.push_back({at * cells});
+    return gas;
+}
+
+template <int Dim>
+std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
+    // An isentropic gas: e(rho), also where the energy equation shares the same sum out otherwise.
+    const auto e_of = [law = law_of(Dim)](double rho) { return law.cold_energy(rho); };
+    const auto particles_now = [e_of](const Model<Dim>& model, std::span<const double> y) {
+        const auto& fluid = dynamic_cast<const FluidModel<Dim>&>(model);
+        const ConstState<Dim> state(model.layout(), y);
+        const auto rho = model.density(y);
+        std::vector<double> e(rho.size());
+        std::transform(rho.begin(), rho.end(), e.begin(), e_of);
+        return GasEntropy<Dim>(weight_of(fluid), model.particles().mass, state.position(),
+                               state.velocity(), rho, e, model.box());
+    };
+    using Measure = std::function<double(const GasEntropy<Dim>&)>;
+    const auto column = [&](const char* name, const Measure& entropy) {
+        const double start = entropy(particles_now(*gas.model, gas.y0));
+        return Column<Dim>{name, [=](const Model<Dim>& model, std::span<const double> y) {
+                               return (entropy(particles_now(model, y)) - start) /
+                                      (Dim * std::log(2.0));
+                           }};
+    };
+    // A third of the range is as good as finer ones to 1e-4.
+    const auto grid = grid_of(gas, gas.model->scheme().range / 3.0);
+    return {
+        column("entropy_sum", [](const auto& s) { return s.of_particles(Heat::fluctuation); }),
+        column("entropy_grid",
+               [=](const auto& s) { return s.on_grid(grid, Heat::fluctuation, e_of); }),
+        column("entropy_full_v2", [](const auto& s) { return s.of_particles(Heat::all_motion); })};
+}
+
+template <int Dim>
+Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
+    const ConstState<Dim> state(gas.model->layout(), y);
+    const Points<Dim> v = state.velocity();
+    Eigen::MatrixXd carried(Dim + 2, v.cols());
+    carried.row(0).setOnes();
+    carried.row(1) = v.colwise().squaredNorm();
+    carried.template bottomRows<Dim>() = v;
+    Fields<Dim> fields{grid_of(gas, 1.0), {}, {}, {}, {}};
+    const FieldInterpolation<Dim> interpolation(weight_of(*gas.model), gas.model->particles().mass,
+                                                state.position(), gas.model->box());
+    const Eigen::MatrixXd sum = interpolation.sum(carried, fields.grid.points());
+    fields.velocity.setZero(Dim, sum.cols());
+    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+        const double rho = sum(0, k);
+        if (rho > 0.0) fields.velocity.col(k) = sum.col(k).template tail<Dim>() / rho;
+        fields.density.push_back(rho);
+        fields.kinetic.push_back(0.5 * sum(1, k));
+        fields.hidden.push_back(
+            rho > 0.0 ? 0.5 * (sum(1, k) / rho - fields.velocity.col(k).squaredNorm()) : 0.0);
+    }
+    return fields;
+}
+
+template <int Dim>
+void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<const double> y) {
+    const Fields<Dim> fields = fields_of(gas, y);
+    const auto row = [](const std::vector<double>& values) {
+        return Eigen::MatrixXd(
+            Eigen::RowVectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size())));
+    };
+    const auto name = [](std::size_t k) { return fmt::format("fields_{:04}", k); };
+    write_image(folder, name(gas.field_times.size()), fields.grid,
+                {{"density", row(fields.density)},
+                 {"velocity", fields.velocity},
+                 {"kinetic_energy", row(fields.kinetic)},
+                 {"velocity_fluctuation", row(fields.hidden)}});
+    gas.field_times.push_back(t);
+    std::string list =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
+    for (std::size_t k = 0; k < gas.field_times.size(); ++k)
+        if (std::filesystem::exists(folder / (name(k) + ".vti")))  // not all, where a run went on
+            list += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}.vti\"/>\n",
+                                gas.field_times[k], name(k));
+    folder.write("fields.pvd", list + "  </Collection>\n</VTKFile>\n");
+}
+
+template Gas<1> make_gas(int, const Parameters&);
+template Gas<2> make_gas(int, const Parameters&);
+template std::vector<Column<1>> entropy_columns(const Gas<1>&);
+template std::vector<Column<2>> entropy_columns(const Gas<2>&);
+template Fields<1> fields_of(const Gas<1>&, std::span<const double>);
+template Fields<2> fields_of(const Gas<2>&, std::span<const double>);
+template void write_fields(const RunFolder&, Gas<1>&, double, std::span<const double>);
+template void write_fields(const RunFolder&, Gas<2>&, double, std::span<const double>);
+
+}  // namespace free_expansion

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the parts of free_expansion share.
+#pragma once
+
+#include <spam/diagnostics/field_grid.hpp>
+#include <spam/kernel/any_weight.hpp>
+#include <spam/rhs/fluid_model.hpp>
+#include <spam/spam.hpp>
+
+namespace free_expansion {
+
+using namespace spam;
+
+enum class Walls { periodic };
+inline std::string_view to_string(Walls) { return "periodic"; }
+
+struct Parameters {
+    int dimension = 2;
+    int cells = 64;                // along an edge of the gas, at spacing 1
+    std::optional<int> particles;  // in place of cells
+    Walls walls = Walls::periodic;
+    Kernel kernel = Kernel::lucy;
+    double range = 6.0;
+    int seed = 4;
+    bool compare = false, cost = false, movie = false;
+};
+
+/// A configuration worth drawing, of the snapshots the nearest to a wanted time.
+struct Scene {
+    double wanted;
+    double t = -1.0;  ///< below 0 before any was shown
+    std::vector<double> y{};
+
+    void look(double now, std::span<const double> state);
+    void remember(Archive& archive) { archive(t, y); }
+};
+
+/// The gas in the middle of its box of twice the side, and what is gathered on the way.
+template <int Dim>
+struct Gas {
+    int cells;
+    std::unique_ptr<FluidModel<Dim>> model;
+    std::vector<double> y0;
+    std::string label{}, prefix{};
+    std::vector<Scene> scenes{};
+    std::vector<double> field_times{};  ///< of the files of gridded fields
+
+    double side() const { return 2.0 * cells; }
+    std::size_t particles() const { return model->particles().size(); }
+};
+
+/// n^Dim particles of mass and spacing 1, at rest, each off its site by 0.1 (u - 1/2), u even between 0
+/// and 1; in the plane P = rho^2/2 (gamma = 2, [HH01] eq 20), on the line P = rho^3/3 (gamma = 3,
+/// exercise 1): both are isentropes of the ideal gas with c = 1 at the start.
+template <int Dim>
+Gas<Dim> make_gas(int cells, const Parameters& p);
+
+AnyEquationOfState law_of(int dim);
+
+/// entropy_sum, entropy_grid, entropy_full_v2: changes since the start as a part of N k ln (box/gas).
+template <int Dim>
+std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas);
+
+/// Fields of one state on a regular grid over the box.
+template <int Dim>
+struct Fields {
+    FieldGrid<Dim> grid;
+    std::vector<double> density;
+    std::vector<double> kinetic;  ///< per volume: sum_j m_j v_j^2 w/2, seen motion and hidden
+    Eigen::MatrixXd velocity;     ///< <v>, Dim x nodes, 0 where no gas is
+    std::vector<double> hidden;   ///< (<v^2> - <v>^2)/2 per mass
+};
+template <int Dim>
+Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y);
+
+/// fields_0000.vti, ... beside the snapshots, and fields.pvd, the list of them with their times.
+template <int Dim>
+void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<const double> y);
+
+// ---- checks.cpp ----
+
+template <int Dim>
+void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const RunRecord& run);
+
+// ---- pictures.cpp ----
+
+/// Times, in those the sound takes along the gas, at which configurations are drawn.
+inline const std::vector<double> drawn_at{0.25, 0.5, 0.75, 1.25};
+
+template <int Dim>
+void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
+                  const std::vector<RunRecord>& runs);
+void draw(Session& session, const Gas<2>& gas);
+void draw(Session& session, const Gas<1>& gas);
+
+/// A frame of a film in <folder>/frames; false where it could not be drawn.
+bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
+                std::span<const double> y);
+/// Puts them together, or says why not.
+void make_movie(Session& session, const RunFolder& folder);
+
+// ---- cost.cpp ----
+
+/// Seconds a unit of time against the number of particles, [HH01] exercise 4.
+void measure_cost(Session& session, const Parameters& p);
+
+}  // namespace free_expansion

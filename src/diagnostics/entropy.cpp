@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/diagnostics/entropy.hpp>
+
+#include <cmath>
+
+namespace spam {
+namespace {
+
+/// (D/2) ln(e_int / rho^(2/D))
+template <int Dim>
+double entropy(double e_int, double rho) {
+    return 0.5 * Dim * std::log(e_int) - std::log(rho);
+}
+
+/// e_int - e from sums of (1, e, v, v^2) over neighbours.
+template <int Dim>
+double heat_of_motion(const Eigen::Ref<const Eigen::VectorXd>& sum, Heat heat) {
+    const double v2 = sum(2 + Dim) / sum(0);
+    const double mean2 = (sum.segment<Dim>(2) / sum(0)).squaredNorm();
+    return 0.5 * (heat == Heat::all_motion ? v2 : v2 - mean2);
+}
+
+}  // namespace
+
+template <int Dim>
+GasEntropy<Dim>::GasEntropy(const AnyWeight<Dim>& weight, const std::vector<double>& mass,
+                            const Points<Dim>& position, const Points<Dim>& velocity,
+                            const std::vector<double>& density, const std::vector<double>& energy,
+                            const Box<Dim>& box)
+    : fields_(weight, mass, position, box),
+      position_(position),
+      mass_(Eigen::VectorXd::Map(mass.data(), position.cols())),
+      density_(Eigen::VectorXd::Map(density.data(), position.cols())),
+      energy_(Eigen::VectorXd::Map(energy.data(), position.cols())),
+      carried_(Dim + 3, position.cols()) {
+    carried_.row(0).setOnes();
+    carried_.row(1) = energy_.transpose();
+    carried_.template middleRows<Dim>(2) = velocity;
+    carried_.row(2 + Dim) = velocity.colwise().squaredNorm();
+}
+
+template <int Dim>
+double GasEntropy<Dim>::of_particles(Heat heat) const {
+    const Eigen::MatrixXd sum = fields_.sum(carried_, position_);
+    double total = 0.0;
+    for (Eigen::Index i = 0; i < sum.cols(); ++i) {
+        const double e_int = energy_(i) + heat_of_motion<Dim>(sum.col(i), heat);
+        total += mass_(i) * entropy<Dim>(e_int, density_(i));
+    }
+    return total / mass_.sum();
+}
+
+/// energy(sums, rho): e at a node.
+template <int Dim>
+template <class Energy>
+double GasEntropy<Dim>::integral(const FieldGrid<Dim>& grid, Heat heat,
+                                 const Energy& energy) const {
+    const Eigen::MatrixXd sum = fields_.sum(carried_, grid.points());
+    double total = 0.0;
+    for (Eigen::Index p = 0; p < sum.cols(); ++p) {
+        const double rho = sum(0, p);
+        if (!(rho > 0.0)) continue;
+        const double e_int = energy(sum(1, p), rho) + heat_of_motion<Dim>(sum.col(p), heat);
+        total += rho * entropy<Dim>(e_int, rho);
+    }
+    return total * grid.spacing.prod() / mass_.sum();
+}
+
+template <int Dim>
+double GasEntropy<Dim>::on_grid(const FieldGrid<Dim>& grid, Heat heat,
+                                const std::function<double(double rho)>& energy) const {
+    return integral(grid, heat, [&](double, double rho) { return energy(rho); });
+}
+
+template <int Dim>
+double GasEntropy<Dim>::on_grid(const FieldGrid<Dim>& grid, Heat heat) const {
+    return integral(grid, heat, [](double rho_e, double rho) { return rho_e / rho; });
+}
+
+template class GasEntropy<1>;
+template class GasEntropy<2>;
+template class GasEntropy<3>;
+
+}  // namespace spam

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnuplot_script.hpp"
+#include <spam/io/gnuplot.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace spam {
+namespace {
+
+using gnuplot::escaped;
+
+constexpr double across = 300.0, gap = 10.0, top = 44.0;  // the longer side of a frame
+constexpr double title_room = 24.0, side_room = 34.0, key_room = 62.0;  // where a row has them
+
+/// A field between its nodes, bilinear.
+class Surface {
+  public:
+    explicit Surface(const ContourPanel& panel) : panel_(panel) {}
+
+    double operator()(double x, double y) const {
+        const auto [i, s] = cell(0, x);
+        const auto [j, t] = cell(1, y);
+        return (1 - t) * ((1 - s) * node(i, j) + s * node(i + 1, j)) +
+               t * ((1 - s) * node(i, j + 1) + s * node(i + 1, j + 1));
+    }
+
+  private:
+    int nodes(int a) const { return panel_.grid.nodes[static_cast<std::size_t>(a)]; }
+    /// The node below x along axis a, and how far x is beyond it.
+    std::pair<int, double> cell(int a, double x) const {
+        double c = (x - panel_.grid.origin(a)) / panel_.grid.spacing(a);
+        if (!panel_.periodic) c = std::clamp(c, 0.0, nodes(a) - 1.0);
+        const double below = std::floor(c);
+        return {static_cast<int>(below), c - below};
+    }
+    double node(int i, int j) const {
+        const auto at = [&](int a, int k) {
+            const int n = nodes(a);
+            return panel_.periodic ? ((k % n) + n) % n : std::clamp(k, 0, n - 1);
+        };
+        return panel_.values[static_cast<std::size_t>(at(0, i) + nodes(0) * at(1, j))];
+    }
+    const ContourPanel& panel_;
+};
+
+/// Where everything is, in pixels.
+struct Layout {
+    std::size_t columns, rows;
+    double wide, high;  ///< of a frame
+    double left = gap, width = 0.0, height = 0.0;
+    std::vector<double> bottom{};  ///< of the frames of a row, from the picture's
+
+    Layout(const std::vector<ContourPanel>& panels, std::size_t per_row, const ContourRoom& room)
+        : columns(std::max<std::size_t>(1, std::min(per_row, panels.size()))),
+          rows((panels.size() + columns - 1) / columns) {
+        const Point<2> size = room.high - room.low;
+        wide = across * size(0) / size.maxCoeff();
+        high = across * size(1) / size.maxCoeff();
+        for (const auto& panel : panels)
+            if (!panel.side.empty()) left = side_room;
+        width = left + static_cast<double>(columns) * (wide + gap);
+        height = top;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const auto any = [&](const auto& has) {
+                bool found = false;
+                for (std::size_t k = row * columns;
+                     k < std::min((row + 1) * columns, panels.size()); ++k)
+                    found = found || has(panels[k]);
+                return found;
+            };
+            if (any([](const ContourPanel& p) { return !p.title.empty(); })) height += title_room;
+            height += high + gap;
+            bottom.push_back(height - gap);
+            if (any([](const ContourPanel& p) { return p.colours.has_value(); }))
+                height += key_room;
+        }
+        // Films want even numbers of pixels.
+        width = 2.0 * std::ceil(0.5 * width);
+        height = 2.0 * std::ceil(0.5 * height);
+        for (double& b : bottom) b = height - b;
+    }
+};
+
+/// One number a pixel, row by row from below: 0 (black) to 9, or the value to be coloured.
+std::string pixels(const ContourPanel& panel, const Layout& layout, const ContourRoom& room) {
+    const Surface f(panel);
+    const auto nx = static_cast<int>(std::lround(layout.wide)),
+               ny = static_cast<int>(std::lround(layout.high));
+    const double dx = (room.high(0) - room.low(0)) / nx, dy = (room.high(1) - room.low(1)) / ny;
+    std::string block;
+    for (int j = 0; j < ny; ++j) {
+        for (int i = 0; i < nx; ++i) {
+            const double x = room.low(0) + (i + 0.5) * dx, y = room.low(1) + (j + 0.5) * dy;
+            const double value = f(x, y);
+            if (panel.colours) {
+                block += fmt::format("{:.4g} ", value);
+                continue;
+            }
+            // The part of the pixel above the level: no steps along the contour.
+            const double slope = std::abs(f(x + 0.5 * dx, y) - f(x - 0.5 * dx, y)) +
+                                 std::abs(f(x, y + 0.5 * dy) - f(x, y - 0.5 * dy));
+            const double above = value - panel.level;
+            const double part =
+                slope > 0.0 ? std::clamp(0.5 + above / slope, 0.0, 1.0) : (above > 0.0 ? 1.0 : 0.0);
+            block += fmt::format("{} ", std::lround(9.0 * part));
+        }
+        block += '\n';
+    }
+    return block + "\n\n";
+}
+
+std::string dots(const ContourPanel& panel) {
+    std::string block;
+    for (const auto& r : panel.particles.colwise())
+        block += fmt::format("{:.6g} {:.6g}\n", r.x(), r.y());
+    return block + (block.empty() ? "NaN NaN\n\n\n" : "\n\n");
+}
+
+/// Margins, title and name of frame k.
+std::string frame(const ContourPanel& panel, std::size_t k, const Layout& l) {
+    const double x = l.left + static_cast<double>(k % l.columns) * (l.wide + gap);
+    const double y = l.bottom[k / l.columns];
+    std::string script = fmt::format(
+        "set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\n"
+        "set bmargin at screen {:.6f}\nset tmargin at screen {:.6f}\nunset label\n",
+        x / l.width, (x + l.wide) / l.width, y / l.height, (y + l.high) / l.height);
+    if (!panel.title.empty())
+        script += fmt::format("set label \"{}\" at screen {:.6f},{:.6f} center font ',13'\n",
+                              escaped(panel.title), (x + 0.5 * l.wide) / l.width,
+                              (y + l.high + 0.5 * title_room) / l.height);
+    if (!panel.side.empty())
+        script += fmt::format(
+            "set label \"{}\" at screen {:.6f},{:.6f} center rotate by 90 font ',13'\n",
+            escaped(panel.side), 0.5 * side_room / l.width, (y + 0.5 * l.high) / l.height);
+    if (!panel.colours) return script + "unset colorbox\n";
+    return script + fmt::format(
+                        "set colorbox horizontal user origin {:.6f},{:.6f} size {:.6f},{:.6f}\n"
+                        "set cbtics font ',11' offset 0,0.4 tc rgb 'black'\nset cblabel \"{}\" "
+                        "font ',12' tc rgb 'black' offset "
+                        "0,1.1\n",
+                        (x + 0.1 * l.wide) / l.width, (y - 0.35 * key_room) / l.height,
+                        0.8 * l.wide / l.width, 10.0 / l.height, escaped(panel.colours->label));
+}
+
+std::string plot_of(const ContourPanel& panel, std::string_view name, std::size_t block,
+                    const Layout& l, const ContourRoom& room) {
+    if (panel.values.empty())
+        return fmt::format(
+            "plot '{}.dat' index {} using 1:2:({:.5g}) with circles fc rgb '#000000'\n", name,
+            block, 0.5 * panel.dot);
+    const double dx = (room.high(0) - room.low(0)) / std::round(l.wide),
+                 dy = (room.high(1) - room.low(1)) / std::round(l.high);
+    const std::string colours = panel.colours
+                                    ? fmt::format("{}set cbrange [{:g}:{:g}]\n", gnuplot::palette,
+                                                  panel.colours->low, panel.colours->high)
+                                    : std::string("set palette gray\nset cbrange [0:9]\n");
+    return colours +
+           fmt::format(
+               "plot '{}.dat' index {} matrix using ({:.10g}+$1*{:.10g}):({:.10g}+$2*{:.10g}):3 "
+               "with image\n",
+               name, block, room.low(0) + 0.5 * dx, dx, room.low(1) + 0.5 * dy, dy);
+}
+
+}  // namespace
+
+bool draw_contours(const RunFolder& folder, std::string_view name, std::string_view title,
+                   const std::vector<ContourPanel>& panels, std::size_t columns,
+                   const ContourRoom& room) {
+    const Layout layout(panels, columns, room);
+    std::string data, script = gnuplot::preamble(name, layout.width, layout.height);
+    script += fmt::format(
+        "set multiplot\nset label 1 \"{}\" at screen 0.5,{:.6f} center font ',15'\n"
+        "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n"
+        "unset tics\nunset key\nset border lc rgb '#888888'\nset style fill solid 1 noborder\n",
+        escaped(title), 1.0 - 0.5 * top / layout.height, room.low(0), room.high(0), room.low(1),
+        room.high(1));
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        const ContourPanel& panel = panels[k];
+        assert(panel.values.empty() || panel.values.size() == panel.grid.size());
+        data += panel.values.empty() ? dots(panel) : pixels(panel, layout, room);
+        std::string place = frame(panel, k, layout);
+        if (k == 0) place.erase(place.find("unset label\n"), 12);  // the picture's own title
+        script += place + plot_of(panel, name, k, layout, room);
+    }
+    script += "unset multiplot\n";
+    return gnuplot::draw(folder, name, script, data);
+}
+
+}  // namespace spam
