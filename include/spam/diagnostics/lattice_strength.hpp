@@ -43,7 +43,7 @@ Eigen::MatrixXd hessian(const DensityPotentials& potentials, const Points<2>& po
 /// Eigenvalues of a Hessian, ascending, and what they say of its lattice.
 struct LatticeSpectrum {
     /// Eigenvalues nearer to zero than this part of the largest are zero. Differences leave less than
-    /// 1e-13 (2e-13 where a shell of neighbours lies at the range); the others are above 1e-6 wherever
+    /// 1e-13 (2e-13 where a shell of neighbours lies at the range); the others are above 1e-7 wherever
     /// counts are claimed, but gradients alone can leave less: `smallest_other` tells.
     static constexpr double threshold = 1e-11;
 

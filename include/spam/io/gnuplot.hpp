@@ -87,6 +87,17 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
                          std::string_view colour_label);
 
+/// One frame of lines that particles drew, with a mark where each began.
+struct PathPanel {
+    std::string title;
+    std::vector<Points<2>> paths;
+    Points<2> frame{};  ///< a dashed closed polygon around them (a periodic box), or nothing
+};
+
+/// `columns` frames in a row, all with the same scale and extent.
+bool draw_paths(const RunFolder& folder, std::string_view name, std::string_view title,
+                const std::vector<PathPanel>& panels, std::size_t columns);
+
 /// One horizontal bar. What is not finite has no bar, only its text.
 struct Bar {
     std::string name;  ///< beside the axis
