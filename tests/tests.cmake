@@ -21,6 +21,7 @@ spam_test(neighbors/sweep unit)
 spam_test(neighbors/ordering unit)
 spam_test(rhs/purity property)
 spam_test(rhs/pair_potential property)
+spam_test(rhs/density_potential_model property)
 spam_test(rhs/damped_model property)
 spam_test(rhs/total_lagrangian property)
 spam_test(rhs/total_lagrangian_contract unit)
@@ -68,7 +69,7 @@ if(NOT SPAM_LEVELS STREQUAL "generic")
     set_tests_properties(core.lanes.${level} PROPERTIES LABELS unit)
     set(tests core.lanes.${level})
     foreach(name rhs.oracle rhs.conservation rhs.purity rhs.pair_potential
-                 rhs.total_lagrangian
+                 rhs.density_potential_model rhs.total_lagrangian
                  neighbors.cluster_list)
       add_test(NAME ${name}.${level} COMMAND test.${name})
       set_tests_properties(${name}.${level} PROPERTIES LABELS property)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/rhs/damped_model.hpp>
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace spam {
 namespace {
@@ -51,18 +54,27 @@ RigidRotation rigid_rotation_of(const std::vector<double>& mass, const View& x, 
 
 }  // namespace
 
-DampedModel::DampedModel(std::unique_ptr<Model<2>> model, double gamma)
+DampedModel::DampedModel(std::unique_ptr<Model<2>> model, double gamma, Friction friction)
     : Model<2>(model->particles(), model->box(), fields_of(*model)),
       model_(std::move(model)),
-      gamma_(gamma) {}
+      gamma_(gamma),
+      friction_(friction) {
+    if (!(gamma >= 0.0) || !std::isfinite(gamma))
+        throw InputError(
+            fmt::format("damping: {} must be a finite rate not below 0; 0.1 is usual", gamma));
+}
 
 void DampedModel::rates(double t, std::span<const double> y, std::span<double> y_dot) {
     model_->rates(t, y, y_dot);
     failure_ = model_->failure();
     const ConstState<2> state(layout(), y);
     const auto x = state.position(), v = state.velocity();
-    const RigidRotation motion = rigid_rotation_of(particles().mass, x, v);
     auto v_dot = State<2>(layout(), y_dot).velocity();
+    if (friction_ == Friction::all_motion) {
+        v_dot -= gamma_ * v;
+        return;
+    }
+    const RigidRotation motion = rigid_rotation_of(particles().mass, x, v);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
         v_dot.col(i) -= gamma_ * (v.col(i) - motion.velocity(x.col(i)));
 }
@@ -78,12 +90,15 @@ std::vector<double> DampedModel::density(std::span<const double> y) const {
 Promises DampedModel::promises() const {
     Promises promises = model_->promises();
     if (gamma_ > 0.0) promises.energy = Promise::not_kept;
+    if (gamma_ > 0.0 && friction_ == Friction::all_motion)
+        promises.momentum = promises.angular_momentum = Promise::not_kept;
     return promises;
 }
 
 std::string DampedModel::describe() const {
-    return fmt::format("{}; friction gamma = {:g} of what is not rigid motion", model_->describe(),
-                       gamma_);
+    return fmt::format(
+        "{}; friction gamma = {:g} of {}", model_->describe(), gamma_,
+        friction_ == Friction::all_motion ? "all motion" : "what is not rigid motion");
 }
 
 void DampedModel::remember(Archive& archive) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The friction of DampedModel has neither force nor torque, takes energy from everything that is not
-// rigid motion, and nothing from rigid motion. The virial stress of springs is that of the elastic
+// rigid motion, and nothing from rigid motion; the one against all motion is that. The virial stress of springs is that of the elastic
 // solid they make.
+#include <spam/core/error.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/bonded_model.hpp>
 #include <spam/rhs/damped_model.hpp>
@@ -53,9 +54,9 @@ Effect effect_of(const Model<2>& model, std::span<const double> y, const Points<
     return e;
 }
 
-Effect friction(double disorder) {
+Effect friction(double disorder, Friction against = Friction::internal_motion) {
     const auto plain = disk();
-    DampedModel damped(disk(), friction_gamma);
+    DampedModel damped(disk(), friction_gamma, against);
     const auto y = moving_state(damped, disorder);
     std::vector<double> with(y.size()), without(y.size());
     damped.rates(0.0, y, with);
@@ -77,14 +78,18 @@ BOOST_AUTO_TEST_CASE(friction_has_no_force_and_no_torque_and_takes_energy) {
     BOOST_TEST(e.largest > 0.01);
 }
 
-/// The mutated law: friction of all velocity, which would have both.
-BOOST_AUTO_TEST_CASE(friction_of_all_velocity_would_be_found_out) {
-    DampedModel model(disk(), friction_gamma);
-    const auto y = moving_state(model, 0.1);
-    const Points<2> added = -friction_gamma * ConstState<2>(model.layout(), y).velocity();
-    const Effect e = effect_of(model, y, added);
+/// The mutated law of the one before, which has both; and a law of its own.
+BOOST_AUTO_TEST_CASE(friction_of_all_velocity_takes_momentum_as_well) {
+    const Effect e = friction(0.1, Friction::all_motion);
     BOOST_TEST(e.force.norm() > 1.0);
     BOOST_TEST(std::abs(e.torque) > 1.0);
+    const auto plain = disk();
+    const auto y = moving_state(*plain, 0.1);
+    const Points<2> added = -friction_gamma * ConstState<2>(plain->layout(), y).velocity();
+    const Effect expected = effect_of(*plain, y, added);
+    BOOST_TEST((e.force - expected.force).norm() < 1e-13 * expected.force.norm());
+    BOOST_TEST(std::abs(e.torque - expected.torque) < 1e-13 * std::abs(expected.torque));
+    BOOST_TEST(std::abs(e.power - expected.power) < 1e-13 * std::abs(expected.power));
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motion_is_left_alone) { BOOST_TEST(friction(0.0).largest < 1e-15); }
@@ -94,7 +99,14 @@ BOOST_AUTO_TEST_CASE(promises_follow) {
     const auto damped = DampedModel(disk(), friction_gamma).promises();
     BOOST_TEST((damped.angular_momentum == plain.angular_momentum));
     BOOST_TEST((damped.energy == Promise::not_kept));
+    BOOST_TEST((damped.momentum == plain.momentum));
     BOOST_TEST((DampedModel(disk(), 0.0).promises().energy == plain.energy));
+    const DampedModel all(disk(), friction_gamma, Friction::all_motion);
+    BOOST_TEST((all.promises().momentum == Promise::not_kept));
+    BOOST_TEST((all.promises().angular_momentum == Promise::not_kept));
+    BOOST_TEST((all.promises().energy == Promise::not_kept));
+    BOOST_TEST((all.describe().find("gamma = 0.3 of all motion") != std::string::npos));
+    BOOST_CHECK_THROW(DampedModel(disk(), -0.1), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(virial_stress_is_that_of_the_elastic_solid) {

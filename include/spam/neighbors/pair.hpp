@@ -13,7 +13,7 @@ namespace spam {
 template <int Dim, class T>
 struct Pair {
     Vec<Dim, T> r_ji;  ///< r_j - r_i
-    T r2;
+    T r2, r;
     T w;                 ///< w_ij
     T minus_slope;       ///< -w'/r
     Vec<Dim, T> grad_w;  ///< gradient of w_ij at i: -(w'/r) r_ji
@@ -63,6 +63,7 @@ constexpr Pair<Dim, T> make_pair(const Weight& weight, const Separation<Dim, T>&
     Pair<Dim, T> pair;
     pair.r_ji = s.r_ji;
     pair.r2 = s.r2;
+    pair.r = s.r;
     pair.w = weight.value(s.r);
     pair.minus_slope = weight.minus_slope_over_r(s.r);
     pair.grad_w = pair.minus_slope * s.r_ji;

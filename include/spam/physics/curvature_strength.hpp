@@ -18,18 +18,18 @@ struct CurvatureStrength {
     static constexpr int density_derivatives = 2;
     static constexpr double parity = 1.0;
     static constexpr int least_dimension = 2;
-    template <int Dim>
-    using Field = SymTensor<Dim>;  ///< D
+    template <int Dim, class T = double>
+    using Field = SymTensor<Dim, T>;  ///< D
 
     double s_c;
 
-    template <int Dim>
-    static SymTensor<Dim> weigh(const WeightAt<Dim>& at) {
-        const double c = at.second - at.slope_over_r;
-        SymTensor<Dim> D;
+    template <int Dim, class T>
+    static SymTensor<Dim, T> weigh(const WeightAt<Dim, T>& at) {
+        const T c = at.second - at.slope_over_r;
+        SymTensor<Dim, T> D;
         for (int a = 0; a < Dim; ++a)
             for (int b = a; b < Dim; ++b) D(a, b) = c * at.n[a] * at.n[b];
-        const double third = c * dot(at.n, at.n) / Dim;
+        const T third = T(1.0 / Dim) * c * dot(at.n, at.n);
         for (int a = 0; a < Dim; ++a) D(a, a) -= third;
         return D;
     }
@@ -44,11 +44,11 @@ struct CurvatureStrength {
     SymTensor<Dim> slope(double /*mass*/, const SymTensor<Dim>& D) const {
         return (4.0 * s_c) * D;
     }
-    template <int Dim>
-    static Vec<Dim> pull(const SymTensor<Dim>& G, const WeightAt<Dim>& at) {
-        const Vec<Dim> along = G * at.n;
-        const double c = at.second_over_r;
-        return (2.0 * c) * along + ((at.third - 3.0 * c) * dot(along, at.n)) * at.n;
+    template <int Dim, class T>
+    static Vec<Dim, T> pull(const SymTensor<Dim, T>& G, const WeightAt<Dim, T>& at) {
+        const Vec<Dim, T> along = G * at.n;
+        const T c = at.second_over_r;
+        return (T(2.0) * c) * along + ((at.third - T(3.0) * c) * dot(along, at.n)) * at.n;
     }
 };
 

@@ -24,32 +24,37 @@
 namespace spam {
 
 /// The weight function at r_ij, seen from i.
-template <int Dim>
+template <int Dim, class T = double>
 struct WeightAt {
-    Vec<Dim> n;            ///< r_ij/r; zero where the particles coincide
-    double value;          ///< w
-    double slope;          ///< w'
-    double slope_over_r;   ///< w'/r
-    double second;         ///< w''
-    double second_over_r;  ///< (w'' - w'/r)/r, without the part that is the same in all directions
-    double third;          ///< w'''
+    Vec<Dim, T> n;    ///< r_ij/r; zero where the particles coincide
+    T value;          ///< w
+    T slope;          ///< w'
+    T slope_over_r;   ///< w'/r
+    T second;         ///< w''
+    T second_over_r;  ///< (w'' - w'/r)/r, without the part that is the same in all directions; zero
+                      ///< where the particles coincide
+    T third;          ///< w'''
 
     template <SmoothWeightFunction Weight>
-    WeightAt(const Weight& weight, const Vec<Dim>& r_ij) {
-        const double r = std::sqrt(dot(r_ij, r_ij));
-        n = (r > 0.0 ? 1.0 / r : 0.0) * r_ij;
+    WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij)
+        : WeightAt(weight, r_ij, dot(r_ij, r_ij), std::sqrt(dot(r_ij, r_ij))) {}
+    template <SmoothWeightFunction Weight>
+    WeightAt(const Weight& weight, const Vec<Dim, T>& r_ij, const T& r2, const T& r) {
+        const T inverse_r = r / (r2 + T(1e-300));  // zero at r = 0, without a branch
+        n = inverse_r * r_ij;
         value = weight.value(r);
         slope_over_r = -weight.minus_slope_over_r(r);
         slope = slope_over_r * r;
         second = weight.second_derivative(r);
-        second_over_r = r > 0.0 ? (second - slope_over_r) / r : 0.0;
+        second_over_r = (second - slope_over_r) * inverse_r;
         third = weight.third_derivative(r);
     }
 };
 
 /// One potential of the density: `name`; `density_derivatives`, how often the density is
 /// differentiated in K; `parity` of K, 1 or -1; `Field`, what f_i is: a number, a Vec or a SymTensor.
-/// `weigh` gives K, `energy` phi, `slope` G, and `pull` the vector G . grad_i K.
+/// `weigh` gives K, `energy` phi, `slope` G, and `pull` the vector G . grad_i K. Sums over pairs
+/// (physics/density_passes.hpp) need `weigh` and `pull` over the arithmetic type T as well.
 template <class Term, int Dim>
 concept DensityTerm = requires(const Term term, const WeightAt<Dim>& at, double mass,
                                const typename Term::template Field<Dim>& f) {

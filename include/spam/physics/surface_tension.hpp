@@ -13,13 +13,13 @@ struct SurfaceTension {
     static constexpr const char* name = "gradient";
     static constexpr int density_derivatives = 1;
     static constexpr double parity = -1.0;
-    template <int Dim>
-    using Field = Vec<Dim>;  ///< grad rho
+    template <int Dim, class T = double>
+    using Field = Vec<Dim, T>;  ///< grad rho
 
     double s_g;
 
-    template <int Dim>
-    static Vec<Dim> weigh(const WeightAt<Dim>& at) {
+    template <int Dim, class T>
+    static Vec<Dim, T> weigh(const WeightAt<Dim, T>& at) {
         return at.slope * at.n;
     }
     template <int Dim>
@@ -31,8 +31,8 @@ struct SurfaceTension {
         return (2.0 * s_g) * g;
     }
     /// G . grad grad w, with grad grad w = (w'/r) 1 + (w'' - w'/r) n n
-    template <int Dim>
-    static Vec<Dim> pull(const Vec<Dim>& G, const WeightAt<Dim>& at) {
+    template <int Dim, class T>
+    static Vec<Dim, T> pull(const Vec<Dim, T>& G, const WeightAt<Dim, T>& at) {
         return at.slope_over_r * G + ((at.second - at.slope_over_r) * dot(G, at.n)) * at.n;
     }
 };

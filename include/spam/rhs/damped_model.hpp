@@ -7,15 +7,26 @@
 
 namespace spam {
 
-/// Another plane model with a friction that leaves rigid motions alone, to find what a vibrating body
-/// comes to rest at:
+/// What a friction acts against.
+enum class Friction {
+    internal_motion,  ///< what is not rigid motion
+    all_motion        ///< velocity itself: things come to rest in the box they are in
+};
+
+/// Another plane model with a friction, to find what a vibrating body comes to rest at. One that leaves
+/// rigid motions alone,
 ///     v_dot_i += -gamma (v_i - V - omega z x (r_i - R)),
-/// R, V centre of mass and its velocity, omega = L/I about it. The friction has neither force nor
-/// torque: momentum and angular momentum are kept as the model keeps them, energy is lost.
+/// R, V centre of mass and its velocity, omega = L/I about it, has neither force nor torque: momentum
+/// and angular momentum are kept as the model keeps them, energy is lost. In a periodic box, where no
+/// rotation is rigid, and against drift there is
+///     v_dot_i += -gamma v_i,
+/// which lets momenta die out as exp(-gamma t).
 class DampedModel final : public Model<2> {
   public:
-    /// `gamma` >= 0: what is not rigid dies out in a time of about 2/gamma.
-    DampedModel(std::unique_ptr<Model<2>> model, double gamma);
+    /// `gamma` >= 0: what is acted against dies out in a time of about 2/gamma. Throws InputError for
+    /// another.
+    DampedModel(std::unique_ptr<Model<2>> model, double gamma,
+                Friction friction = Friction::internal_motion);
 
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
     double internal_energy(std::span<const double> y) const override;
@@ -39,6 +50,7 @@ class DampedModel final : public Model<2> {
   private:
     std::unique_ptr<Model<2>> model_;
     double gamma_;
+    Friction friction_;
 };
 
 }  // namespace spam

@@ -55,6 +55,7 @@ class DensityPotentialModel final : public Model<Dim> {
 
   private:
     struct Parts;
+    void fail_density(std::span<double> y_dot);
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
 
     DensityPotentials potentials_;

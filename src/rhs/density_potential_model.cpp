@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../core/levels.hpp"
+#include "density_potential_sweeps.hpp"
+#include "packed_particles.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/physics/curvature_strength.hpp>
+#include <spam/physics/surface_tension.hpp>
+#include <spam/rhs/density_potential_model.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spam {
+namespace {
+
+void check_strength(const char* name, double value) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+        throw InputError(fmt::format(
+            "{}: {} must be a finite number not below 0: a potential of the other sign pulls "
+            "matter apart",
+            name, value));
+}
+
+void check_core(const DensityPotentials& p) {
+    check_strength("core energy", p.core.e_c);
+    if (p.core.e_c > 0.0 && !(p.core.s > 0.0 && p.core.s < p.range))
+        throw InputError(
+            fmt::format("core range: {} must lie above 0 and below the weight function's range {}; "
+                        "0.7 spacings are usual",
+                        p.core.s, p.range));
+}
+
+template <int Dim>
+DensityPotentials validated(const DensityPotentials& p, double spacing) {
+    valid_range(p.range, spacing);
+    check_strength("surface tension", p.surface_tension);
+    check_strength("strength", p.strength);
+    check_core(p);
+    if (!p.state && p.surface_tension == 0.0 && p.strength == 0.0 && p.core.e_c == 0.0)
+        throw InputError(
+            "potentials: none acts; give an equation of state, or a surface tension, strength or "
+            "core energy above 0");
+    if (p.state && !p.state->cold)
+        throw InputError(fmt::format(
+            "equation of state: '{}' is no potential, its energy does not depend on the density "
+            "alone; use a cold law such as the embedded atom",
+            p.state->describe()));
+    const GeneralWeight<Dim> weight(p.kernel, p.range);
+    if (p.surface_tension > 0.0)
+        check_smooth_enough<Dim>(SurfaceTension{p.surface_tension}, weight);
+    if (p.strength > 0.0) check_smooth_enough<Dim>(CurvatureStrength{p.strength}, weight);
+    return p;
+}
+
+bool has_shape(const DensityPotentials& p) { return p.surface_tension > 0.0 || p.strength > 0.0; }
+
+template <int Dim>
+DensityPotentialSweeps<Dim> best_sweeps(bool shape) {
+    return at_level(instruction_set(),
+                    [&](auto level) { return density_potential_sweeps<Dim, level>(shape); });
+}
+
+/// Of points, which know neither velocity nor stress.
+template <int Dim>
+Pack<Dim> point_pack() {
+    return at_level(instruction_set(),
+                    [](auto level) { return potential_sweeps<Dim, level>().pack; });
+}
+
+template <int Dim>
+PackedFields fields(const Model<Dim>& model, std::span<const double> y) {
+    const ConstState<Dim> state(model.layout(), y);
+    return {state.position().data(), nullptr, model.particles().mass.data()};
+}
+
+}  // namespace
+
+std::string DensityPotentials::describe() const {
+    std::string words;
+    if (state) words += state->describe() + "; ";
+    if (surface_tension > 0.0) words += fmt::format("surface tension {:g}; ", surface_tension);
+    if (strength > 0.0) words += fmt::format("strength {:g}; ", strength);
+    if (core.e_c > 0.0) words += fmt::format("core {:g} of range {:g}; ", core.e_c, core.s);
+    return words + fmt::format("{} weight of range {:g}", to_string(kernel), range);
+}
+
+template <int Dim>
+struct DensityPotentialModel<Dim>::Parts {
+    using At = DensityRecordPlaces<Dim>;
+
+    /// Without a core its range is any but zero, by whose square is divided.
+    explicit Parts(const DensityPotentials& p)
+        : potentials(p),
+          shape(has_shape(p)),
+          sweeps(best_sweeps<Dim>(shape)),
+          weight(p.kernel, p.range),
+          core(p.core.e_c > 0.0 ? p.core : CorePotential{0.0, p.range}) {}
+
+    DensityPotentialOutput<Dim> output(PackedParticles<Dim>& particles) const {
+        return {weight, core, particles.record(0)};
+    }
+    void find_fields(PackedParticles<Dim>& particles) const {
+        sweeps.fields(particles.input(), output(particles));
+    }
+    std::size_t make_slopes();
+    void make_slopes(double* record, double P) const;
+    double energy(double m, const double* record) const;
+
+    DensityPotentials potentials;
+    bool shape;  ///< whether g and D are wanted
+    DensityPotentialSweeps<Dim> sweeps;
+    GeneralWeight<Dim> weight;
+    CorePotential core;
+    std::unique_ptr<PackedParticles<Dim>> packed{};
+    std::vector<double> densities{}, pressures{};  ///< by slot
+};
+
+namespace {
+
+/// A field of the density in a record.
+template <class Field>
+Field field_at(const double* number) {
+    Field field;
+    std::copy_n(number, field.c.size(), field.c.begin());
+    return field;
+}
+template <class Field>
+void write_slope(double* number, double inverse_mass, const Field& slope) {
+    for (const double component : slope.c) *number++ = inverse_mass * component;
+}
+
+/// rho > 0 and P(rho) with a meaning.
+bool within_law(double rho, double P) { return rho > 0.0 && std::isfinite(P); }
+
+}  // namespace
+
+/// S = G/m in place of the fields: P/rho^2 for the density.
+template <int Dim>
+void DensityPotentialModel<Dim>::Parts::make_slopes(double* record, double P) const {
+    double& rho = record[At::rho];
+    rho = P / (rho * rho);
+    if (!shape) return;
+    const double m = record[At::mass];
+    const SurfaceTension tension{potentials.surface_tension};
+    write_slope(record + At::g, 1.0 / m, tension.slope<Dim>(m, field_at<Vec<Dim>>(record + At::g)));
+    if constexpr (Dim > 1) {
+        const CurvatureStrength strength{potentials.strength};
+        write_slope(record + At::D, 1.0 / m,
+                    strength.slope<Dim>(m, field_at<SymTensor<Dim>>(record + At::D)));
+    }
+}
+
+/// Of all slots, some hundred at a time. Returns how many densities are outside the law.
+template <int Dim>
+std::size_t DensityPotentialModel<Dim>::Parts::make_slopes() {
+    constexpr std::size_t block = 256;
+    const std::size_t slots = packed->list().size();
+    densities.resize(slots);
+    pressures.assign(slots, 0.0);
+    return parallel_count((slots + block - 1) / block,
+                          [&](std::size_t b) {
+                              const std::size_t first = b * block,
+                                                count = std::min(block, slots - first);
+                              for (std::size_t s = first; s < first + count; ++s)
+                                  densities[s] = packed->record(s)[At::rho];
+                              const std::span<const double> rho(&densities[first], count);
+                              const std::span<double> P(&pressures[first], count);
+                              if (potentials.state) potentials.state->pressures(rho, rho, P);
+                              std::size_t outside = 0;
+                              for (std::size_t s = first; s < first + count; ++s) {
+                                  make_slopes(packed->record(s), pressures[s]);
+                                  outside += within_law(densities[s], pressures[s]) ? 0 : 1;
+                              }
+                              return outside;
+                          },
+                          block);
+}
+
+/// Of the fields of one particle.
+template <int Dim>
+double DensityPotentialModel<Dim>::Parts::energy(double m, const double* record) const {
+    double energy = potentials.state ? m * potentials.state->cold_energy(record[At::rho]) : 0.0;
+    if (!shape) return energy;
+    energy += SurfaceTension{potentials.surface_tension}.energy<Dim>(
+        m, field_at<Vec<Dim>>(record + At::g));
+    if constexpr (Dim > 1)
+        energy += CurvatureStrength{potentials.strength}.energy<Dim>(
+            m, field_at<SymTensor<Dim>>(record + At::D));
+    return energy;
+}
+
+template <int Dim>
+DensityPotentialModel<Dim>::DensityPotentialModel(Particles<Dim> particles,
+                                                  const DensityPotentials& potentials,
+                                                  const Box<Dim>& box)
+    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+      potentials_(validated<Dim>(potentials, this->particles().spacing)),
+      parts_(std::make_unique<Parts>(potentials_)) {
+    parts_->packed = packed_with(ListUse::again_and_again);
+}
+
+template <int Dim>
+DensityPotentialModel<Dim>::~DensityPotentialModel() = default;
+
+template <int Dim>
+std::unique_ptr<PackedParticles<Dim>> DensityPotentialModel<Dim>::packed_with(ListUse use) const {
+    using At = DensityRecordPlaces<Dim>;
+    return std::make_unique<PackedParticles<Dim>>(
+        potentials_.range, use, this->box(), parts_->sweeps.width,
+        parts_->shape ? At::of_all : At::of_density, point_pack<Dim>());
+}
+
+/// The order that the equations force: rho, g and D; their slopes; forces.
+template <int Dim>
+void DensityPotentialModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+    this->failure_.clear();
+    PackedParticles<Dim>& packed = *parts_->packed;
+    if (!packed.follow(this->particles().size(), fields(*this, y))) {
+        this->fail(y_dot, "a position is not finite");
+        return;
+    }
+    if (parts_->shape || potentials_.state) {
+        parts_->find_fields(packed);
+        if (parts_->make_slopes() > 0) {
+            fail_density(y_dot);
+            return;
+        }
+    }
+    const State<Dim> rate(this->layout(), y_dot);
+    rate.position() = ConstState<Dim>(this->layout(), y).velocity();
+    DensityPotentialOutput<Dim> out = parts_->output(packed);
+    out.v_dot = rate.velocity().data();
+    parts_->sweeps.forces(packed.input(), out);
+}
+
+/// Names the first particle whose density is outside the law.
+template <int Dim>
+void DensityPotentialModel<Dim>::fail_density(std::span<double> y_dot) {
+    const auto order = parts_->packed->list().order();
+    std::size_t first = this->particles().size(), at = 0;
+    for (std::size_t slot = 0; slot < parts_->densities.size(); ++slot)
+        if (order[slot] < first && !within_law(parts_->densities[slot], parts_->pressures[slot])) {
+            first = order[slot];
+            at = slot;
+        }
+    const std::string law = potentials_.state ? potentials_.state->describe() : "a density";
+    this->fail(y_dot, fmt::format("density {} of particle {} is outside the law '{}'",
+                                  parts_->densities[at], this->particles().id[first], law));
+}
+
+template <int Dim>
+void DensityPotentialModel<Dim>::remember(Archive& archive) {
+    Model<Dim>::remember(archive);
+    if (archive.reading()) parts_->packed = packed_with(ListUse::again_and_again);
+}
+
+/// For observers, here and below: a list of its own, so that the one of the right-hand side stays as
+/// it is.
+template <int Dim>
+std::vector<double> DensityPotentialModel<Dim>::density(std::span<const double> y) const {
+    const auto own = packed_with(ListUse::once);
+    std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
+    if (!own->follow(rho.size(), fields(*this, y))) return rho;
+    parts_->find_fields(*own);
+    for (std::size_t slot = 0; slot < rho.size(); ++slot)
+        rho[own->list().order()[slot]] = own->record(slot)[DensityRecordPlaces<Dim>::rho];
+    return rho;
+}
+
+template <int Dim>
+double DensityPotentialModel<Dim>::internal_energy(std::span<const double> y) const {
+    const auto own = packed_with(ListUse::once);
+    const std::size_t n = this->particles().size();
+    if (!own->follow(n, fields(*this, y))) return std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> energy(n, 0.0);
+    if (potentials_.core.e_c > 0.0) {
+        DensityPotentialOutput<Dim> out = parts_->output(*own);
+        out.energy = energy.data();
+        parts_->sweeps.energy(own->input(), out);
+    }
+    parts_->find_fields(*own);
+    for (std::size_t slot = 0; slot < n; ++slot) {
+        const std::size_t i = own->list().order()[slot];
+        energy[i] += parts_->energy(this->particles().mass[i], own->record(slot));
+    }
+    CompensatedSum sum;
+    for (const double e : energy) sum += e;
+    return sum;
+}
+
+template <int Dim>
+Promises DensityPotentialModel<Dim>::promises() const {
+    Promises p;
+    if (!this->box().periodic()) p.angular_momentum = Promise::integrator_error;
+    return p;
+}
+
+template <int Dim>
+std::string DensityPotentialModel<Dim>::describe() const {
+    return fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
+}
+
+template <int Dim>
+std::size_t DensityPotentialModel<Dim>::pairs() const {
+    return parts_->packed->list().pairs();
+}
+
+template class DensityPotentialModel<1>;
+template class DensityPotentialModel<2>;
+template class DensityPotentialModel<3>;
+
+}  // namespace spam
