@@ -13,9 +13,10 @@
 // of densities summed with w(r), free of pressure: rho0 is what particles sum to at a site.
 // 1. At rest. Eigenvalues of the second derivatives of Phi, and elastic moduli. With e(rho) alone more
 //    than half of all directions cost nothing, and the shear modulus is exactly zero; curvature gives
-//    strength; gradients take away all zero modes but the two translations, yet no strength.
+//    strength; gradients leave no zero modes but the two translations, yet give no strength.
 // 2. In motion. Particles with small random velocities leave their sites for good with e(rho) alone:
-//    the lattice melts. Their paths, as on the slide.
+//    the lattice melts, and so it does with gradients, in spite of its two zero modes. Curvature holds
+//    it. Their paths, as on the slide.
 // With --potential one lattice under one choice of potentials is analysed, and nothing moves.
 #include "lattice_stability/motion.hpp"
 #include "lattice_stability/strength.hpp"
@@ -143,7 +144,7 @@ void table_and_motion(Session& session, Parameters& p) {
 int main(int argc, char** argv) {
     using namespace lattice_stability;
     Problem problem("lattice_stability",
-                    "which potentials of the density hold a lattice together, [HH07] 8", 0.05);
+                    "which potentials of the density hold a lattice together, [HH07] 8", 0.03);
     Parameters p;
     auto& options = problem.options();
     options.choice<LatticeKind>("lattice", p.lattice,

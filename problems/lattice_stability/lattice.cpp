@@ -25,6 +25,11 @@ std::string title_of(Acting acting) {
     return titles[static_cast<std::size_t>(acting)];
 }
 
+int style_of(Acting acting) {
+    static constexpr std::array<int, 4> styles{1, 2, 3, 5};
+    return styles[static_cast<std::size_t>(acting)];
+}
+
 DensityPotentials Parameters::potentials(LatticeKind kind, Acting which, double h) const {
     DensityPotentials p;
     p.kernel = kernel;

@@ -21,6 +21,8 @@ enum class Acting { density, curvature, gradient, both };
 std::string_view to_string(Acting acting);
 /// "e(ρ) + curvature"
 std::string title_of(Acting acting);
+/// Its colour in every picture.
+int style_of(Acting acting);
 inline const std::vector<Acting> all_potentials{Acting::density, Acting::curvature,
                                                 Acting::gradient, Acting::both};
 

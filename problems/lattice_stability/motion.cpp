@@ -80,18 +80,22 @@ void draw_paths(Session& session, const Parameters& p, const std::vector<Sample>
 void draw_displacements(Session& session, const std::vector<Sample>& samples,
                         const std::vector<RunRecord>& runs) {
     CurvePanel displacement{"from the sites of the lattice", "t", "rms displacement", false, {}};
-    CurvePanel potential{"energy", "t", "kinetic energy / total", false, {}};
+    CurvePanel kinetic{"energy in motion", "t", "kinetic energy / total", false, {}};
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const History& h = runs[k].history;
         const std::string title = title_of(samples[k].acting);
-        displacement.curves.push_back({title, h.column("t"), h.column("rms_displacement")});
+        const int style = style_of(samples[k].acting);
+        displacement.curves.push_back({.title = title,
+                                       .x = h.column("t"),
+                                       .y = h.column("rms_displacement"),
+                                       .style = style});
         auto share = h.column("kinetic");
         for (double& value : share) value /= h.first("energy");
-        potential.curves.push_back({title, h.column("t"), share});
+        kinetic.curves.push_back({.title = title, .x = h.column("t"), .y = share, .style = style});
     }
     session.note_drawn(draw_curves(session.plots_folder(), "displacements",
                                    "A lattice that melts, and what holds it",
-                                   {displacement, potential}));
+                                   {displacement, kinetic}));
 }
 
 }  // namespace lattice_stability

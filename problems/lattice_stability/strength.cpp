@@ -100,15 +100,16 @@ void report(Session& session, const Parameters& p, const Analysed& one, const st
 
 void print_table(Session& session, const std::vector<Analysed>& all) {
     session.terminal().say("");
-    session.terminal().say(fmt::format("{:<12}{:<11}{:>6}{:>7}{:>10}{:>12}{:>13}{:>12}{:>11}{:>10}",
+    session.terminal().say(fmt::format("{:<11}{:<11}{:>6}{:>5}{:>9}{:>9}{:>12}{:>13}{:>9}{:>8}",
                                        "potentials", "lattice", "range", "zero", "negative",
                                        "up to", "others from", "(C11-C12)/2", "C44", "bulk"));
+    const auto tidy = [](double G) { return std::abs(G) < 1e-8 ? 0.0 : G; };
     for (const auto& one : all)
         session.terminal().say(fmt::format(
-            "{:<12}{:<11}{:>6g}{:>7}{:>10}{:>12.1e}{:>13.1e}{:>12.6f}{:>11.6f}{:>10.4f}",
+            "{:<11}{:<11}{:>6g}{:>5}{:>9}{:>9.0e}{:>12.0e}{:>13.5f}{:>9.5f}{:>8.4f}",
             to_string(one.acting), to_string(one.lattice), one.range, one.spectrum.zero,
             one.spectrum.negative, one.spectrum.largest_zero, one.spectrum.smallest_other,
-            one.moduli.shear + 0.0, one.moduli.diagonal_shear + 0.0, one.moduli.bulk));
+            tidy(one.moduli.shear), tidy(one.moduli.diagonal_shear), one.moduli.bulk));
     session.terminal().say(
         fmt::format("eigenvalues in parts of the largest; below {:g} they count as zero",
                     LatticeSpectrum::threshold));
@@ -135,15 +136,18 @@ void draw_modes(Session& session, const Parameters& p, const std::vector<Analyse
     for (const double h : ranges_of(all)) map.columns[1].values.push_back(fmt::format("{:g}", h));
     for (const auto& one : all) {
         map.value.push_back(one.spectrum.zero);
-        map.text.push_back(fmt::format(
-            "{}{}\nG = {:.3g}", one.spectrum.zero,
-            one.spectrum.negative == 0 ? "" : fmt::format(", {} < 0", one.spectrum.negative),
-            std::abs(one.moduli.shear) < 1e-8 ? 0.0 : one.moduli.shear));
+        const double G = one.moduli.shear / p.strength;
+        const int negative = one.spectrum.negative;
+        map.text.push_back(
+            fmt::format("{}{}\nG = {:.2g}", one.spectrum.zero,
+                        negative == 0 ? std::string{} : fmt::format(", {} < 0", negative),
+                        std::abs(G) < 1e-7 ? 0.0 : G));
     }
     session.note_drawn(draw_heat_map(
         session.plots_folder(), "zero_modes",
-        fmt::format("Modes of {0} × {0} particles that cost nothing, of {1}, and shear modulus",
-                    p.cells, 2 * p.cells * p.cells),
+        fmt::format(
+            "Modes of {0} × {0} particles that cost nothing, of {1}, and shear modulus G/s_c",
+            p.cells, 2 * p.cells * p.cells),
         map));
 }
 
@@ -158,7 +162,8 @@ void draw_spectra(Session& session, const Parameters& p, const std::vector<Analy
                          {}};
         for (const auto& one : all) {
             if (one.lattice != lattice || one.range != range) continue;
-            Curve curve{title_of(one.acting), {}, {}};
+            Curve curve{
+                .title = title_of(one.acting), .x = {}, .y = {}, .style = style_of(one.acting)};
             const auto& values = one.spectrum.eigenvalue;
             for (std::size_t k = 0; k < values.size(); ++k) {
                 curve.x.push_back(double(k + 1));
@@ -170,7 +175,8 @@ void draw_spectra(Session& session, const Parameters& p, const std::vector<Analy
     }
     session.note_drawn(draw_curves(
         session.plots_folder(), "spectra",
-        fmt::format("Second derivatives of the energy, {0} × {0} particles, {1} of range {2:g}",
+        fmt::format("Second derivatives of the energy without their zeros, {0} × {0} particles, "
+                    "{1}, h = {2:g}",
                     p.cells, spam::to_string(p.kernel), range),
         panels));
 }

@@ -14,7 +14,7 @@ std::vector<double> Ruler::density(const Points<2>& x) const {
     const PairList<2> pairs(x, range, {});
     std::vector<double> rho;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        rho.push_back(wall_.energy(x.col(i)));
+        rho.push_back(wall_.weight_outside(x.col(i)));
         for (const std::uint32_t j : pairs.neighbours(static_cast<std::size_t>(i)))
             rho.back() += w.value((x.col(i) - x.col(j)).norm());
     }

@@ -64,13 +64,32 @@ Region::Region(Points<2> polygon) : polygon_(std::move(polygon)) {
                                 "{:g}); give corners "
                                 "in order around one region",
                                 polygon_(0, j), polygon_(1, j), polygon_(0, k), polygon_(1, k)));
+    sort_sides();
 }
 
 double Region::area() const { return signed_area(polygon_); }
 
-bool Region::contains(const Point<2>& r) const {
-    bool inside = false;
+std::size_t Region::band(double y) const {
+    const double at = std::clamp((y - low_) / band_height_, 0.0, double(bands_.size()) - 1.0);
+    return static_cast<std::size_t>(at);
+}
+
+void Region::sort_sides() {
+    const auto bands = static_cast<std::size_t>(std::min<Eigen::Index>(512, polygon_.cols()));
+    low_ = polygon_.row(1).minCoeff();
+    band_height_ = (polygon_.row(1).maxCoeff() - low_) / static_cast<double>(bands);
+    bands_.assign(bands, {});
     for (Eigen::Index k = 0; k < polygon_.cols(); ++k) {
+        const double a = polygon_(1, k), b = polygon_(1, (k + 1) % polygon_.cols());
+        for (std::size_t n = band(std::min(a, b)); n <= band(std::max(a, b)); ++n)
+            bands_[n].push_back(k);
+    }
+}
+
+bool Region::contains(const Point<2>& r) const {
+    if (!r.allFinite()) return false;
+    bool inside = false;
+    for (const Eigen::Index k : bands_[band(r.y())]) {
         const Point<2> a = polygon_.col(k), b = polygon_.col((k + 1) % polygon_.cols());
         if ((a.y() > r.y()) == (b.y() > r.y())) continue;
         if (r.x() < a.x() + (r.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
@@ -78,14 +97,18 @@ bool Region::contains(const Point<2>& r) const {
     return inside;
 }
 
-double Region::distance(const Point<2>& r) const {
+Point<2> Region::nearest_on_border(const Point<2>& r) const {
     double least = HUGE_VAL;
+    Point<2> nearest = polygon_.col(0);
     for (Eigen::Index k = 0; k < polygon_.cols(); ++k) {
         const Point<2> a = polygon_.col(k), side = polygon_.col((k + 1) % polygon_.cols()) - a;
         const double along = std::clamp((r - a).dot(side) / side.squaredNorm(), 0.0, 1.0);
-        least = std::min(least, (r - a - along * side).norm());
+        const Point<2> at = a + along * side;
+        if ((r - at).squaredNorm() >= least) continue;
+        least = (r - at).squaredNorm();
+        nearest = at;
     }
-    return least;
+    return nearest;
 }
 
 Region Region::of_area(double area) const {
@@ -94,6 +117,7 @@ Region Region::of_area(double area) const {
     other.polygon_ *= other.scale_;
     other.shift_ = centroid(other.polygon_);
     other.polygon_.colwise() -= other.shift_;
+    other.sort_sides();
     return other;
 }
 

@@ -5,6 +5,7 @@
 #include <spam/core/state.hpp>
 
 #include <string>
+#include <vector>
 
 namespace relaxation {
 
@@ -21,8 +22,9 @@ class Region {
     const Points<2>& polygon() const { return polygon_; }
     double area() const;
     bool contains(const Point<2>& r) const;
+    Point<2> nearest_on_border(const Point<2>& r) const;
     /// From the border, whichever side.
-    double distance(const Point<2>& r) const;
+    double distance(const Point<2>& r) const { return (nearest_on_border(r) - r).norm(); }
 
     /// As large as `area`, its centroid at the origin: positions there are those here times scale(),
     /// less shift().
@@ -31,7 +33,13 @@ class Region {
     Point<2> shift() const { return shift_; }
 
   private:
+    void sort_sides();
+    std::size_t band(double y) const;
+
     Points<2> polygon_;
+    /// Sides by their corners, those that enter a band of heights: for contains().
+    std::vector<std::vector<Eigen::Index>> bands_;
+    double low_ = 0.0, band_height_ = 1.0;
     double scale_ = 1.0;
     Point<2> shift_ = Point<2>::Zero();
 };

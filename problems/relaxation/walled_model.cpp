@@ -79,12 +79,19 @@ Point<2> Wall::force(const Point<2>& r) const {
             w += 0.5 * weight_.value((piece.from + part * (piece.to - piece.from) - r).norm());
         sum -= w * piece.normal;
     });
+    if (!region_.contains(r)) sum += region_.nearest_on_border(r) - r;
     return sum;
+}
+
+double Wall::energy(const Point<2>& r) const {
+    const double spring =
+        region_.contains(r) ? 0.0 : 0.5 * (region_.nearest_on_border(r) - r).squaredNorm();
+    return weight_outside(r) + spring;
 }
 
 /// By the divergence theorem: the weight inside is the flux of flux(r) r through the border, which far
 /// away is the angle of view over 2 pi. Only where it differs from that the pieces matter.
-double Wall::energy(const Point<2>& r) const {
+double Wall::weight_outside(const Point<2>& r) const {
     double inside = region_.contains(r) ? 1.0 : 0.0;
     for_each_near(r, [&](const Piece& piece) {
         const Point<2> a = piece.from - r, b = piece.to - r;
@@ -128,7 +135,7 @@ std::vector<double> WalledModel::density(std::span<const double> y) const {
     auto rho = inside_.density(y);
     const auto x = ConstState<2>(layout(), y).position();
     for (std::size_t i = 0; i < rho.size(); ++i)
-        rho[i] += wall_.energy(x.col(static_cast<Eigen::Index>(i)));
+        rho[i] += wall_.weight_outside(x.col(static_cast<Eigen::Index>(i)));
     return rho;
 }
 

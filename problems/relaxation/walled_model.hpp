@@ -16,14 +16,18 @@ namespace relaxation {
 /// layers, no thinning. With Lucy's w,
 ///     Phi(r) = integral over the outside of w(r - s) dA,   -grad Phi = -closed integral of w n ds,
 /// n pointing outwards. The integral over the border needs only what is nearer than the range.
+/// Deep in that matter nothing pushes any more, and particles that begin on top of each other are fast
+/// enough to get there; so in the outside a spring pulls back to the border, where nothing is at rest:
+///     + d^2/2,   d the distance from the border.
 class Wall {
   public:
     Wall(const Region& region, double range);
 
     /// -grad Phi
     Point<2> force(const Point<2>& r) const;
-    /// Phi: the part of a particle's weight that is outside, 0 to 1.
     double energy(const Point<2>& r) const;
+    /// The part of a particle's weight that is outside, 0 to 1: Phi without the spring.
+    double weight_outside(const Point<2>& r) const;
 
   private:
     /// A short straight piece of the border.

@@ -39,11 +39,19 @@ struct Extent {
     }
 };
 
+/// What the frames surround and an eighth more, or without any all paths.
 Extent extent_of(const std::vector<PathPanel>& panels) {
     Extent e;
-    for (const auto& panel : panels) {
-        for (const auto& path : panel.paths) e.include(path);
-        e.include(panel.frame);
+    for (const auto& panel : panels) e.include(panel.frame);
+    if (e.x[1] >= e.x[0]) {
+        for (double* range : {e.x, e.y}) {
+            const double more = 0.125 * e.across();
+            range[0] -= more;
+            range[1] += more;
+        }
+    } else {
+        for (const auto& panel : panels)
+            for (const auto& path : panel.paths) e.include(path);
     }
     e.settle();
     return e;
@@ -86,7 +94,7 @@ bool draw_paths(const RunFolder& folder, std::string_view name, std::string_view
     script += fmt::format(
         "set label 100 \"{}\" at screen 0.5,{:.5f} center font ',15'\nset multiplot\n"
         "set xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
-        "unset tics\nunset key\nunset border\n",
+        "unset tics\nunset key\nset border lc rgb '#bbbbbb'\n",
         escaped(title), 1.0 - 24.0 / height, e.x[0], e.x[1], e.y[0], e.y[1]);
     for (std::size_t k = 0; k < panels.size(); ++k) {
         data += blocks_of(panels[k]);

@@ -91,7 +91,8 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
 struct PathPanel {
     std::string title;
     std::vector<Points<2>> paths;
-    Points<2> frame{};  ///< a dashed closed polygon around them (a periodic box), or nothing
+    /// A dashed closed polygon (a periodic box), or nothing. Paths are cut an eighth beyond it.
+    Points<2> frame{};
 };
 
 /// `columns` frames in a row, all with the same scale and extent.
