@@ -30,6 +30,9 @@
 namespace relaxation {
 namespace {
 
+constexpr double at_rest_below = 1e-5;  // rms speed, of that of sound: the run ends
+constexpr double longest = 1000.0;      // a late defect may still move
+
 enum class Start { random, lattice };
 std::string_view to_string(Start start) { return start == Start::random ? "random" : "lattice"; }
 
@@ -62,9 +65,9 @@ double largest_rise(const History& h) {
 }
 
 /// What the defaults reach; shapes and ranges of others may hold more defects.
-bool is_standard(const Parameters& p, const RunRecord& run) {
+bool is_standard(const Parameters& p, const RunRecord& run, double t_end) {
     return p.outline.empty() && p.lobes == 3 && p.depth == 0.2 && p.range == 1.5 &&
-           p.damping == 0.1 && p.particles >= 200 && run.history.last("t") >= 250.0;
+           p.damping == 0.1 && p.particles >= 200 && t_end >= longest && run.complete;
 }
 
 void report(Session& session, const Parameters& p, const RunRecord& run, const Quality& before,
@@ -72,13 +75,13 @@ void report(Session& session, const Parameters& p, const RunRecord& run, const Q
     const auto measured = [&](const char* name, double value) {
         if (std::isfinite(value)) session.check({name, value, {}, 0.0, "measured"});
     };
-    const bool standard = is_standard(p, run);
+    const bool standard = is_standard(p, run, *session.common().t_end);
     session.check({"particles_outside", double(after.outside), 0.0, 0.0, "the wall holds them"});
-    session.check({"energy_rise", largest_rise(run.history), 0.0, 1e-9, "friction takes energy"});
+    session.check({"energy_rise", largest_rise(run.history), 0.0, 1e-6, "friction takes energy"});
     measured("density_scatter_before", before.scatter);
     measured("density_scatter_interior_before", before.interior);
     if (standard) {
-        session.check({"residual_speed", run.history.last("rms_speed"), 0.0, 1e-4,
+        session.check({"residual_speed", run.history.last("rms_speed"), 0.0, at_rest_below,
                        "of the speed of sound: at rest"});
         session.check({"density_scatter", after.scatter, 0.0, 0.02, "measured before"});
         session.check({"density_scatter_interior", after.interior, 0.0, 0.015, "measured before"});
@@ -124,22 +127,21 @@ void draw(Session& session, const Region& region, const Ruler& ruler, const RunR
           {region.polygon()}}},
         2, "density"));
     const auto count = ruler.neighbours(x);
-    session.note_drawn(
-        draw_configurations(folder, "neighbours", "Neighbours within 1.47 of the relaxed particles",
-                            {{"six: triangular lattice; others: its defects, and the border",
-                              x,
-                              std::vector<double>(count.begin(), count.end()),
-                              {region.polygon()}}},
-                            1, "neighbours"));
+    session.note_drawn(draw_configurations(folder, "neighbours", "Neighbours of particles",
+                                           {{"off the border six, but for defects",
+                                             x,
+                                             std::vector<double>(count.begin(), count.end()),
+                                             {region.polygon()}}},
+                                           1, "nearer than 1.47"));
     const History& h = run.history;
-    session.note_drawn(draw_curves(
-        folder, "relaxation", "Coming to rest",
-        {{"evenness",
-          "t",
-          "density scatter",
-          true,
-          {{"", h.column("t"), h.column("density_scatter")}}},
-         {"motion", "t", "rms speed", true, {{"", h.column("t"), h.column("rms_speed")}}}}));
+    const CurvePanel evenness{"evenness",
+                              "t",
+                              "relative standard deviation",
+                              true,
+                              {{"density", h.column("t"), h.column("density_scatter")}}};
+    const CurvePanel motion{
+        "motion", "t", "rms speed", true, {{"speed", h.column("t"), h.column("rms_speed")}}};
+    session.note_drawn(draw_curves(folder, "relaxation", "Coming to rest", {evenness, motion}));
 }
 
 }  // namespace
@@ -186,7 +188,12 @@ int main(int argc, char** argv) {
                           p.damping, Friction::all_motion);
         auto y0 = initial_state<2>(model, 1.0, 1.0, at_rest<2>());
         Plan<2> plan;
-        plan.t_end = session.common().smoke ? 40.0 : 250.0;
+        plan.t_end = session.common().smoke ? 40.0 : longest;
+        plan.output_every = 1.0;
+        plan.snapshot_every = 0.05 * plan.t_end;
+        plan.enough = [](const History& h) {
+            return h.last("t") > 10.0 && h.last("rms_speed") < at_rest_below;
+        };
         plan.columns = {{"rms_speed", rms_speed},
                         {"density_scatter", [&ruler](const Model<2>& m, std::span<const double> y) {
                              return scatter(ruler.density(ConstState<2>(m.layout(), y).position()));

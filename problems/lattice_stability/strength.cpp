@@ -139,14 +139,15 @@ void draw_modes(Session& session, const Parameters& p, const std::vector<Analyse
         const double G = one.moduli.shear / p.strength;
         const int negative = one.spectrum.negative;
         map.text.push_back(
-            fmt::format("{}{}\nG = {:.2g}", one.spectrum.zero,
+            fmt::format("{}{}\nG {:.2g}", one.spectrum.zero,
                         negative == 0 ? std::string{} : fmt::format(", {} < 0", negative),
                         std::abs(G) < 1e-7 ? 0.0 : G));
     }
     session.note_drawn(draw_heat_map(
         session.plots_folder(), "zero_modes",
         fmt::format(
-            "Modes of {0} × {0} particles that cost nothing, of {1}, and shear modulus G/s_c",
+            "Modes of {0} × {0} particles that cost nothing, of {1}, and shear modulus G (unit: "
+            "strength)",
             p.cells, 2 * p.cells * p.cells),
         map));
 }

@@ -91,6 +91,17 @@ const std::map<std::string, std::string> another_value{
     {"largest-range", "5"},
     {"ranges", "4"},
     {"family", "4"},
+    {"lattice", "square"},
+    {"potential", "both"},
+    {"strength", "0.2"},
+    {"surface-tension", "0.2"},
+    {"misfit", "0.98"},
+    {"seed", "5"},
+    {"particles", "90"},
+    {"lobes", "5"},
+    {"depth", "0.3"},
+    {"outline", "nowhere.csv"},
+    {"start", "lattice"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -119,6 +130,10 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"invariant_drift", {}},
     {"kernels", {}},
     {"turns_survived", {}},
+    {"lattice_stability", {}},
+    {"lattice_stability", {"--potential", "both"}},
+    {"lattice_stability", {"--potential", "density"}},
+    {"relaxation", {}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {
