@@ -16,8 +16,12 @@ namespace {
 using std::numbers::pi;
 
 constexpr int pieces_per_range = 8;
-/// Gauss' two points of a piece, as parts of it.
-const std::array<double, 2> gauss{0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+/// Gauss' three points of a piece, as parts of it, and their weights.
+struct Node {
+    double part, weight;
+};
+const std::array<Node, 3> gauss{
+    {{0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}}};
 
 /// (1/r^2) integral of w r' dr' from 0 to r, for Lucy's w = (5/(pi h^2)) (1 - 6u^2 + 8u^3 - 3u^4): its
 /// divergence is w where multiplied by r.
@@ -75,8 +79,8 @@ Point<2> Wall::force(const Point<2>& r) const {
     Point<2> sum = Point<2>::Zero();
     for_each_near(r, [&](const Piece& piece) {
         double w = 0.0;
-        for (const double part : gauss)
-            w += 0.5 * weight_.value((piece.from + part * (piece.to - piece.from) - r).norm());
+        for (const auto& [part, weight] : gauss)
+            w += weight * weight_.value((piece.from + part * (piece.to - piece.from) - r).norm());
         sum -= w * piece.normal;
     });
     if (!region_.contains(r)) sum += region_.nearest_on_border(r) - r;
@@ -97,10 +101,10 @@ double Wall::weight_outside(const Point<2>& r) const {
         const Point<2> a = piece.from - r, b = piece.to - r;
         double through = 0.0;
         bool near = false;
-        for (const double part : gauss) {
+        for (const auto& [part, weight] : gauss) {
             const Point<2> s = a + part * (b - a);
             near = near || s.norm() < weight_.range();
-            through += 0.5 * flux(s.norm(), weight_.range()) * s.dot(piece.normal);
+            through += weight * flux(s.norm(), weight_.range()) * s.dot(piece.normal);
         }
         if (!near) return;
         const double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
