@@ -92,6 +92,18 @@ BOOST_AUTO_TEST_CASE(configurations) {
     check_picture(folder, drawn, 680, 680);
 }
 
+BOOST_AUTO_TEST_CASE(paths) {
+    Points<2> square(2, 4), line(2, 3);
+    square << -1, 1, 1, -1, -1, -1, 1, 1;
+    line << 0, 0.5, missing, 0, 3.0, 1;
+    const PathPanel framed{awkward, {line, square}, square};
+    const PathPanel nothing{"nothing moved", {}, {}};
+    for (const auto& panels : {std::vector{framed, nothing, framed}, std::vector{nothing}}) {
+        const Scratch folder;
+        check_picture(folder, draw_paths(plots(folder), "picture", awkward, panels, 2), 470, 470);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(bars) {
     for (const bool log : {false, true}) {
         const Scratch folder;

@@ -7,16 +7,19 @@
 // two coordinates, so one direction of each of the 100 wave vectors is free, and both where k and -k are
 // the same wave. Of these there are s = 2 on the triangular block (one M point fits into it), 4 on the
 // square: 100 + s modes. Curvatures change by odd sums as well: 2s are left. Gradients change by even
-// ones: only the two translations are left.
-#include <spam/kernel/lucy.hpp>
-#include <spam/kernel/wn.hpp>
+// ones: only the two translations are left, with curvature or without; but a gradient of long waves is
+// small in k^2, so that it gives no modulus.
+//
+// Nothing is negative: at the rest density of the lattice every potential is a sum of squares that
+// vanishes there. With mass per volume in place of the site's sum the lattice is under pressure, and
+// may fall apart.
+#include <spam/diagnostics/lattice_strength.hpp>
+#include <spam/kernel/any_weight.hpp>
 #include <spam/material/embedded_atom.hpp>
+#include <spam/material/van_der_waals.hpp>
 #include <spam/physics/curvature_strength.hpp>
-#include <spam/physics/embedded_energy.hpp>
-#include <spam/physics/surface_tension.hpp>
 #include <spam/setup/lattices.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -27,138 +30,172 @@ using namespace spam;
 namespace {
 
 struct Lattice {
+    const char* name;
+    LatticeVectors vectors;
     Points<2> x;
     Box<2> box;
-    std::vector<double> mass = std::vector<double>(100, 1.0);
+    int self_conjugate;  ///< waves with k = -k
 
-    static Lattice triangular() { return {triangular_block(10, 10), triangular_box(10, 10)}; }
-    static Lattice square() { return {square_lattice<2>({10, 10}), Box<2>({10.0, 10.0})}; }
-
-    /// Energy and forces of `term` with the particles at `at` in `in`.
-    template <class Term, class Weight>
-    EnergyAndForces<2> evaluate(const Term& term, const Weight& w, const Points<2>& at,
-                                const Box<2>& in) const {
-        const PairList<2> pairs(at, w.range(), in);
-        return energy_and_forces<2>(term, w, Neighbourhood<2>{at, mass, pairs, in});
+    static Lattice triangular() {
+        return {"triangular", LatticeVectors{{1.0, 0.5}, {0.0, std::sqrt(0.75)}},
+                triangular_block(10, 10), triangular_box(10, 10), 2};
     }
-
-    /// The fluid that is at rest on this lattice: rho0 is what particles sum to at a site.
-    template <class Weight>
-    EmbeddedEnergy<EmbeddedAtom> fluid(const Weight& w, double misfit = 1.0) const {
-        const PairList<2> pairs(x, w.range(), box);
-        const EmbeddedEnergy<EmbeddedAtom> any{{1.0, 1.0}};
-        const Neighbourhood<2> near{x, mass, pairs, box};
-        return {{1.0, misfit * density_fields<2>(any, w, near)[0]}};
+    static Lattice square() {
+        return {"square", LatticeVectors::Identity(), square_lattice<2>({10, 10}),
+                Box<2>({10.0, 10.0}), 4};
     }
-
-    /// Second derivatives of the energy, 200 x 200, by differences of the forces.
-    template <class Term, class Weight>
-    Eigen::MatrixXd hessian(const Term& term, const Weight& w) const {
-        const double d = 1e-4;
-        Eigen::MatrixXd H(2 * x.cols(), 2 * x.cols());
-        for (Eigen::Index k = 0; k < H.cols(); ++k) {
-            const auto force = [&](double shift) {
-                Points<2> moved = x;
-                moved.reshaped()(k) += shift;
-                return evaluate(term, w, moved, box).force.reshaped().eval();
-            };
-            H.col(k) =
-                -(8.0 * (force(d) - force(-d)) - (force(2 * d) - force(-2 * d))) / (12.0 * d);
-        }
-        return 0.5 * (H + H.transpose());
+    /// The fluid that is at rest on this lattice, times `misfit`.
+    EmbeddedAtom fluid(Kernel kernel, double h, double misfit = 1.0) const {
+        return {1.0, misfit * site_density(vectors, kernel, h)};
     }
-
-    /// Shear modulus at constant area: E'' = 4 G V for x e^s, y e^-s. On the square lattice that is
-    /// (C11 - C12)/2.
-    template <class Term, class Weight>
-    double shear_modulus(const Term& term, const Weight& w) const {
-        const auto energy = [&](double s) {
-            Points<2> strained = x;
-            strained.row(0) *= std::exp(s);
-            strained.row(1) *= std::exp(-s);
-            const Box<2> in({box.length(0) * std::exp(s), box.length(1) * std::exp(-s)});
-            return evaluate(term, w, strained, in).energy;
-        };
-        const auto second = [&](double s) { return energy(s) + energy(-s) - 2.0 * energy(0.0); };
-        const double s = 1e-3;
-        return (16.0 * second(s) - second(2.0 * s)) / (12.0 * s * s) /
-               (4.0 * box.length(0) * box.length(1));
+    DensityPotentials density(Kernel kernel, double h) const {
+        return {.state = fluid(kernel, h), .kernel = kernel, .range = h};
+    }
+    LatticeSpectrum spectrum(const DensityPotentials& p) const {
+        return LatticeSpectrum(hessian(p, x, box));
     }
 };
 
-struct Modes {
-    int zero, negative;
-};
+const Lattice lattices[] = {Lattice::triangular(), Lattice::square()};
 
-/// Differences leave 1e-12 of the largest eigenvalue; the smallest true ones here are 1e-5 of it.
-Modes count(const Eigen::MatrixXd& H) {
-    const Eigen::VectorXd value =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(H, Eigen::EigenvaluesOnly).eigenvalues();
-    const double zero = 1e-9 * value.cwiseAbs().maxCoeff();
-    return {static_cast<int>((value.array().abs() < zero).count()),
-            static_cast<int>((value.array() < -zero).count())};
-}
-
-template <class Weight>
-void check_counts(const Lattice& lattice, double h, int self_conjugate) {
-    BOOST_TEST_CONTEXT("h = " << h << ", " << self_conjugate << " waves with k = -k") {
-        const Weight w(h);
-        const Eigen::MatrixXd density = lattice.hessian(lattice.fluid(w), w);
-        BOOST_TEST(count(density).zero == 100 + self_conjugate);
-        BOOST_TEST(count(density).negative == 0);
-        if constexpr (Weight::continuous_derivatives >= 3) {
-            const Eigen::MatrixXd curvature = lattice.hessian(CurvatureStrength{0.1}, w);
-            BOOST_TEST(count(density + curvature).zero == 2 * self_conjugate);
-            BOOST_TEST(count(density + curvature).negative == 0);
-            const Eigen::MatrixXd gradient = lattice.hessian(SurfaceTension{0.1}, w);
-            BOOST_TEST(count(density + curvature + gradient).zero == 2);
-            BOOST_TEST(count(density + curvature + gradient).negative == 0);
-            // With the sign of the strength reversed the lattice falls apart.
-            BOOST_TEST(count(density - curvature).negative > 50);
-        }
+/// Zero modes, nothing negative, and a wide gap about the threshold.
+void check_count(const Lattice& lattice, const DensityPotentials& p, int zero) {
+    BOOST_TEST_CONTEXT(lattice.name << ", s_c = " << p.strength << ", s_g = " << p.surface_tension
+                                    << ", " << to_string(p.kernel) << ", h = " << p.range) {
+        const LatticeSpectrum modes = lattice.spectrum(p);
+        BOOST_TEST(modes.zero == zero);
+        BOOST_TEST(modes.negative == 0);
+        BOOST_TEST(modes.largest_zero < 1e-12);
+        BOOST_TEST(modes.smallest_other > 5e-7);
     }
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(modes_that_cost_nothing) {
-    check_counts<Wn<2, 5>>(Lattice::triangular(), 2.5, 2);
-    check_counts<Wn<2, 5>>(Lattice::triangular(), 3.25, 2);
-    check_counts<Wn<2, 5>>(Lattice::square(), 2.5, 4);
-    check_counts<Wn<2, 5>>(Lattice::square(), 3.25, 4);
-    check_counts<Lucy<2>>(Lattice::triangular(), 3.25, 2);
-    check_counts<Lucy<2>>(Lattice::square(), 3.25, 4);
+    for (const Lattice& lattice : lattices)
+        for (const double h : {2.5, 3.25}) {
+            DensityPotentials p = lattice.density(Kernel::w5, h);
+            check_count(lattice, p, 100 + lattice.self_conjugate);
+            p.strength = 0.1;
+            check_count(lattice, p, 2 * lattice.self_conjugate);
+            p.surface_tension = 0.1;
+            check_count(lattice, p, 2);
+            p.strength = 0.0;
+            check_count(lattice, p, 2);
+            check_count(lattice, lattice.density(Kernel::lucy, h), 100 + lattice.self_conjugate);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(with_the_sign_of_the_strength_reversed_the_lattice_falls_apart) {
+    for (const Lattice& lattice : lattices) {
+        DensityPotentials p = lattice.density(Kernel::w5, 3.25);
+        p.strength = -0.1;
+        BOOST_TEST(lattice.spectrum(p).negative > 50);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(shear_modulus_comes_from_curvature_alone) {
-    for (const Lattice& lattice : {Lattice::triangular(), Lattice::square()})
+    for (const Lattice& lattice : lattices)
         for (const double h : {2.5, 3.25}) {
-            const Wn<2, 5> w(h);
-            BOOST_TEST(std::abs(lattice.shear_modulus(lattice.fluid(w), w)) < 1e-8);
-            BOOST_TEST(std::abs(lattice.shear_modulus(SurfaceTension{1.0}, w)) < 1e-8);
-            BOOST_TEST(lattice.shear_modulus(CurvatureStrength{1.0}, w) > 0.05);
+            DensityPotentials p = lattice.density(Kernel::w5, h);
+            p.surface_tension = 1.0;
+            const ElasticModuli fluid = elastic_moduli(p, lattice.vectors);
+            BOOST_TEST(std::abs(fluid.shear) < 1e-8);
+            BOOST_TEST(std::abs(fluid.diagonal_shear) < 1e-8);
+            BOOST_TEST(std::abs(fluid.pressure) < 1e-8);
+            // K = (rho^2 e'' + ...) of the law with d ln rho/d ln A not quite -1
+            BOOST_TEST(std::abs(fluid.bulk - 1.0) < 0.25);
+            p.strength = 1.0;
+            const ElasticModuli solid = elastic_moduli(p, lattice.vectors);
+            BOOST_TEST(solid.shear > 0.05);
+            BOOST_TEST(solid.diagonal_shear > 0.01);
+            const double anisotropy = std::abs(solid.shear / solid.diagonal_shear - 1.0);
+            if (lattice.self_conjugate == 2)  // three mirrors: isotropic
+                BOOST_TEST(anisotropy < 1e-6);
+            else
+                BOOST_TEST(anisotropy > 5.0);
         }
-    const double G = Lattice::triangular().shear_modulus(CurvatureStrength{1.0}, Wn<2, 5>(2.5));
+    const DensityPotentials strength{.strength = 1.0, .kernel = Kernel::w5, .range = 2.5};
+    const double G = elastic_moduli(strength, lattices[0].vectors).shear;
     BOOST_TEST_MESSAGE("triangular, w_5, h = 2.5: G = " << G << " s_c");
     BOOST_TEST(std::abs(G - 0.951) < 0.02 * 0.951);
 }
 
+BOOST_AUTO_TEST_CASE(moduli_are_those_of_a_deformed_block) {
+    // The same energies by sums over a periodic block, in which a core acts as well.
+    const Lattice& lattice = lattices[0];
+    DensityPotentials p = lattice.density(Kernel::w5, 2.5);
+    p.strength = 0.3;
+    p.core = {0.2, 1.4};
+    const CurvatureStrength curvature{p.strength};
+    const AnyWeight<2> w = weight_function<2>("w5", p.range);
+    const std::vector<double> mass(100, 1.0);
+    const auto energy = [&](double s) {
+        Points<2> x = lattice.x;
+        x.row(0) *= std::exp(s);
+        x.row(1) *= std::exp(-s);
+        const Box<2> box({10.0 * std::exp(s), lattice.box.length(1) * std::exp(-s)});
+        const PairList<2> pairs(x, p.range, box);
+        const Neighbourhood<2> near{x, mass, pairs, box};
+        return energy_and_forces<2>(curvature, w, near).energy +
+               energy_and_forces<2>(p.core, near).energy;
+    };
+    const double s = 1e-3;
+    const auto second = [&](double by) { return energy(by) + energy(-by) - 2.0 * energy(0.0); };
+    const double G = (16.0 * second(s) - second(2.0 * s)) / (12.0 * s * s) /
+                     (4.0 * lattice.box.length(0) * lattice.box.length(1));
+    BOOST_TEST(std::abs(elastic_moduli(p, lattice.vectors).shear - G) < 1e-7);
+}
+
 BOOST_AUTO_TEST_CASE(a_wrong_rest_density_is_noticed) {
     // With mass per volume in place of the site's sum the lattice is under pressure, and then e(rho) has
-    // a shear stiffness after all, of either sign.
-    const Lattice lattice = Lattice::triangular();
-    const Wn<2, 5> w(2.5);
-    BOOST_TEST(std::abs(lattice.shear_modulus(lattice.fluid(w, 0.98), w)) > 1e-4);
+    // a shear stiffness after all, of either sign. Lucy's triangular lattice near h = 2.6 and all square
+    // ones then fall apart.
+    DensityPotentials p = lattices[0].density(Kernel::w5, 2.5);
+    p.state = lattices[0].fluid(p.kernel, p.range, 0.98);
+    BOOST_TEST(std::abs(elastic_moduli(p, lattices[0].vectors).shear) > 1e-4);
+    const double per_volume = std::sqrt(4.0 / 3.0);
+    for (const double h : {2.5, 2.6, 2.7, 2.8}) {
+        DensityPotentials lucy = lattices[0].density(Kernel::lucy, h);
+        lucy.surface_tension = 0.1;
+        BOOST_TEST(lattices[0].spectrum(lucy).negative == 0);
+        lucy.state = EmbeddedAtom{1.0, per_volume};
+        BOOST_TEST(lattices[0].spectrum(lucy).negative == 12);
+    }
+    DensityPotentials both = lattices[1].density(Kernel::w5, 3.25);
+    both.strength = both.surface_tension = 0.1;
+    both.state = EmbeddedAtom{1.0, 1.0};
+    BOOST_TEST(lattices[1].spectrum(both).negative == 2);
 }
 
 BOOST_AUTO_TEST_CASE(the_estimate_of_the_text_is_a_particle_in_a_cage_not_a_modulus) {
     // [HH07] 8: "G = 90/(7 pi h^4)" is half the trace of one particle's own block, the others held
     // fixed, for e = (rho - rho0)^2/2 and one particle per area.
-    const Lattice lattice = Lattice::square();
-    const Lucy<2> w(4.5);
-    const auto fluid = lattice.fluid(w);
-    const Eigen::MatrixXd H = lattice.hessian(fluid, w) * std::pow(fluid.law.rho0, 3);
+    const Lattice& lattice = lattices[1];
+    const DensityPotentials p = lattice.density(Kernel::lucy, 4.5);
+    const double rho0 = lattice.fluid(p.kernel, p.range).rho0;
+    const Eigen::MatrixXd H = hessian(p, lattice.x, lattice.box) * std::pow(rho0, 3);
     const double expected = 90.0 / (7.0 * std::numbers::pi * std::pow(4.5, 4));
     BOOST_TEST(std::abs(H(0, 0) - expected) < 0.02 * expected);
     BOOST_TEST(std::abs(H(1, 1) - expected) < 0.02 * expected);
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_meaning_is_refused) {
+    const Lattice& lattice = lattices[0];
+    const auto refused = [&](const DensityPotentials& p, const char* word) {
+        const auto says = [&](const InputError& error) {
+            return std::string(error.what()).find(word) != std::string::npos;
+        };
+        BOOST_CHECK_EXCEPTION(hessian(p, lattice.x, lattice.box), InputError, says);
+        BOOST_CHECK_EXCEPTION(elastic_moduli(p, lattice.vectors), InputError, says);
+    };
+    DensityPotentials p = lattice.density(Kernel::lucy, 3.0);
+    p.strength = 0.1;
+    refused(p, "use w4 or smoother");
+    refused({.range = 3.0}, "nothing acts");
+    refused({.state = VanDerWaals{}, .range = 3.0}, "temperature");
+    refused({.strength = 0.1, .kernel = Kernel::w5, .range = -1.0}, "range");
+    BOOST_CHECK_THROW(hessian(lattice.density(Kernel::w5, 5.0), lattice.x, lattice.box),
+                      InputError);
 }

@@ -103,14 +103,20 @@ const std::map<std::string, std::string> another_value{
     {"equation-of-state", "van_der_waals"},
     {"attraction", "0.3"},
     {"excluded", "0.3"},
-    {"particles", "300"},
     {"side", "19"},
-    {"seed", "7"},
     {"rho0", "0.9"},
     {"core", "0.2"},
     {"core-range", "0.9"},
     {"surface-tension", "0.2"},
     {"disorder", "0.2"},
+    {"lattice", "square"},
+    {"potential", "both"},
+    {"strength", "0.2"},
+    {"misfit", "0.98"},
+    {"lobes", "5"},
+    {"depth", "0.3"},
+    {"outline", "nowhere.csv"},
+    {"start", "lattice"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -142,13 +148,18 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"free_expansion", {"--dimension", "1"}},
     {"free_expansion", {"--compare"}},
     {"isomorphism", {}},
-    {"diffusion_waves", {}},
-    {"diffusion_waves", {"--wave", "shear", "--equation-of-state", "van_der_waals"}},
+    {"diffusion_waves", {"--density", "continuity"}},
+    {"diffusion_waves",
+     {"--wave", "shear", "--equation-of-state", "van_der_waals", "--density", "continuity"}},
     {"turns_survived", {}},
     {"string_phase", {}},
     {"string_phase", {"--core", "0"}},
     {"drop", {}},
     {"drop", {"--core", "0.1", "--disorder", "0.1"}},
+    {"lattice_stability", {}},
+    {"lattice_stability", {"--potential", "both"}},
+    {"lattice_stability", {"--potential", "density"}},
+    {"relaxation", {}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

@@ -116,6 +116,17 @@ struct ContourRoom {
 bool draw_contours(const RunFolder& folder, std::string_view name, std::string_view title,
                    const std::vector<ContourPanel>& panels, std::size_t columns,
                    const ContourRoom& room);
+/// One frame of lines that particles drew, with a mark where each began.
+struct PathPanel {
+    std::string title;
+    std::vector<Points<2>> paths;
+    /// A dashed closed polygon (a periodic box), or nothing. Paths are cut an eighth beyond it.
+    Points<2> frame{};
+};
+
+/// `columns` frames in a row, all with the same scale and extent.
+bool draw_paths(const RunFolder& folder, std::string_view name, std::string_view title,
+                const std::vector<PathPanel>& panels, std::size_t columns);
 
 /// One horizontal bar. What is not finite has no bar, only its text.
 struct Bar {

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "strength.hpp"
+
+#include <spam/io/csv.hpp>
+#include <spam/io/gnuplot.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lattice_stability {
+namespace {
+
+bool has_curvature(Acting acting) { return acting == Acting::curvature || acting == Acting::both; }
+
+/// Waves of a block of cells x cells (an even number) that are the same as those with -k: homomorphisms
+/// of its translations to 1 and -1. On the triangular one rows are shifted: half as many, unless half the
+/// number of cells is even too.
+int self_conjugate_waves(LatticeKind lattice, int cells) {
+    return lattice == LatticeKind::square || cells % 4 == 0 ? 4 : 2;
+}
+
+/// How many modes symmetry leaves free (tests/physics/lattice_strength.cpp says why).
+int expected_zero_modes(const Parameters& p, LatticeKind lattice, Acting acting) {
+    const int s = self_conjugate_waves(lattice, p.cells);
+    return acting == Acting::density     ? p.cells * p.cells + s
+           : acting == Acting::curvature ? 2 * s
+                                         : 2;
+}
+
+/// "1e-17", or 0 for what must not be drawn.
+double visible(double eigenvalue, double largest) {
+    const double part = eigenvalue / largest;
+    return std::abs(part) > LatticeSpectrum::threshold ? std::abs(part) : 0.0;
+}
+
+std::vector<double> ranges_of(const std::vector<Analysed>& all) {
+    std::vector<double> ranges;
+    for (const auto& one : all)
+        if (std::find(ranges.begin(), ranges.end(), one.range) == ranges.end())
+            ranges.push_back(one.range);
+    return ranges;
+}
+
+}  // namespace
+
+void refuse_meaningless(const Parameters& p, LatticeKind lattice, Acting acting, double range) {
+    elastic_moduli(p.potentials(lattice, acting, range), vectors_of(lattice));
+    const Box<2> box = box_of(lattice, p.cells);
+    const double narrow = std::min(box.length(0), box.length(1));
+    if (!(narrow > 2.01 * range))
+        throw InputError(fmt::format(
+            "cells: {0} x {0} particles make a block {1:.3g} wide; with the range {2:g} it must be "
+            "above {3:.3g}, or particles would meet their own images; give more cells",
+            p.cells, narrow, range, 2.01 * range));
+}
+
+Analysed analyse(const Parameters& p, LatticeKind lattice, Acting acting, double range) {
+    const DensityPotentials potentials = p.potentials(lattice, acting, range);
+    return {lattice, acting, range,
+            LatticeSpectrum(
+                hessian(potentials, positions_of(lattice, p.cells), box_of(lattice, p.cells))),
+            elastic_moduli(potentials, vectors_of(lattice))};
+}
+
+std::vector<Analysed> analyse_all(const Parameters& p, const std::vector<double>& ranges) {
+    std::vector<Analysed> all;
+    for (const Acting acting : all_potentials)
+        for (const auto lattice : {LatticeKind::triangular, LatticeKind::square})
+            for (const double h : ranges) all.push_back(analyse(p, lattice, acting, h));
+    return all;
+}
+
+void report(Session& session, const Parameters& p, const Analysed& one, const std::string& prefix) {
+    Check zero{prefix + "zero_modes", double(one.spectrum.zero), {}, 0.0, "measured"};
+    Check negative{prefix + "negative_modes", double(one.spectrum.negative), {}, 0.0, "measured"};
+    Check shear{prefix + "shear_modulus", one.moduli.shear, {}, 0.0, "measured"};
+    if (p.misfit == 1.0) {
+        negative.expected = 0.0;
+        negative.source = "sums of squares that vanish on the lattice";
+        // Another weight may lose a mode by accident, where a sum over neighbours passes through zero.
+        if (one.acting == Acting::density || p.kernel == Kernel::w5) {
+            zero.expected = expected_zero_modes(p, one.lattice, one.acting);
+            zero.source = "[HH07] 8, counted by symmetry";
+        }
+        if (!has_curvature(one.acting)) {
+            shear.expected = 0.0;
+            shear.tolerance = 1e-8;
+            shear.source = "[HH07] 8: G = C44 = 0";
+        } else if (p.kernel == Kernel::w5 && one.lattice == LatticeKind::triangular &&
+                   one.range == 2.5) {
+            shear.expected = 0.951 * p.strength;
+            shear.tolerance = 0.02 * 0.951 * p.strength;
+            shear.source = "computed before";
+        }
+    }
+    for (const Check& check : {zero, negative, shear}) session.check(check);
+}
+
+void print_table(Session& session, const std::vector<Analysed>& all) {
+    session.terminal().say("");
+    session.terminal().say(fmt::format("{:<11}{:<11}{:>6}{:>5}{:>9}{:>9}{:>12}{:>13}{:>9}{:>8}",
+                                       "potentials", "lattice", "range", "zero", "negative",
+                                       "up to", "others from", "(C11-C12)/2", "C44", "bulk"));
+    const auto tidy = [](double G) { return std::abs(G) < 1e-8 ? 0.0 : G; };
+    for (const auto& one : all)
+        session.terminal().say(fmt::format(
+            "{:<11}{:<11}{:>6g}{:>5}{:>9}{:>9.0e}{:>12.0e}{:>13.5f}{:>9.5f}{:>8.4f}",
+            to_string(one.acting), to_string(one.lattice), one.range, one.spectrum.zero,
+            one.spectrum.negative, one.spectrum.largest_zero, one.spectrum.smallest_other,
+            tidy(one.moduli.shear), tidy(one.moduli.diagonal_shear), one.moduli.bulk));
+    session.terminal().say(
+        fmt::format("eigenvalues in parts of the largest; below {:g} they count as zero",
+                    LatticeSpectrum::threshold));
+}
+
+void write_spectra(const RunFolder& folder, const std::vector<Analysed>& all) {
+    std::vector<std::string> names{"number"};
+    for (const auto& one : all)
+        names.push_back(
+            fmt::format("{}_{}_h{:g}", to_string(one.acting), to_string(one.lattice), one.range));
+    CsvWriter csv(folder / "spectra.csv", names);
+    for (std::size_t k = 0; k < all.front().spectrum.eigenvalue.size(); ++k) {
+        std::vector<double> row{double(k + 1)};
+        for (const auto& one : all) row.push_back(one.spectrum.eigenvalue[k]);
+        csv.add(row);
+    }
+}
+
+void draw_modes(Session& session, const Parameters& p, const std::vector<Analysed>& all) {
+    HeatMap map{{{"potentials", {}}}, {{"lattice", {}}, {"range h", {}}}, {}, {}, "", true};
+    map.value_label = "modes that cost nothing";
+    for (const Acting acting : all_potentials) map.rows[0].values.push_back(title_of(acting));
+    map.columns[0].values = {"triangular", "square"};
+    for (const double h : ranges_of(all)) map.columns[1].values.push_back(fmt::format("{:g}", h));
+    for (const auto& one : all) {
+        map.value.push_back(one.spectrum.zero);
+        const double G = one.moduli.shear / p.strength;
+        const int negative = one.spectrum.negative;
+        map.text.push_back(
+            fmt::format("{}{}\nG {:.2g}", one.spectrum.zero,
+                        negative == 0 ? std::string{} : fmt::format(", {} < 0", negative),
+                        std::abs(G) < 1e-7 ? 0.0 : G));
+    }
+    session.note_drawn(draw_heat_map(
+        session.plots_folder(), "zero_modes",
+        fmt::format(
+            "Modes of {0} × {0} particles that cost nothing, of {1}, and shear modulus G (unit: "
+            "strength)",
+            p.cells, 2 * p.cells * p.cells),
+        map));
+}
+
+void draw_spectra(Session& session, const Parameters& p, const std::vector<Analysed>& all,
+                  double range) {
+    std::vector<CurvePanel> panels;
+    for (const auto lattice : {LatticeKind::triangular, LatticeKind::square}) {
+        CurvePanel panel{fmt::format("{} lattice", to_string(lattice)),
+                         "mode",
+                         "eigenvalue / largest",
+                         true,
+                         {}};
+        for (const auto& one : all) {
+            if (one.lattice != lattice || one.range != range) continue;
+            Curve curve{
+                .title = title_of(one.acting), .x = {}, .y = {}, .style = style_of(one.acting)};
+            const auto& values = one.spectrum.eigenvalue;
+            for (std::size_t k = 0; k < values.size(); ++k) {
+                curve.x.push_back(double(k + 1));
+                curve.y.push_back(visible(values[k], values.back()));
+            }
+            panel.curves.push_back(std::move(curve));
+        }
+        if (!panel.curves.empty()) panels.push_back(std::move(panel));
+    }
+    session.note_drawn(draw_curves(
+        session.plots_folder(), "spectra",
+        fmt::format("Second derivatives of the energy without their zeros, {0} × {0} particles, "
+                    "{1}, h = {2:g}",
+                    p.cells, spam::to_string(p.kernel), range),
+        panels));
+}
+
+}  // namespace lattice_stability

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: particles fill an irregular shape evenly by viscous relaxation, [HH07] 7; 6 s
+//
+// A mesh for an irregular shape by viscous relaxation, [HH07] 7: "use viscous relaxation techniques
+// from molecular dynamics".
+//
+//        . -- .            N particles of mass 1, anywhere in a shape of area N, repel each other and
+//      /  o  o  \ _        lose their motion to friction. They come to rest as evenly as they can.
+//     | o  o  o   o \      Outside the shape lies matter of the same density that repels them as they
+//      \  o  o  o  o |     repel each other (a fixed lattice smeared out): the border is then no surface
+//        ` - . _ o_ /      for them, and the density is the same up to it.
+//
+//     v_dot_i = -sum_j grad_i w_ij - closed integral of w(|r_i - s|) n ds - gamma v_i,  Lucy's w
+//
+// Lengths are in units of sqrt(area of a particle); mesh.csv, a lattice to start from, is in those of
+// the outline given. Names in result.json: density_scatter is the standard deviation of densities
+// (Lucy, range 3) over their mean: of all particles, the wall's part included, and of those off the
+// border by more than the range.
+#include "relaxation/quality.hpp"
+#include <spam/io/csv.hpp>
+#include <spam/io/gnuplot.hpp>
+#include <spam/rhs/damped_model.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace relaxation {
+namespace {
+
+constexpr double at_rest_below = 1e-5;  // rms speed, of that of sound: the run ends
+constexpr double longest = 1000.0;      // a late defect may still move
+
+enum class Start { random, lattice };
+std::string_view to_string(Start start) { return start == Start::random ? "random" : "lattice"; }
+
+struct Parameters {
+    int particles = 400, lobes = 3, seed = 1;
+    double depth = 0.2, range = 1.5, damping = 0.1;
+    std::string outline;
+    Start start = Start::random;
+};
+
+Region region_of(const Parameters& p) {
+    const Region any =
+        p.outline.empty() ? lobed_region(p.lobes, p.depth) : region_from_file(p.outline);
+    return any.of_area(p.particles);
+}
+
+double rms_speed(const Model<2>& model, std::span<const double> y) {
+    const ConstState<2> state(model.layout(), y);
+    return std::sqrt(state.velocity().squaredNorm() /
+                     static_cast<double>(model.particles().size()));
+}
+
+/// Largest rise of the energy from one row to the next, relative to its fall in all.
+double largest_rise(const History& h) {
+    const auto energy = h.column("energy");
+    double rise = 0.0;
+    for (std::size_t k = 1; k < energy.size(); ++k)
+        rise = std::max(rise, energy[k] - energy[k - 1]);
+    return rise / (energy.front() - energy.back());
+}
+
+/// What the defaults reach; shapes and ranges of others may hold more defects.
+bool is_standard(const Parameters& p, const RunRecord& run, double t_end) {
+    return p.outline.empty() && p.lobes == 3 && p.depth == 0.2 && p.range == 1.5 &&
+           p.damping == 0.1 && p.particles >= 200 && t_end >= longest && run.complete;
+}
+
+void report(Session& session, const Parameters& p, const RunRecord& run, const Quality& before,
+            const Quality& after) {
+    const auto measured = [&](const char* name, double value) {
+        if (std::isfinite(value)) session.check({name, value, {}, 0.0, "measured"});
+    };
+    const bool standard = is_standard(p, run, *session.common().t_end);
+    session.check({"particles_outside", double(after.outside), 0.0, 0.0, "the wall holds them"});
+    session.check({"energy_rise", largest_rise(run.history), 0.0, 1e-6, "friction takes energy"});
+    measured("density_scatter_before", before.scatter);
+    measured("density_scatter_interior_before", before.interior);
+    if (standard) {
+        session.check({"residual_speed", run.history.last("rms_speed"), 0.0, at_rest_below,
+                       "of the speed of sound: at rest"});
+        session.check({"density_scatter", after.scatter, 0.0, 0.02, "measured before"});
+        session.check({"density_scatter_interior", after.interior, 0.0, 0.015, "measured before"});
+    } else {
+        measured("residual_speed", run.history.last("rms_speed"));
+        measured("density_scatter", after.scatter);
+        measured("density_scatter_interior", after.interior);
+    }
+    measured("nearest_neighbour_before", before.nearest);
+    measured("nearest_neighbour", after.nearest);
+    measured("six_neighbours_before", before.six);
+    measured("six_neighbours", after.six);
+}
+
+/// Where the particles are, in units of the outline, and how they fit.
+void write_mesh(const RunFolder& folder, const Particles<2>& particles, const Region& region,
+                const Ruler& ruler, const Points<2>& x) {
+    CsvWriter csv(folder / "mesh.csv",
+                  {"id", "x", "y", "density", "neighbours", "distance_from_border"});
+    const auto rho = ruler.density(x), distance = ruler.distances_from_border(x);
+    const auto neighbours = ruler.neighbours(x);
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+        const Point<2> r = (x.col(static_cast<Eigen::Index>(i)) + region.shift()) / region.scale();
+        csv.add(std::vector<double>{double(particles.id[i]), r.x(), r.y(), rho[i],
+                                    double(neighbours[i]), distance[i] / region.scale()});
+    }
+}
+
+void draw(Session& session, const Region& region, const Ruler& ruler, const RunRecord& run,
+          const Points<2>& x_0, const Points<2>& x) {
+    const auto folder = session.plots_folder();
+    session.note_drawn(draw_configurations(
+        folder, "configurations",
+        fmt::format("{} particles before and after viscous relaxation", x.cols()),
+        {{fmt::format("t = 0: density scatter {:.3g} %", 100.0 * scatter(ruler.density(x_0))),
+          x_0,
+          ruler.density(x_0),
+          {region.polygon()}},
+         {fmt::format("t = {:g}: {:.2g} %", run.history.last("t"),
+                      100.0 * scatter(ruler.density(x))),
+          x,
+          ruler.density(x),
+          {region.polygon()}}},
+        2, "density"));
+    const auto count = ruler.neighbours(x);
+    session.note_drawn(draw_configurations(folder, "neighbours", "Neighbours of particles",
+                                           {{"off the border six, but for defects",
+                                             x,
+                                             std::vector<double>(count.begin(), count.end()),
+                                             {region.polygon()}}},
+                                           1, "nearer than 1.47"));
+    const History& h = run.history;
+    const CurvePanel evenness{"evenness",
+                              "t",
+                              "relative standard deviation",
+                              true,
+                              {{"density", h.column("t"), h.column("density_scatter")}}};
+    const CurvePanel motion{
+        "motion", "t", "rms speed", true, {{"speed", h.column("t"), h.column("rms_speed")}}};
+    session.note_drawn(draw_curves(folder, "relaxation", "Coming to rest", {evenness, motion}));
+}
+
+}  // namespace
+}  // namespace relaxation
+
+int main(int argc, char** argv) {
+    using namespace relaxation;
+    Problem problem("relaxation", "a mesh for an irregular shape by viscous relaxation, [HH07] 7");
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("particles", p.particles, "how many fill the shape", between(20, 1e6));
+    options.integer("lobes", p.lobes, "of r = 1 + depth (cos(lobes a) + sin(2a)/2)",
+                    between(1, 50));
+    options.number("depth", p.depth, "how far that curve is from a circle", between(0.0, 0.6));
+    options.text("outline", p.outline, "a file of corners, x,y a line, in place of that curve");
+    options.choice<Start>("start", p.start, {Start::random, Start::lattice},
+                          "particles begin anywhere, or on a triangular lattice cut at the border");
+    options.number("range", p.range, "of the repulsion, in sqrt(area of a particle)",
+                   between(1.1, 20.0));
+    options.number("damping", p.damping, "gamma of the friction -gamma v", positive());
+    options.integer("seed", p.seed, "of the places at the start", between(0.0, 1e9));
+
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.given("outline")) {
+            if (const auto name = options.first_given({"lobes", "depth"}); !name.empty())
+                throw InputError(
+                    fmt::format("{}: --outline settles the shape; leave one out", name));
+            session.leave_out_of_case({"lobes", "depth"});
+        } else {
+            session.leave_out_of_case({"outline"});
+        }
+        if (session.common().smoke && !session.given("particles")) p.particles = 80;
+        // shape and places
+        const Region region = region_of(p);
+        auto particles = make_particles<2>(p.start == Start::random
+                                               ? random_places(region, p.particles, p.seed)
+                                               : lattice_places(region, p.particles, p.seed),
+                                           1.0);
+        const Points<2> x_0 = particles.reference_position;
+        const Ruler ruler(region);
+
+        // repulsion, wall, friction
+        DampedModel model(std::make_unique<WalledModel>(std::move(particles), region, p.range),
+                          p.damping, Friction::all_motion);
+        auto y0 = initial_state<2>(model, 1.0, 1.0, at_rest<2>());
+        Plan<2> plan;
+        plan.t_end = session.common().smoke ? 40.0 : longest;
+        plan.output_every = 1.0;
+        plan.snapshot_every = 0.05 * plan.t_end;
+        plan.enough = [](const History& h) {
+            return h.last("t") > 10.0 && h.last("rms_speed") < at_rest_below;
+        };
+        plan.columns = {{"rms_speed", rms_speed},
+                        {"density_scatter", [&ruler](const Model<2>& m, std::span<const double> y) {
+                             return scatter(ruler.density(ConstState<2>(m.layout(), y).position()));
+                         }}};
+        const RunRecord run = session.run(model, std::move(y0), std::move(plan));
+
+        // what came out
+        const Points<2> x = ConstState<2>(model.layout(), run.y).position();
+        report(session, p, run, measure(ruler, x_0), measure(ruler, x));
+        write_mesh(session.folder(), model.particles(), region, ruler, x);
+        if (session.plots()) draw(session, region, ruler, run, x_0, x);
+    });
+}

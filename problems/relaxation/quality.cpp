@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "quality.hpp"
+
+#include <spam/core/sums.hpp>
+#include <spam/neighbors/pair_list.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace relaxation {
+
+std::vector<double> Ruler::density(const Points<2>& x) const {
+    const Lucy<2> w(range);
+    const PairList<2> pairs(x, range, {});
+    std::vector<double> rho;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        rho.push_back(wall_.weight_outside(x.col(i)));
+        for (const std::uint32_t j : pairs.neighbours(static_cast<std::size_t>(i)))
+            rho.back() += w.value((x.col(i) - x.col(j)).norm());
+    }
+    return rho;
+}
+
+std::vector<int> Ruler::neighbours(const Points<2>& x) const {
+    const PairList<2> pairs(x, next_shell, {});
+    std::vector<int> count;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        count.push_back(static_cast<int>(pairs.neighbours(i).size()) - 1);  // itself
+    return count;
+}
+
+std::vector<double> Ruler::distances_from_border(const Points<2>& x) const {
+    std::vector<double> distance;
+    for (const auto& r : x.colwise()) distance.push_back(region_.distance(r));
+    return distance;
+}
+
+int Ruler::outside(const Points<2>& x) const {
+    int count = 0;
+    for (const auto& r : x.colwise()) count += region_.contains(r) ? 0 : 1;
+    return count;
+}
+
+double scatter(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    if (n < 2.0) return std::nan("");
+    CompensatedSum sum, squares;
+    for (const double v : values) sum += v / n;
+    for (const double v : values) squares += (v - sum) * (v - sum) / n;
+    return std::sqrt(squares) / sum;
+}
+
+Quality measure(const Ruler& ruler, const Points<2>& x) {
+    const auto rho = ruler.density(x), distance = ruler.distances_from_border(x);
+    const auto neighbours = ruler.neighbours(x);
+    std::vector<double> interior;
+    double off_border = 0.0, six = 0.0, nearest = 0.0;
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+        if (distance[i] > Ruler::range) interior.push_back(rho[i]);
+        if (distance[i] > Ruler::next_shell) {
+            ++off_border;
+            six += neighbours[i] == 6 ? 1.0 : 0.0;
+        }
+        const auto column = static_cast<Eigen::Index>(i);
+        double least = HUGE_VAL;
+        for (Eigen::Index j = 0; j < x.cols(); ++j)
+            if (j != column) least = std::min(least, (x.col(j) - x.col(column)).squaredNorm());
+        nearest += std::sqrt(least) / static_cast<double>(rho.size());
+    }
+    return {scatter(rho), scatter(interior), nearest,
+            off_border > 0.0 ? six / off_border : std::nan(""), ruler.outside(x)};
+}
+
+}  // namespace relaxation

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "walled_model.hpp"
+
+#include <spam/core/sums.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace relaxation {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int pieces_per_range = 8;
+/// Gauss' three points of a piece, as parts of it, and their weights.
+struct Node {
+    double part, weight;
+};
+const std::array<Node, 3> gauss{
+    {{0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}}};
+
+/// (1/r^2) integral of w r' dr' from 0 to r, for Lucy's w = (5/(pi h^2)) (1 - 6u^2 + 8u^3 - 3u^4): its
+/// divergence is w where multiplied by r.
+double flux(double r, double h) {
+    const double u = r / h;
+    if (u >= 1.0) return 1.0 / (2.0 * pi * r * r);
+    return 5.0 / (pi * h * h) * (0.5 + u * u * (-1.5 + u * (1.6 - 0.5 * u)));
+}
+
+}  // namespace
+
+Wall::Wall(const Region& region, double range) : region_(region), weight_(range) {
+    const Points<2>& polygon = region.polygon();
+    std::vector<Piece> all;
+    for (Eigen::Index k = 0; k < polygon.cols(); ++k) {
+        const Point<2> a = polygon.col(k), side = polygon.col((k + 1) % polygon.cols()) - a;
+        const int n =
+            std::max(1, static_cast<int>(std::ceil(side.norm() * pieces_per_range / range)));
+        const Point<2> normal(side.y() / n, -side.x() / n);  // counterclockwise: outwards
+        for (int p = 0; p < n; ++p)
+            all.push_back({a + side * (double(p) / n), a + side * (double(p + 1) / n), normal});
+    }
+    corner_ = polygon.rowwise().minCoeff() - Point<2>::Constant(0.5 * range);
+    const Point<2> size = polygon.rowwise().maxCoeff() - corner_;
+    columns_ = static_cast<int>(size.x() / range) + 1;
+    rows_ = static_cast<int>(size.y() / range) + 1;
+    const auto cell_of = [&](const Piece& piece) {
+        const Point<2> at = (0.5 * (piece.from + piece.to) - corner_) / range;
+        return cell(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Piece& a, const Piece& b) { return cell_of(a) < cell_of(b); });
+    start_.assign(cell(0, rows_) + 1, 0);
+    for (const Piece& piece : all) ++start_[cell_of(piece) + 1];
+    for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
+    pieces_ = std::move(all);
+}
+
+/// All pieces with a point nearer than the range, and some more: two cells to all sides, because pieces
+/// are sorted by their middles.
+template <class Visit>
+void Wall::for_each_near(const Point<2>& r, const Visit& visit) const {
+    const Point<2> at = (r - corner_) / weight_.range();
+    if (!(at.x() > -3.0 && at.x() < columns_ + 3.0 && at.y() > -3.0 && at.y() < rows_ + 3.0))
+        return;
+    const int column = static_cast<int>(std::floor(at.x())),
+              row = static_cast<int>(std::floor(at.y()));
+    for (int y = std::max(0, row - 2); y <= std::min(rows_ - 1, row + 2); ++y)
+        for (int x = std::max(0, column - 2); x <= std::min(columns_ - 1, column + 2); ++x)
+            for (std::uint32_t k = start_[cell(x, y)]; k < start_[cell(x, y) + 1]; ++k)
+                visit(pieces_[k]);
+}
+
+Point<2> Wall::force(const Point<2>& r) const {
+    Point<2> sum = Point<2>::Zero();
+    for_each_near(r, [&](const Piece& piece) {
+        double w = 0.0;
+        for (const auto& [part, weight] : gauss)
+            w += weight * weight_.value((piece.from + part * (piece.to - piece.from) - r).norm());
+        sum -= w * piece.normal;
+    });
+    if (!region_.contains(r)) sum += region_.nearest_on_border(r) - r;
+    return sum;
+}
+
+double Wall::energy(const Point<2>& r) const {
+    const double spring =
+        region_.contains(r) ? 0.0 : 0.5 * (region_.nearest_on_border(r) - r).squaredNorm();
+    return weight_outside(r) + spring;
+}
+
+/// By the divergence theorem: the weight inside is the flux of flux(r) r through the border, which far
+/// away is the angle of view over 2 pi. Only where it differs from that the pieces matter.
+double Wall::weight_outside(const Point<2>& r) const {
+    double inside = region_.contains(r) ? 1.0 : 0.0;
+    for_each_near(r, [&](const Piece& piece) {
+        const Point<2> a = piece.from - r, b = piece.to - r;
+        double through = 0.0;
+        bool near = false;
+        for (const auto& [part, weight] : gauss) {
+            const Point<2> s = a + part * (b - a);
+            near = near || s.norm() < weight_.range();
+            through += weight * flux(s.norm(), weight_.range()) * s.dot(piece.normal);
+        }
+        if (!near) return;
+        const double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+        inside += through - angle / (2.0 * pi);
+    });
+    return 1.0 - inside;
+}
+
+WalledModel::WalledModel(Particles<2> particles, const Region& region, double range)
+    : Model<2>(particles, {}, {Field::position, Field::velocity}),
+      inside_(std::move(particles), range),
+      wall_(region, range) {}
+
+void WalledModel::rates(double t, std::span<const double> y, std::span<double> y_dot) {
+    inside_.rates(t, y, y_dot);
+    failure_ = inside_.failure();
+    if (!failure_.empty()) return;
+    const auto x = ConstState<2>(layout(), y).position();
+    auto v_dot = State<2>(layout(), y_dot).velocity();
+    for (Eigen::Index i = 0; i < x.cols(); ++i) v_dot.col(i) += wall_.force(x.col(i));
+}
+
+double WalledModel::internal_energy(std::span<const double> y) const {
+    CompensatedSum energy;
+    energy += inside_.internal_energy(y);
+    const auto x = ConstState<2>(layout(), y).position();
+    for (Eigen::Index i = 0; i < x.cols(); ++i) energy += wall_.energy(x.col(i));
+    return energy;
+}
+
+std::vector<double> WalledModel::density(std::span<const double> y) const {
+    auto rho = inside_.density(y);
+    const auto x = ConstState<2>(layout(), y).position();
+    for (std::size_t i = 0; i < rho.size(); ++i)
+        rho[i] += wall_.weight_outside(x.col(static_cast<Eigen::Index>(i)));
+    return rho;
+}
+
+Promises WalledModel::promises() const {
+    Promises promises = inside_.promises();
+    promises.momentum = promises.angular_momentum = Promise::not_kept;
+    return promises;
+}
+
+std::string WalledModel::describe() const {
+    return inside_.describe() + "; inside a wall of the same density";
+}
+
+void WalledModel::remember(Archive& archive) {
+    Model<2>::remember(archive);
+    inside_.remember(archive);
+}
+
+}  // namespace relaxation

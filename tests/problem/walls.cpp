@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts of the problem relaxation: regions, and walls that stand for evenly spread matter outside.
+#include "relaxation/walled_model.hpp"
+#include "support/process.hpp"
+#include <spam/core/error.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <random>
+
+using namespace relaxation;
+
+namespace {
+
+constexpr double range = 1.5;
+
+/// Straight sides, sharp corners inwards and outwards.
+Region arrow() {
+    Points<2> corners(2, 5);
+    corners << -5, 6, 1, 6, -5,  //
+        -4, -5, 0, 5, 3;
+    return Region(corners);
+}
+
+std::vector<Point<2>> places(const Region& region) {
+    std::mt19937_64 random(3);
+    const Point<2> low = region.polygon().rowwise().minCoeff();
+    const Point<2> size = region.polygon().rowwise().maxCoeff() - low;
+    std::vector<Point<2>> all;
+    for (int k = 0; k < 300; ++k) {
+        const auto drawn = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+        Point<2> r(drawn(), drawn());
+        all.emplace_back(low + (1.4 * r - Point<2>::Constant(0.2)).cwiseProduct(size));
+    }
+    return all;
+}
+
+/// The largest |F + grad Phi| of forces of one wall and the energy of another. The spring jumps where
+/// the nearest side is another one; places nearer to that than the difference are few, and left out.
+double force_error(const Region& region, const Wall& of_force, const Wall& of_energy) {
+    double worst = 0.0;
+    const double d = 1e-4;
+    for (const Point<2>& r : places(region)) {
+        if (region.distance(r) < 0.02) continue;  // quadrature along the nearest piece
+        Point<2> slope;
+        for (int a = 0; a < 2; ++a) {
+            Point<2> step = Point<2>::Zero();
+            step[a] = d;
+            slope[a] = (8.0 * (of_energy.energy(r + step) - of_energy.energy(r - step)) -
+                        (of_energy.energy(r + 2.0 * step) - of_energy.energy(r - 2.0 * step))) /
+                       (12.0 * d);
+        }
+        worst = std::max(worst, (of_force.force(r) + slope).norm());
+    }
+    return worst;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(forces_of_a_wall_are_minus_the_slope_of_its_energy) {
+    for (const Region& region : {arrow(), lobed_region(3, 0.2).of_area(100.0)}) {
+        const Wall wall(region, range);
+        BOOST_TEST(force_error(region, wall, wall) < 1e-5);
+        BOOST_TEST(force_error(region, wall, Wall(region, 1.1 * range)) > 1e-2);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_wall_is_the_weight_of_what_is_outside) {
+    const Region region = arrow();
+    const Wall wall(region, range);
+    const Lucy<2> w(range);
+    for (const Point<2>& r : places(region)) {
+        const double found = wall.weight_outside(r);
+        double sum = 0.0;  // by points outside
+        const int n = 120;
+        const double cell = 2.0 * range / n;
+        for (int x = 0; x < n; ++x)
+            for (int y = 0; y < n; ++y) {
+                const Point<2> s((x + 0.5) * cell - range, (y + 0.5) * cell - range);
+                if (!region.contains(r + s)) sum += w.value(s.norm()) * cell * cell;
+            }
+        BOOST_TEST(std::abs(found - sum) < 0.01);
+        if (region.distance(r) > range)
+            BOOST_TEST(std::abs(found - (region.contains(r) ? 0.0 : 1.0)) < 1e-12);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_region_knows_its_inside) {
+    const Region region = arrow();
+    BOOST_TEST(region.contains({-2.0, 0.0}));
+    BOOST_TEST(!region.contains({4.0, 0.0}));  // in the notch
+    BOOST_TEST(!region.contains({std::nan(""), 0.0}));
+    BOOST_TEST(std::abs(region.distance({-4.0, 0.0}) - 1.0) < 1e-14);
+    const Region large = region.of_area(400.0);
+    BOOST_TEST(std::abs(large.area() - 400.0) < 1e-10);
+    for (const Point<2>& r : places(region))
+        BOOST_TEST(region.contains(r) == large.contains(r * large.scale() - large.shift()));
+    Points<2> clockwise = region.polygon().rowwise().reverse();
+    BOOST_TEST(Region(clockwise).area() == region.area());
+}
+
+BOOST_AUTO_TEST_CASE(places_are_inside_and_as_many_as_wanted) {
+    const Region region = lobed_region(5, 0.3).of_area(150.0);
+    for (const Points<2>& places :
+         {random_places(region, 150, 2), lattice_places(region, 150, 2)}) {
+        BOOST_TEST(places.cols() == 150);
+        for (Eigen::Index i = 0; i < places.cols(); ++i) BOOST_TEST(region.contains(places.col(i)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(outlines_that_are_none_are_refused) {
+    const spam::test::Scratch folder;
+    const auto refused = [&](const std::string& text, const std::string& word) {
+        folder.write("outline.csv", text);
+        BOOST_CHECK_EXCEPTION(region_from_file(folder / "outline.csv"), InputError,
+                              [&](const InputError& error) {
+                                  return std::string(error.what()).find(word) != std::string::npos;
+                              });
+    };
+    refused("", "no area");
+    refused("0,0\n1,0\n", "no area");
+    refused("0,0\n1,0\nx\n2,here\n", "line 4");
+    refused("0,0\n2,2\n2,0\n0,1\n", "crosses");
+    refused("0,0\n1,inf\n1,0\n", "line 2");
+    folder.write("outline.csv", "x,y\n# a square, closed\n0,0\n2 0\n2,2\n0,2\n0,0\n");
+    const Region square = region_from_file(folder / "outline.csv");
+    BOOST_TEST(square.area() == 4.0);
+    BOOST_TEST(square.polygon().cols() == 4);
+}
