@@ -108,6 +108,7 @@ void table_and_motion(Session& session, Parameters& p) {
     for (const auto lattice : {LatticeKind::triangular, LatticeKind::square})
         for (const double h : ranges) refuse_meaningless(p, lattice, Acting::both, h);
 
+    refuse_narrow("block", p.lattice, p.block, *p.range);
     std::vector<Sample> samples;
     for (const Acting acting : all_potentials) samples.push_back(make_sample(p, acting, *p.range));
     std::vector<Case<2>> cases;
