@@ -39,7 +39,7 @@ constexpr double range_of_dynamics = 3.25, range_of_one_case = 2.5;
 /// Ranges of the table, that of the dynamics among them.
 std::vector<double> ranges_of_table(const Session& session, const Parameters& p) {
     std::vector<double> ranges{2.5, 3.0, 3.5};
-    if (session.common().smoke) ranges = {2.5};
+    if (session.common().smoke) ranges.clear();
     if (std::find(ranges.begin(), ranges.end(), *p.range) == ranges.end())
         ranges.push_back(*p.range);
     std::sort(ranges.begin(), ranges.end());
