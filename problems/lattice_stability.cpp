@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: which potentials of the density hold a lattice together, [HH07] 8; 60 s
+// spam-list: which potentials of the density hold a lattice together, [HH07] 8; 50 s
 //
 // Which potentials of the density hold a lattice together, [HH07] 8.
 //
