@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: particles fill an irregular shape evenly by viscous relaxation, [HH07] 7; 6 s
+// spam-list: particles fill an irregular shape evenly by viscous relaxation, [HH07] 7; 5 s
 //
 // A mesh for an irregular shape by viscous relaxation, [HH07] 7: "use viscous relaxation techniques
 // from molecular dynamics".

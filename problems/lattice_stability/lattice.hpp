@@ -45,5 +45,8 @@ LatticeVectors vectors_of(LatticeKind kind);
 Points<2> positions_of(LatticeKind kind, int cells);
 /// Their periodic box.
 Box<2> box_of(LatticeKind kind, int cells);
+/// Throws InputError naming `option` where that block is too narrow for the range: a list looks a
+/// little beyond it.
+void refuse_narrow(const char* option, LatticeKind kind, int cells, double range);
 
 }  // namespace lattice_stability

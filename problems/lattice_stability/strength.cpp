@@ -47,13 +47,7 @@ std::vector<double> ranges_of(const std::vector<Analysed>& all) {
 
 void refuse_meaningless(const Parameters& p, LatticeKind lattice, Acting acting, double range) {
     elastic_moduli(p.potentials(lattice, acting, range), vectors_of(lattice));
-    const Box<2> box = box_of(lattice, p.cells);
-    const double narrow = std::min(box.length(0), box.length(1));
-    if (!(narrow > 2.01 * range))
-        throw InputError(fmt::format(
-            "cells: {0} x {0} particles make a block {1:.3g} wide; with the range {2:g} it must be "
-            "above {3:.3g}, or particles would meet their own images; give more cells",
-            p.cells, narrow, range, 2.01 * range));
+    refuse_narrow("cells", lattice, p.cells, range);
 }
 
 Analysed analyse(const Parameters& p, LatticeKind lattice, Acting acting, double range) {

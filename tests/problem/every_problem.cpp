@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) 
          {"kernel", "curvature", "w4"}},
         {"lattice_stability", {"--potential", "density", "--strength", "1"}, {"strength"}},
         {"lattice_stability", {"--potential", "both", "--block", "14"}, {"block", "moves"}},
-        {"lattice_stability", {"--potential", "both", "--range", "4.5"}, {"cells", "more cells"}},
+        {"lattice_stability", {"--potential", "both", "--range", "4.5"}, {"cells", "wide"}},
         {"lattice_stability", {"--potential", "both", "--t-end", "4"}, {"t-end", "integrates"}},
         {"relaxation", {"--outline", "nowhere.csv"}, {"outline", "nowhere.csv", "x,y"}},
         {"relaxation", {"--outline", "nowhere.csv", "--lobes", "4"}, {"lobes", "outline"}},
