@@ -74,7 +74,7 @@ void refuse_contradictions(const Session& session, const Options& options, const
 }
 
 template <int Dim>
-Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t_end) {
+Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t_end, int largest) {
     using Values = std::span<const double>;
     const auto folder = [&session, &gas] {
         return gas.label.empty() ? session.folder() : session.folder().inside(gas.label);
@@ -82,6 +82,8 @@ Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t
     Plan<Dim> plan;
     plan.t_end = t_end;
     plan.output_every = t_end / (p.compare ? 192.0 : 96.0);
+    // Often enough for the configurations drawn, and no more than 48 files.
+    plan.snapshot_every = std::max(std::min(largest / 8.0, t_end / 4.0), t_end / 48.0);
     plan.columns = entropy_columns(gas);
     plan.on_snapshot = [&session, &gas, &p, folder](double t, const Model<Dim>&, Values y) {
         for (Scene& scene : gas.scenes) scene.look(t, y);
@@ -117,7 +119,8 @@ void run(Session& session, const Parameters& p) {
     const double t_end = session.common().t_end.value_or(smoke ? 24.0 : plateau);
     std::vector<Case<Dim>> cases;
     for (auto& gas : gases)
-        cases.push_back({*gas.model, gas.y0, plan_of(session, gas, p, t_end), gas.label});
+        cases.push_back(
+            {*gas.model, gas.y0, plan_of(session, gas, p, t_end, sizes.back()), gas.label});
     const auto runs = session.run_all(std::move(cases));
     for (std::size_t k = 0; k < runs.size(); ++k) check(session, p, gases[k], runs[k]);
     if (p.movie) make_movie(session, session.folder());

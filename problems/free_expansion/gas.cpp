@@ -112,7 +112,8 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
     carried.row(0).setOnes();
     carried.row(1) = v.colwise().squaredNorm();
     carried.template bottomRows<Dim>() = v;
-    Fields<Dim> fields{grid_of(gas, 1.0), {}, {}, {}, {}};
+    // Smooth contours of small gases, too.
+    Fields<Dim> fields{grid_of(gas, std::min(1.0, gas.side() / 96.0)), {}, {}, {}, {}};
     const FieldInterpolation<Dim> interpolation(weight_of(*gas.model), gas.model->particles().mass,
                                                 state.position(), gas.model->box());
     const Eigen::MatrixXd sum = interpolation.sum(carried, fields.grid.points());

@@ -54,7 +54,8 @@ struct Layout {
     double left = gap, width = 0.0, height = 0.0;
     std::vector<double> bottom{};  ///< of the frames of a row, from the picture's
 
-    Layout(const std::vector<ContourPanel>& panels, std::size_t per_row, const ContourRoom& room)
+    Layout(std::string_view title, const std::vector<ContourPanel>& panels, std::size_t per_row,
+           const ContourRoom& room)
         : columns(std::max<std::size_t>(1, std::min(per_row, panels.size()))),
           rows((panels.size() + columns - 1) / columns) {
         const Point<2> size = room.high - room.low;
@@ -63,6 +64,9 @@ struct Layout {
         for (const auto& panel : panels)
             if (!panel.side.empty()) left = side_room;
         width = left + static_cast<double>(columns) * (wide + gap);
+        const double words = 9.5 * static_cast<double>(title.size()) + 2.0 * gap;
+        left += 0.5 * std::max(0.0, words - width);
+        width = std::max(width, words);
         height = top;
         for (std::size_t row = 0; row < rows; ++row) {
             const auto any = [&](const auto& has) {
@@ -133,9 +137,10 @@ std::string frame(const ContourPanel& panel, std::size_t k, const Layout& l) {
                               escaped(panel.title), (x + 0.5 * l.wide) / l.width,
                               (y + l.high + 0.5 * title_room) / l.height);
     if (!panel.side.empty())
-        script += fmt::format(
-            "set label \"{}\" at screen {:.6f},{:.6f} center rotate by 90 font ',13'\n",
-            escaped(panel.side), 0.5 * side_room / l.width, (y + 0.5 * l.high) / l.height);
+        script +=
+            fmt::format("set label \"{}\" at screen {:.6f},{:.6f} center rotate by 90 font ',13'\n",
+                        escaped(panel.side), (l.left - 0.5 * side_room) / l.width,
+                        (y + 0.5 * l.high) / l.height);
     if (!panel.colours) return script + "unset colorbox\n";
     return script + fmt::format(
                         "set colorbox horizontal user origin {:.6f},{:.6f} size {:.6f},{:.6f}\n"
@@ -170,7 +175,7 @@ std::string plot_of(const ContourPanel& panel, std::string_view name, std::size_
 bool draw_contours(const RunFolder& folder, std::string_view name, std::string_view title,
                    const std::vector<ContourPanel>& panels, std::size_t columns,
                    const ContourRoom& room) {
-    const Layout layout(panels, columns, room);
+    const Layout layout(title, panels, columns, room);
     std::string data, script = gnuplot::preamble(name, layout.width, layout.height);
     script += fmt::format(
         "set multiplot\nset label 1 \"{}\" at screen 0.5,{:.6f} center font ',15'\n"
