@@ -16,9 +16,8 @@
 // period_continuum  linear elasticity. Sums over neighbours smooth the wave, whose length is seven
 //                   ranges: the lattice rings 4.5 % slow, less with longer waves
 //
-// In the transverse wave the material turns to and fro. The angular momentum of d x d blocks is
-// compared with rho (d^4/12) omega k A cos(k y) sin(omega t), and its rate with (d^4/12) (d^2/dx^2 -
-// d^2/dy^2) sigma_xy. Averaged over the block's orientations that is (d^4/24) curl div sigma, and
+// In the transverse wave the material turns to and fro. The angular momentum of d x d blocks is compared
+// with rho (d^4/12) omega k A cos(k y) sin(omega t), its rate with (d^4/12) (d^2/dx^2 - d^2/dy^2) sigma_xy. Averaged over the block's orientations that is (d^4/24) curl div sigma, and
 // so are, expanded in derivatives of the stress, the torques T_i = 1/2 sum_j T_ij, [HHM04] III:
 //     T_i = -(m/rho) (<r^2>/4) curl div sigma,     <r^2> = integral w r^2 = 5 h^2/28 (Lucy).
 // The rho d^2 particles of a block with d^2 = 6 <r^2> exert just the rate, with the other sign.
@@ -31,7 +30,7 @@
 #include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/io/gnuplot.hpp>
-#include <spam/kernel/any_weight.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/setup/periodic_solid.hpp>
 #include <spam/spam.hpp>
 
@@ -188,28 +187,15 @@ Torques torques_at_start(const Ringing& one, double side) {
     return result;
 }
 
-/// <r^2> of the weight function, by the midpoint rule.
-double mean_square(const Scheme& scheme) {
-    const auto w = weight_function<2>(to_string(scheme.kernel), scheme.range);
-    constexpr int rings = 1000;
-    const double dr = scheme.range / rings;
-    double sum = 0.0;
-    for (int n = 0; n < rings; ++n) {
-        const double r = (n + 0.5) * dr;
-        sum += 2.0 * std::numbers::pi * r * r * r * w.value(r) * dr;
-    }
-    return sum;
-}
-
 void report_turning(Session& session, const Parameters& p, const Ringing& one,
                     const Torques& torques, const BlockProfile& turned) {
     const auto measured = [&](const char* name, double value) {
         session.check({one.prefix + name, value, {}, 0.0, "measured"});
     };
-    // The formulas expand in the sizes of the block and of the range over that of the wave (at 1.5 for
-    // the range they are off by 12 %); a range below 2.5 has too few neighbours for integrals. Of other
-    // weight functions: the range at which Lucy's is as wide.
-    const double r2 = mean_square(one.solid.model->scheme());
+    // The formulas expand in block and range over the wave (off by 12 % at 1.5 for the range); a range
+    // below 2.5 has too few neighbours for integrals. Others: the range at which Lucy's is as wide.
+    const Scheme& scheme = one.solid.model->scheme();
+    const double r2 = mean_square(weight_function<2>(to_string(scheme.kernel), scheme.range));
     const double range = std::sqrt(28.0 / 5.0 * r2), k = one.wave.k;
     const bool long_wave = p.block * k < 1.2 && p.block >= 2.0 && range * k < 1.22 && range >= 2.5;
     const auto claim = [&](const char* name, double value, double expected, const char* source) {
@@ -336,11 +322,9 @@ int main(int argc, char** argv) {
         refuse_small(p, session.scheme().range);
         auto all = cases_of(p, single, session.scheme());
 
-        double longest = 0.0, shortest = HUGE_VAL;
-        for (const auto& one : all) {
-            longest = std::max(longest, one.period_lattice());
-            shortest = std::min(shortest, one.period_lattice());
-        }
+        std::vector<double> periods;
+        for (const auto& one : all) periods.push_back(one.period_lattice());
+        const auto [shortest, longest] = std::ranges::minmax(periods);
         const double t_end = session.common().t_end.value_or((smoke ? 1.7 : 3.0) * longest);
         refuse_too_short(p, t_end, longest);
         std::vector<Case<2>> cases;

@@ -5,6 +5,7 @@
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/physics/fluid_record.hpp>
 #include <spam/physics/mean_density.hpp>
 #include <spam/rhs/fluid_model.hpp>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace spam {
 namespace {
@@ -59,28 +59,6 @@ FluidSweeps<Dim> best_sweeps(const Fluid& fluid) {
         sweeps.pack = pack_for<Dim, level>();
         return sweeps;
     });
-}
-
-/// The largest k-space factor of a gradient sum, max over k of |sum_j (m_j/rho) (grad w) sin kx| in the
-/// continuum: what the shortest waves a fluid feels have for a wave number.
-template <int Dim>
-double steepest_wave(const GeneralWeight<Dim>& weight) {
-    constexpr int points = 400;
-    const double h = weight.range(), dr = h / points;
-    double largest = 0.0;
-    for (double kh = 0.25; kh < 16.0; kh += 0.25) {
-        double sum = 0.0;
-        for (int n = 0; n < points; ++n) {
-            const double r = (n + 0.5) * dr, kr = kh / h * r;
-            const double slope = r * weight.minus_slope_over_r(r);
-            using std::numbers::pi;
-            if constexpr (Dim == 1) sum += 2.0 * slope * std::sin(kr) * dr;
-            if constexpr (Dim == 2) sum += 2.0 * pi * r * slope * std::cyl_bessel_j(1.0, kr) * dr;
-            if constexpr (Dim == 3) sum += 4.0 * pi * r * r * slope * std::sph_bessel(1U, kr) * dr;
-        }
-        largest = std::max(largest, std::abs(sum));
-    }
-    return largest;
 }
 
 }  // namespace
@@ -131,7 +109,7 @@ double FluidModel<Dim>::estimate_damping() const {
     CompensatedSum sum;
     for (const double r : rho) sum += r;
     const double mean = sum / static_cast<double>(rho.size());
-    const double k = steepest_wave(weight_);
+    const double k = steepest_wave<Dim>(weight_);
     double diffusion = 0.0;
     if (fluid_.viscosity)
         diffusion =

@@ -8,6 +8,7 @@
 #include <spam/kernel/general_weight.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/kernel/monaghan_cubic.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/kernel/wn.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -229,6 +230,23 @@ BOOST_AUTO_TEST_CASE(one_formula_for_all_of_them) {
     const GeneralWeight<2> w5(Kernel::w5, 3.0);
     BOOST_TEST(std::abs(w5.value(1.0) - W4<2>(3.0).value(1.0)) > 1e-3);
     BOOST_CHECK_THROW(GeneralWeight<2>(Kernel::w5, 0.0), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(integrals_over_weight_functions) {
+    BOOST_TEST(std::abs(mean_square<2>(Lucy<2>(3.0)) - 5.0 * 9.0 / 28.0) < 1e-5);
+    const auto second_moment = [](double r) { return 2.0 * r * r * Wn<1, 5>(2.0).value(r); };
+    BOOST_TEST(std::abs(mean_square<1>(Wn<1, 5>(2.0)) - integral(second_moment, 0.0, 2.0)) < 1e-6);
+    // The gradient sum of sin kx, by summing over a fine square lattice.
+    const MonaghanCubic<2> w(2.0);
+    double largest = 0.0;
+    for (double k = 0.125; k < 4.0; k += 0.125) {
+        double sum = 0.0;
+        for (double x = -2.0; x <= 2.0; x += 0.04)
+            for (double y = -2.0; y <= 2.0; y += 0.04)
+                sum += 0.0016 * w.minus_slope_over_r(std::hypot(x, y)) * x * std::sin(k * x);
+        largest = std::max(largest, sum);
+    }
+    BOOST_TEST(std::abs(steepest_wave<2>(w) - largest) < 1e-3 * largest);
 }
 
 BOOST_AUTO_TEST_CASE(constants_as_they_are_written) {

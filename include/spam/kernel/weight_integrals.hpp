@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/kernel/any_weight.hpp>
+
+namespace spam {
+
+/// <r^2> = integral of w r^2 over the line, plane or space (Lucy in the plane: 5 h^2/28).
+template <int Dim>
+double mean_square(const AnyWeight<Dim>& weight);
+
+/// The largest factor by which a gradient sum multiplies a wave, in the continuum: the maximum over k of
+/// integral of (-w'(r)/r) x sin kx. It stands for the wave number of the shortest waves that smooth
+/// particles feel; about 2/h to 3/h.
+template <int Dim>
+double steepest_wave(const AnyWeight<Dim>& weight);
+
+extern template double mean_square(const AnyWeight<1>&);
+extern template double mean_square(const AnyWeight<2>&);
+extern template double mean_square(const AnyWeight<3>&);
+extern template double steepest_wave(const AnyWeight<1>&);
+extern template double steepest_wave(const AnyWeight<2>&);
+extern template double steepest_wave(const AnyWeight<3>&);
+
+}  // namespace spam
