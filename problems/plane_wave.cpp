@@ -313,19 +313,18 @@ int main(int argc, char** argv) {
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {
-        const bool smoke = session.common().smoke;
-        if (smoke && !session.given("cells")) p.cells = 10;
+        if (session.common().smoke && !session.given("cells")) p.cells = 10;
         if (p.compare_sizes && !session.given("amplitude")) p.amplitude = 0.01 * p.cells / 24.0;
         const bool single = session.given("polarization");
         if (!single) session.leave_out_of_case({"polarization"});
         refuse_blocks(session, p, single);
         refuse_small(p, session.scheme().range);
         auto all = cases_of(p, single, session.scheme());
-
         std::vector<double> periods;
         for (const auto& one : all) periods.push_back(one.period_lattice());
         const auto [shortest, longest] = std::ranges::minmax(periods);
-        const double t_end = session.common().t_end.value_or((smoke ? 1.7 : 3.0) * longest);
+        const double most = (session.common().smoke ? 1.7 : 3.0) * longest;
+        const double t_end = session.common().t_end.value_or(most);
         refuse_too_short(p, t_end, longest);
         std::vector<Case<2>> cases;
         for (auto& one : all)
