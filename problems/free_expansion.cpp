@@ -27,6 +27,7 @@
 //     --dimension 1      twofold expansion on a line, P = rho^3/3, e = rho^2/6, exercise 1
 //     --particles 100    exercise 4. Text: from an area of 25 to 100; here from 100 to 400 in units of
 //                        half the length, mass 1/4, otherwise the same
+//     --ranges density   h = range/rho^(1/2): as many neighbours in the thin gas as in the dense one
 //     --cost             seconds against the number of particles, exercise 4
 //     --movie            frames, and a film where ffmpeg is installed
 #include "free_expansion/gas.hpp"
@@ -146,6 +147,8 @@ int main(int argc, char** argv) {
     options.choice<Walls>("walls", p.walls, {Walls::periodic}, "what the gas meets");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "range h: no pair interacts beyond", positive());
+    options.choice<Ranges>("ranges", p.ranges, {Ranges::fixed, Ranges::density},
+                           "the same for all, or range/rho^(1/dimension): more in the thin gas");
     options.integer("seed", p.seed, "of the offsets from the lattice", between(0, 1000000000));
     options.flag("compare", p.compare, "three sizes on one picture, [HH01] Fig. 3");
     options.flag("cost", p.cost, "seconds against the number of particles, [HH01] exercise 4");

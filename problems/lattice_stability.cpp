@@ -184,6 +184,7 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         if (session.given("potential")) return analyse_one(session, options, p);
         session.leave_out_of_case({"potential"});
+        if (session.common().smoke && !session.given("block")) p.block = 10;
         table_and_motion(session, p);
     });
 }

@@ -6,6 +6,8 @@
 #include <spam/io/image_file.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
+#include <spam/rhs/fluid_model.hpp>
+#include <spam/rhs/variable_range_model.hpp>
 
 #include <fmt/format.h>
 
@@ -30,9 +32,24 @@ FieldGrid<Dim> grid_of(const Gas<Dim>& gas, double spacing) {
     return FieldGrid<Dim>::over(gas.model->box(), all_along<int, Dim>(nodes));
 }
 
+/// The model and its state at rest at `x`.
 template <int Dim>
-AnyWeight<Dim> weight_of(const FluidModel<Dim>& model) {
-    return weight_function<Dim>(to_string(model.scheme().kernel), model.scheme().range);
+std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>> begun(Particles<Dim> particles,
+                                                                  const Points<Dim>& x,
+                                                                  const Box<Dim>& box,
+                                                                  const Parameters& p) {
+    const Points<Dim> at_rest = Points<Dim>::Zero(Dim, x.cols());
+    const Fluid matter{law_of(Dim)};
+    const auto started = [&](auto model) {
+        auto y0 = model->state(x, at_rest);
+        return std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>>(std::move(model),
+                                                                           std::move(y0));
+    };
+    if (p.ranges == Ranges::density)
+        return started(std::make_unique<VariableRangeModel<Dim>>(
+            std::move(particles), matter, VariableRangeScheme{p.range, p.kernel}, box));
+    return started(std::make_unique<FluidModel<Dim>>(
+        std::move(particles), matter, FluidScheme{Density::summed, p.kernel, p.range}, box));
 }
 
 }  // namespace
@@ -59,17 +76,15 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
     const Box<Dim> box(all_along<double, Dim>(2.0 * cells));
     Points<Dim> sites = square_lattice<Dim>(all_along<int, Dim>(cells));
     sites.array() += 0.5 * (cells + 1.0);
-    Gas<Dim> gas{cells,
-                 std::make_unique<FluidModel<Dim>>(
-                     make_particles<Dim>(sites, 1.0, 1.0, box), Fluid{law_of(Dim)},
-                     FluidScheme{Density::summed, p.kernel, p.range}, box),
-                 {}};
+    auto particles = make_particles<Dim>(sites, 1.0, 1.0, box);
     std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
-    Points<Dim> x = gas.model->particles().reference_position;
+    Points<Dim> x = particles.reference_position;
     for (Eigen::Index i = 0; i < x.cols(); ++i)  // the same numbers with every library
         for (int a = 0; a < Dim; ++a)
             x(a, i) += 0.1 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
-    gas.y0 = gas.model->state(x, Points<Dim>::Zero(Dim, x.cols()));
+    auto [model, y0] = begun<Dim>(std::move(particles), x, box, p);
+    Gas<Dim> gas{cells, weight_function<Dim>(to_string(p.kernel), p.range), std::move(model),
+                 std::move(y0)};
     for (const double at : drawn_at) gas.scenes.push_back({at * cells});
     return gas;
 }
@@ -78,14 +93,14 @@ template <int Dim>
 std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
     // An isentropic gas: e(rho), also where the energy equation shares the same sum out otherwise.
     const auto e_of = [law = law_of(Dim)](double rho) { return law.cold_energy(rho); };
-    const auto particles_now = [e_of](const Model<Dim>& model, std::span<const double> y) {
-        const auto& fluid = dynamic_cast<const FluidModel<Dim>&>(model);
+    const auto particles_now = [e_of, weight = gas.weight](const Model<Dim>& model,
+                                                           std::span<const double> y) {
         const ConstState<Dim> state(model.layout(), y);
         const auto rho = model.density(y);
         std::vector<double> e(rho.size());
         std::transform(rho.begin(), rho.end(), e.begin(), e_of);
-        return GasEntropy<Dim>(weight_of(fluid), model.particles().mass, state.position(),
-                               state.velocity(), rho, e, model.box());
+        return GasEntropy<Dim>(weight, model.particles().mass, state.position(), state.velocity(),
+                               rho, e, model.box());
     };
     using Measure = std::function<double(const GasEntropy<Dim>&)>;
     const auto column = [&](const char* name, const Measure& entropy) {
@@ -96,7 +111,7 @@ std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
                            }};
     };
     // A third of the range is as good as finer ones to 1e-4.
-    const auto grid = grid_of(gas, gas.model->scheme().range / 3.0);
+    const auto grid = grid_of(gas, gas.weight.range() / 3.0);
     return {
         column("entropy_sum", [](const auto& s) { return s.of_particles(Heat::fluctuation); }),
         column("entropy_grid",
@@ -114,7 +129,7 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
     carried.template bottomRows<Dim>() = v;
     // Smooth contours of small gases, too.
     Fields<Dim> fields{grid_of(gas, std::min(1.0, gas.side() / 96.0)), {}, {}, {}, {}};
-    const FieldInterpolation<Dim> interpolation(weight_of(*gas.model), gas.model->particles().mass,
+    const FieldInterpolation<Dim> interpolation(gas.weight, gas.model->particles().mass,
                                                 state.position(), gas.model->box());
     const Eigen::MatrixXd sum = interpolation.sum(carried, fields.grid.points());
     fields.velocity.setZero(Dim, sum.cols());

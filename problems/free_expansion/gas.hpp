@@ -4,7 +4,8 @@
 
 #include <spam/diagnostics/field_grid.hpp>
 #include <spam/kernel/any_weight.hpp>
-#include <spam/rhs/fluid_model.hpp>
+#include <spam/material/fluid.hpp>
+#include <spam/rhs/model.hpp>
 #include <spam/spam.hpp>
 
 namespace free_expansion {
@@ -14,6 +15,9 @@ using namespace spam;
 enum class Walls { periodic };
 inline std::string_view to_string(Walls) { return "periodic"; }
 
+enum class Ranges { fixed, density };
+inline std::string_view to_string(Ranges r) { return r == Ranges::fixed ? "fixed" : "density"; }
+
 struct Parameters {
     int dimension = 2;
     int cells = 64;                // along an edge of the gas, at spacing 1
@@ -21,6 +25,7 @@ struct Parameters {
     Walls walls = Walls::periodic;
     Kernel kernel = Kernel::lucy;
     double range = 6.0;
+    Ranges ranges = Ranges::fixed;
     int seed = 4;
     bool compare = false, cost = false, movie = false;
 };
@@ -39,7 +44,8 @@ struct Scene {
 template <int Dim>
 struct Gas {
     int cells;
-    std::unique_ptr<FluidModel<Dim>> model;
+    AnyWeight<Dim> weight;  ///< of averages; of the motion as well where ranges are fixed
+    std::unique_ptr<Model<Dim>> model;
     std::vector<double> y0;
     std::string label{}, prefix{};
     std::vector<Scene> scenes{};
@@ -52,6 +58,7 @@ struct Gas {
 /// n^Dim particles of mass and spacing 1, at rest, each off its site by 0.1 (u - 1/2), u even between 0
 /// and 1; in the plane P = rho^2/2 (gamma = 2, [HH01] eq 20), on the line P = rho^3/3 (gamma = 3,
 /// exercise 1): both are isentropes of the ideal gas with c = 1 at the start.
+/// Ranges by density: h = range/rho^(1/Dim), for as many neighbours in the thin gas as in the dense.
 template <int Dim>
 Gas<Dim> make_gas(int cells, const Parameters& p);
 

@@ -6,6 +6,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -93,6 +94,7 @@ const std::map<std::string, std::string> another_value{
     {"ranges", "4"},
     {"family", "4"},
     {"dimension", "1"},
+    {"ranges", "density"},
     {"particles", "196"},
     {"seed", "9"},
     {"law", "lucy"},
@@ -230,16 +232,22 @@ void check_option(const std::string& program, const Words& base, const Ran& befo
     }
 }
 
+/// ctest runs every third case apart, so that they take one processor each.
+bool is_mine(std::size_t number) {
+    const char* third = std::getenv("SPAM_THIRD");
+    return third == nullptr || number % 3 == std::strtoul(third, nullptr, 10);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
     std::size_t tried = 0;
-    std::set<std::string> problems;
-    for (const auto& [program, base] : cases) {
+    for (std::size_t number = 0; number < cases.size(); ++number) {
+        const auto& [program, base] = cases[number];
+        if (!is_mine(number)) continue;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
         if (program != "rotating_hexagon") continue;  // thousands of runs, ten times slower
 #endif
-        problems.insert(program);
         const Ran before = run_with(program, base);
         BOOST_REQUIRE_MESSAGE(before.outcome.status == 0, program << before.outcome.err);
         for (const auto& option : options_of(program)) {
@@ -249,9 +257,14 @@ BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
             ++tried;
         }
     }
-    BOOST_TEST(tried > 100u);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    BOOST_TEST(tried > 100u);
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(every_problem_has_a_case) {
+    std::set<std::string> problems;
+    for (const auto& [program, base] : cases) problems.insert(program);
     for (const auto& program : split(SPAM_PROBLEM_NAMES, ','))
         BOOST_TEST(problems.contains(program), program << " has no case here");
-#endif
 }
