@@ -40,7 +40,7 @@ const std::map<std::string, std::string> another_value{
     {"limit-momentum", "0.1"},
     {"limit-angular-momentum", "10"},
     {"limit-energy", "0.1"},
-    {"kernel", "w5"},
+    {"kernel", "w6"},
     {"range", "2.7"},
     {"density", "summed"},
     {"transport", "average"},
