@@ -184,7 +184,9 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         if (session.given("potential")) return analyse_one(session, options, p);
         session.leave_out_of_case({"potential"});
-        if (session.common().smoke && !session.given("block")) p.block = 10;
+        if (session.common().smoke && !p.range) p.range = 2.5;
+        if (session.common().smoke && !session.given("cells")) p.cells = 8;
+        if (session.common().smoke && !session.given("block")) p.block = 8;
         table_and_motion(session, p);
     });
 }

@@ -3,11 +3,11 @@
 find_package(nlohmann_json REQUIRED)
 spam_problem_test(problem/bad_input)
 spam_problem_test(problem/idle_options)
-set_tests_properties(problem.idle_options PROPERTIES ENVIRONMENT SPAM_THIRD=0)
-foreach(third 1 2)
-  add_test(NAME problem.idle_options.${third} COMMAND test.problem.idle_options)
-  set_tests_properties(problem.idle_options.${third} PROPERTIES
-    LABELS problem TIMEOUT ${timeout} ENVIRONMENT SPAM_THIRD=${third})
+set_tests_properties(problem.idle_options PROPERTIES ENVIRONMENT SPAM_FIFTH=0)
+foreach(fifth 1 2 3 4)
+  add_test(NAME problem.idle_options.${fifth} COMMAND test.problem.idle_options)
+  set_tests_properties(problem.idle_options.${fifth} PROPERTIES
+    LABELS problem TIMEOUT ${timeout} ENVIRONMENT SPAM_FIFTH=${fifth})
 endforeach()
 spam_problem_test(problem/guards nlohmann_json::nlohmann_json)
 spam_problem_test(problem/results nlohmann_json::nlohmann_json)
