@@ -70,6 +70,9 @@ void refuse_contradictions(const Session& session, const Options& options, const
     if (p.compare)
         refuse({"cells", "particles", "dimension", "movie", "cost"}, "--compare (three sizes)");
     if (p.cost) refuse({"cells", "particles", "dimension", "movie"}, "--cost (five sizes)");
+    if (p.cost && !session.common().restart.empty())
+        throw InputError(
+            "restart: times that --cost measured are of one run; start it again without --restart");
     if (p.movie && p.dimension == 1) refuse({"movie"}, "--dimension 1");
     if (p.movie && session.common().no_plots) refuse({"movie"}, "--no-plots");
 }
@@ -92,13 +95,11 @@ Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t
         if constexpr (Dim == 2)
             if (p.movie && t == 0.0) session.note_drawn(draw_frame(folder(), gas, 0, t, y));
     };
-    plan.memory = [&gas](Archive& archive) { archive(gas.scenes, gas.field_times); };
+    plan.memory = [&gas](Archive& archive) { archive(gas.scenes, gas.field_times, gas.frames); };
     if constexpr (Dim == 2)
         if (p.movie)
             plan.revise = [&gas, &session, folder](double t, Model<2>&, std::span<double> y) {
-                const double every = *session.common().output_every;
-                session.note_drawn(
-                    draw_frame(folder(), gas, static_cast<int>(std::lround(t / every)), t, y));
+                session.note_drawn(draw_frame(folder(), gas, ++gas.frames, t, y));
                 return false;
             };
     return plan;

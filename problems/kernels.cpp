@@ -291,6 +291,10 @@ int main(int argc, char** argv) {
             throw InputError(fmt::format(
                 "largest-range: {:g} is not above smallest-range, {:g}; give a larger one",
                 p.largest, p.smallest));
+        if (p.ranges == 1 && session.given("largest-range"))
+            throw InputError(
+                "largest-range: one range is the smallest; leave it out, or give more --ranges");
+        if (p.ranges == 1) session.leave_out_of_case({"largest-range"});
         session.begin_analysis(
             {fmt::format("weights     Lucy, Monaghan, w_{}", p.family),
              fmt::format("lattices    line, square, triangular, particles at spacing 1, {} ranges "

@@ -36,16 +36,6 @@ namespace {
 constexpr double step = 0.03;
 constexpr double range_of_dynamics = 3.25, range_of_one_case = 2.5;
 
-/// Ranges of the table, that of the dynamics among them.
-std::vector<double> ranges_of_table(const Session& session, const Parameters& p) {
-    std::vector<double> ranges{2.5, 3.0, 3.5};
-    if (session.common().smoke) ranges.clear();
-    if (std::find(ranges.begin(), ranges.end(), *p.range) == ranges.end())
-        ranges.push_back(*p.range);
-    std::sort(ranges.begin(), ranges.end());
-    return ranges;
-}
-
 void refuse(const Options& options, const std::vector<std::string>& names, const char* where) {
     if (const std::string name = options.first_given(names); !name.empty())
         throw InputError(fmt::format("{}: has no meaning {}; leave it out", name, where));
@@ -103,8 +93,11 @@ void check_motion(Session& session, const Parameters& p, const std::vector<Sampl
 }
 
 void table_and_motion(Session& session, Parameters& p) {
+    // A range that was given is the only one.
+    const std::vector<double> ranges =
+        p.range ? std::vector{*p.range} : std::vector{2.5, 3.0, range_of_dynamics, 3.5};
+    if (!p.range) session.leave_out_of_case({"range"});
     if (!p.range) p.range = range_of_dynamics;
-    const std::vector<double> ranges = ranges_of_table(session, p);
     for (const auto lattice : {LatticeKind::triangular, LatticeKind::square})
         for (const double h : ranges) refuse_meaningless(p, lattice, Acting::both, h);
 
@@ -165,7 +158,8 @@ int main(int argc, char** argv) {
                            "analyse one lattice only, under e(rho) alone (density), with the "
                            "curvature or the gradient potential, or with both");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function (w5)");
-    options.number("range", p.range, "its range h, in spacings (3.25; with --potential 2.5)",
+    options.number("range", p.range,
+                   "its range h, in spacings (four of them, 3.25 in motion; with --potential 2.5)",
                    between(1.05, 50.0));
     options.number("strength", p.strength, "s_c of the curvature potential", positive());
     options.number("surface-tension", p.surface_tension, "s_g of the gradient potential",
@@ -173,8 +167,8 @@ int main(int argc, char** argv) {
     options.number("misfit", p.misfit, "rest density over what particles sum to at a site",
                    between(0.5, 2.0));
     options.integer("cells", p.cells, "the lattice at rest is cells x cells particles, even",
-                    {[](double n) { return n >= 4.0 && n <= 40.0 && std::fmod(n, 2.0) == 0.0; },
-                     "an even number between 4 and 40"});
+                    {[](double n) { return n >= 4.0 && n <= 24.0 && std::fmod(n, 2.0) == 0.0; },
+                     "an even number between 4 and 24 (a matrix of 2 cells x cells squared)"});
     options.integer("block", p.block, "the one in motion is block x block particles, even",
                     {[](double n) { return n >= 4.0 && n <= 400.0 && std::fmod(n, 2.0) == 0.0; },
                      "an even number between 4 and 400"});

@@ -50,6 +50,7 @@ struct Gas {
     std::string label{}, prefix{};
     std::vector<Scene> scenes{};
     std::vector<double> field_times{};  ///< of the files of gridded fields
+    int frames = 0;                     ///< of a film, beside the first
 
     double side() const { return 2.0 * cells; }
     std::size_t particles() const { return model->particles().size(); }

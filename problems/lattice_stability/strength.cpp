@@ -21,10 +21,15 @@ int self_conjugate_waves(LatticeKind lattice, int cells) {
     return lattice == LatticeKind::square || cells % 4 == 0 ? 4 : 2;
 }
 
+/// Corners of the zone, where three neighbours in turn move alike and the odd sums over grad w vanish too.
+int corner_waves(LatticeKind lattice, int cells) {
+    return lattice == LatticeKind::triangular && cells % 3 == 0 ? 2 : 0;
+}
+
 /// How many modes symmetry leaves free (tests/physics/lattice_strength.cpp says why).
 int expected_zero_modes(const Parameters& p, LatticeKind lattice, Acting acting) {
     const int s = self_conjugate_waves(lattice, p.cells);
-    return acting == Acting::density     ? p.cells * p.cells + s
+    return acting == Acting::density     ? p.cells * p.cells + s + corner_waves(lattice, p.cells)
            : acting == Acting::curvature ? 2 * s
                                          : 2;
 }
@@ -70,7 +75,8 @@ void report(Session& session, const Parameters& p, const Analysed& one, const st
     Check zero{prefix + "zero_modes", double(one.spectrum.zero), {}, 0.0, "measured"};
     Check negative{prefix + "negative_modes", double(one.spectrum.negative), {}, 0.0, "measured"};
     Check shear{prefix + "shear_modulus", one.moduli.shear, {}, 0.0, "measured"};
-    if (p.misfit == 1.0) {
+    // Where neighbours hardly reach each other all of it is rounding.
+    if (p.misfit == 1.0 && one.range >= 1.5) {
         negative.expected = 0.0;
         negative.source = "sums of squares that vanish on the lattice";
         // Another weight may lose a mode by accident, where a sum over neighbours passes through zero.

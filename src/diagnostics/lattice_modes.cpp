@@ -148,7 +148,10 @@ LatticeModes<Dim>::LatticeModes(SmoothParticleModel<Dim>& model, std::span<const
         largest = std::max(largest, columns.back().cwiseAbs().maxCoeff());
     }
     if (kink > 1e-2 * largest)
-        refuse("the scheme has no derivative at rest: disturbances of both signs act differently");
+        refuse(
+            "the scheme has no derivative at rest: disturbances of both signs act differently; the "
+            "range may lie on a shell of neighbours where the weight function has a kink (w2: use "
+            "--range 3.1 rather than 3)");
 
     const Points<Dim> wrapped = model.box().wrapped(Points<Dim>(state.position()));
     for (Eigen::Index j = 0; j < particles; ++j) {

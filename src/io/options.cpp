@@ -154,9 +154,11 @@ std::vector<std::string> Options::names() const {
     return result;
 }
 
+/// A flag that a file sets to false was left out on the command line that wrote it.
 bool Options::given(std::string_view name) const {
     return std::any_of(entries_.begin(), entries_.end(), [name](const auto& e) {
-        return e->name == name && (e->in_file || e->on_command);
+        return e->name == name && (e->in_file || e->on_command) &&
+               !(e->is_flag && e->get() == "false");
     });
 }
 

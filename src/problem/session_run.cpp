@@ -106,11 +106,14 @@ void Session::refuse_unstable(const Case<Dim>& one) const {
     constexpr double limit = 2.785;
     const double rate = one.model.fastest_damping();
     if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
-    throw InputError(fmt::format(
-        "dt: friction ({}) takes fast motion away at a rate of about {:.3g}, which rk4 follows "
-        "with "
-        "steps below {:.2g} only, not {:g}; choose a smaller --dt or less friction",
-        given("viscosity") ? "--viscosity" : "of the model", rate, limit / rate, *integrator_.dt));
+    throw InputError(
+        fmt::format("dt: damping ({}) takes the shortest waves away at a rate of about {:.3g}, "
+                    "which rk4 follows "
+                    "with steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
+                    given("viscosity")      ? "--viscosity"
+                    : given("conductivity") ? "--conductivity"
+                                            : "of the model: friction, viscosity or conduction",
+                    rate, limit / rate, *integrator_.dt));
 }
 
 template <int Dim>

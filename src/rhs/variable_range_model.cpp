@@ -127,8 +127,10 @@ bool VariableRangeModel<Dim>::find_ranges(std::span<const double> y, std::span<d
     for (std::size_t i = 0; i < range_.size(); ++i) {
         const double r = rho(0, static_cast<Eigen::Index>(i));
         if (!(r > 0.0)) {
-            this->fail(y_dot, fmt::format("density {} of particle {} is not positive", r,
-                                          this->particles().id[i]));
+            this->fail(y_dot,
+                       fmt::format("density {} of particle {} is not positive (it is integrated: "
+                                   "a smaller step may keep it)",
+                                   r, this->particles().id[i]));
             return false;
         }
         range_[i] = range_of(i, r);

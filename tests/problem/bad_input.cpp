@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--viscosity", "nan"}, {"viscosity", "nan"}},
         {{"--balance", "global"}, {"balance", "free", "torque_pair"}},
         {{"--balance", "global", "--angular-momentum", "torque_pair"}, {"balance", "for one"}},
-        {{"--viscosity", "100"}, {"dt: friction (--viscosity)", "rk4", "below"}},
+        {{"--viscosity", "100"}, {"dt: damping (--viscosity)", "rk4", "below"}},
         {{"--guard", "off", "--limit-energy", "1e-3"}, {"limit-energy", "--guard"}},
         {{"--limit-mass", "0"}, {"limit-mass", "above 0"}},
         {{"--guard", "on"}, {"guard", "on", "off, warn, stop"}},
