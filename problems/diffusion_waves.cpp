@@ -221,7 +221,7 @@ int main(int argc, char** argv) {
     options.integer("cells", p.cells, "n x n particles at spacing 1, one wavelength",
                     between(4, 2000));
     options.number("amplitude", p.amplitude, "of temperature and velocity at the start",
-                   positive());
+                   between(1e-7, 1e3));
     options.number("temperature", p.temperature, "of the fluid at the start", positive());
     options.choice<Matter>("equation-of-state", p.matter,
                            {Matter::ideal_gas, Matter::van_der_waals}, "of the fluid");
