@@ -6,8 +6,11 @@
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/ideal_gas.hpp>
+#include <spam/material/lucy_gas.hpp>
 #include <spam/problem/session.hpp>
 #include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/fluid_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>

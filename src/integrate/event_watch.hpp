@@ -41,7 +41,6 @@ class EventWatch {
 
     const std::vector<Event>& events_;
     double t_ = 0.0;      ///< of begin()
-    double start_ = 0.0;  ///< distance there
     std::span<const double> y_;
     double whole_ = 0.0;         ///< length of the step looked at last
     double window_end_ = 0.0;    ///< one step after the first of those counted

@@ -31,8 +31,8 @@ struct PackCount {
     std::size_t invalid = 0;  ///< have a density that is not positive
 };
 
-/// Writes the records: x (wrapped), v, m, rho (or EitherMean's number) and A = sigma/rho^2 (physics/record.hpp). Without rho the
-/// last two are left alone; with `density_only` the others are.
+/// Writes the records: x (wrapped), v, m, rho (or EitherMean's number) and A = sigma/rho^2
+/// (physics/record.hpp). Without rho the last two are left alone; with `density_only` the others are.
 template <int Dim>
 using Pack = PackCount (*)(const PackInput<Dim>&, bool density_only, double* records);
 
