@@ -46,6 +46,9 @@ bool cross_each_other(const Points<2>& polygon, Eigen::Index j, Eigen::Index k) 
     return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
+/// A thinner shape leaves random_places() next to no chance, and a wall around it no end.
+constexpr double least_part = 1e-3;
+
 /// Even between 0 and 1, the same numbers with every library.
 double drawn(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
@@ -55,6 +58,13 @@ Region::Region(Points<2> polygon) : polygon_(std::move(polygon)) {
     const double area = polygon_.cols() < 3 ? 0.0 : signed_area(polygon_);
     if (!std::isfinite(area) || area == 0.0)
         throw InputError("outline: these corners surround no area; give three or more in order");
+    const double length =
+        (polygon_.rowwise().maxCoeff() - polygon_.rowwise().minCoeff()).maxCoeff();
+    if (!(std::abs(area) / length >= least_part * length))
+        throw InputError(
+            fmt::format("outline: a shape of length {:g} and area {:g} is too thin; let it fill a "
+                        "thousandth of the square around it",
+                        length, std::abs(area)));
     if (area < 0.0) polygon_ = polygon_.rowwise().reverse().eval();
     for (Eigen::Index j = 0; j < polygon_.cols(); ++j)
         for (Eigen::Index k = j + 1; k < polygon_.cols(); ++k)
@@ -169,12 +179,15 @@ Points<2> random_places(const Region& region, int particles, int seed) {
     const Point<2> size = region.polygon().rowwise().maxCoeff() - low;
     Points<2> places(2, particles);
     for (auto place : places.colwise()) {
-        Point<2> r;
+        // Region fills a thousandth of its box or more: e^-100 is the chance that this does not do
+        int draws = 0;
         do {
-            r.x() = low.x() + drawn(random) * size.x();
-            r.y() = low.y() + drawn(random) * size.y();
-        } while (!region.contains(r));
-        place = r;
+            if (++draws > 100000)
+                throw InputError(
+                    "outline: no place inside was found; give a shape that is less thin");
+            place.x() = low.x() + drawn(random) * size.x();
+            place.y() = low.y() + drawn(random) * size.y();
+        } while (!region.contains(place));
     }
     return places;
 }
