@@ -6,11 +6,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace relaxation {
@@ -51,6 +57,34 @@ constexpr double least_part = 1e-3;
 
 /// Even between 0 and 1, the same numbers with every library.
 double drawn(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// Between blanks, or the first comma: "x,y", "x y". A second comma stays in its word, which then is no
+/// number.
+std::vector<std::string> words_of(std::string line) {
+    if (const auto comma = line.find(','); comma != std::string::npos) line[comma] = ' ';
+    std::istringstream in(line);
+    return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// A word that is a finite number from its begin to its end.
+std::optional<double> number_of(const std::string& word) {
+    double value = 0.0;
+    const char* last = word.data() + word.size();
+    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+/// Names of columns: all words begin with a letter and none is what some write for a number.
+bool is_header(const std::vector<std::string>& words) {
+    return std::all_of(words.begin(), words.end(), [](const std::string& word) {
+        double value = 0.0;
+        const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
+        return std::isalpha(static_cast<unsigned char>(word.front())) && read.ec != std::errc{} &&
+               read.ptr == word.data();
+    });
+}
 
 }  // namespace
 
@@ -143,27 +177,30 @@ Region lobed_region(int lobes, double depth) {
 
 Region region_from_file(const std::string& path) {
     std::ifstream in(path);
-    if (!in)
+    if (!in || std::filesystem::is_directory(path))
         throw InputError(fmt::format(
             "outline: '{}' cannot be read; give a file with a line x,y a corner", path));
     std::vector<Point<2>> corners;
     std::string line;
+    bool first = true;
     for (int number = 1; std::getline(in, line); ++number) {
-        const auto first = line.find_first_not_of(" \t\r");
-        if (first == std::string::npos || line[first] == '#' ||
-            std::isalpha(static_cast<unsigned char>(line[first])))
-            continue;
-        std::replace(line.begin(), line.end(), ',', ' ');
-        std::istringstream words(line);
-        Point<2> corner;
-        if (!(words >> corner.x() >> corner.y()) || !corner.allFinite())
-            throw InputError(
-                fmt::format("outline: line {} of '{}' is no corner; write two numbers, "
-                            "x,y",
-                            number, path));
+        const auto words = words_of(line);
+        if (words.empty() || words[0].front() == '#') continue;
+        if (std::exchange(first, false) && is_header(words)) continue;
+        const auto x = number_of(words[0]);
+        const auto y = words.size() == 2 ? number_of(words[1]) : std::nullopt;
+        if (!x || !y)
+            throw InputError(fmt::format(
+                "outline: line {} of '{}' is no corner; write two numbers, x,y", number, path));
+        const Point<2> corner(*x, *y);
         if (corners.empty() || corner != corners.back()) corners.push_back(corner);
     }
+    if (in.bad()) throw InputError(fmt::format("outline: '{}' cannot be read to its end", path));
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3)
+        throw InputError(
+            fmt::format("outline: '{}' has {} corners; give a line x,y for each of three or more",
+                        path, corners.size()));
     if (corners.size() > 20000)
         throw InputError(
             fmt::format("outline: '{}' has {} corners; 20000 are enough", path, corners.size()));

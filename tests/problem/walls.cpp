@@ -118,9 +118,18 @@ BOOST_AUTO_TEST_CASE(outlines_that_are_none_are_refused) {
                                   return std::string(error.what()).find(word) != std::string::npos;
                               });
     };
-    refused("", "no area");
-    refused("0,0\n1,0\n", "no area");
-    refused("0,0\n1,0\nx\n2,here\n", "line 4");
+    refused("", "has 0 corners");
+    refused("x,y\n# none\n", "has 0 corners");
+    refused("0,0\n1,0\n", "has 2 corners");
+    refused("0,0\n1,0\n2,0\n", "no area");
+    refused("0,0\n1,0\n2,2\n2,here\n", "line 4");
+    for (const char* line : {"x,y", "x0,1", "nan,0", "0", "0,1,2", "0 1 2", "0,1x", "0,,1", "0;1"})
+        refused(std::string("x,y\n0,0\n1,0\n") + line + "\n1,1\n0,1\n", "line 4");
+    for (const char* line : {"nan,0", "inf inf", "x0,1", "x,0"})
+        refused(std::string(line) + "\n0,0\n1,0\n1,1\n", "line 1");
+    BOOST_CHECK_EXCEPTION(region_from_file(folder.path()), InputError, [](const InputError& error) {
+        return std::string(error.what()).find("cannot be read") != std::string::npos;
+    });
     refused("0,0\n2,2\n2,0\n0,1\n", "crosses");
     refused("0,0\n1000,1000\n1000,1000.0001\n", "too thin");
     refused("0,0\n1e8,0\n1e8,1e-8\n0,1e-8\n", "too thin");
