@@ -202,14 +202,12 @@ void refuse_contradictions(const Session& session, const Parameters& p) {
     if (p.core != 0.0 && p.core_range < 0.01 * spacing)
         throw InputError(
             fmt::format("core-range: {:g} is below a hundredth of the spacing {:.3g}: no step "
-                        "resolves such "
-                        "a core; give {:.3g} or more, or --core 0",
+                        "resolves such a core; give {:.3g} or more, or --core 0",
                         p.core_range, spacing, std::ceil(10.0 * spacing) * 0.001));
     if (!(p.side > 2.0 * p.range))
         throw InputError(
             fmt::format("side: {:g} is too short for --range {:g}: no particle may see another one "
-                        "twice; give more than {:g}, "
-                        "or a shorter --range",
+                        "twice; give more than {:g}, or a shorter --range",
                         p.side, p.range, 2.0 * p.range));
 }
 

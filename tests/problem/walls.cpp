@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the problem relaxation: regions, and walls that stand for evenly spread matter outside.
+#include "relaxation/quality.hpp"
 #include "relaxation/walled_model.hpp"
 #include "support/process.hpp"
 #include <spam/core/error.hpp>
@@ -84,6 +85,29 @@ BOOST_AUTO_TEST_CASE(a_wall_is_the_weight_of_what_is_outside) {
         if (region.distance(r) > range)
             BOOST_TEST(std::abs(found - (region.contains(r) ? 0.0 : 1.0)) < 1e-12);
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_border_is_smooth_where_half_of_a_weight_is_outside) {
+    const auto least = [](const Region& region) {
+        return Wall(region, range).least_weight_on_border();
+    };
+    BOOST_TEST(std::abs(least(lobed_region(1, 0.0).of_area(1e4)) - 0.5) < 0.03);
+    BOOST_TEST(std::abs(least(lobed_region(3, 0.2).of_area(400.0)) - 0.5) < 0.1);
+    BOOST_TEST(least(arrow()) < 0.3);                                // the notch
+    BOOST_TEST(least(lobed_region(50, 0.6).of_area(400.0)) < 0.05);  // gaps between lobes
+}
+
+BOOST_AUTO_TEST_CASE(nearest_neighbours_are_those_of_all_pairs) {
+    Points<2> x = 3.0 * random_places(lobed_region(3, 0.2).of_area(100.0), 100, 1);
+    x.col(7).setConstant(500.0);  // far off
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        double least = HUGE_VAL;
+        for (Eigen::Index j = 0; j < x.cols(); ++j)
+            if (j != i) least = std::min(least, (x.col(j) - x.col(i)).norm());
+        sum += least;
+    }
+    BOOST_TEST(std::abs(mean_nearest(x) - sum / 100.0) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(a_region_knows_its_inside) {
