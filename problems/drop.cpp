@@ -32,6 +32,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace {
@@ -116,6 +118,22 @@ bool is_standard(const Parameters& p, const RunRecord& run) {
            run.statistics.t_end >= 400.0;
 }
 
+/// rms, at any time: what round-off of momenta is relative to where particles are faster than sound, 1.
+double largest_speed(const History& h) {
+    return std::sqrt(2.0 * h.largest("kinetic") / h.first("mass"));
+}
+
+/// Friction takes energy: the largest rise from one row to the next, of the largest energy in all.
+double largest_rise(const History& h) {
+    const auto energy = h.column("energy");
+    double rise = 0.0, largest = std::abs(energy.front());
+    for (std::size_t k = 1; k < energy.size(); ++k) {
+        rise = std::max(rise, energy[k] - energy[k - 1]);
+        largest = std::max(largest, std::abs(energy[k]));
+    }
+    return largest > 0.0 ? rise / largest : 0.0;
+}
+
 void report(Session& session, const Parameters& p, const Drop& drop, const RunRecord& run) {
     const History& h = run.history;
     Check m4{drop.prefix + "m4", h.last("m4"), {}, 0.0, "measured"};
@@ -130,7 +148,10 @@ void report(Session& session, const Parameters& p, const Drop& drop, const RunRe
     const auto n = static_cast<double>(run.statistics.particles);
     session.check({drop.prefix + "momentum_per_particle",
                    std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
-                   0.0, 1e-12, "pairwise forces, and a friction that stops what does not move"});
+                   0.0, 1e-12 * std::max(1.0, largest_speed(h)),
+                   "pairwise forces, and a friction that stops what does not move"});
+    session.check({drop.prefix + "energy_rise", largest_rise(h), 0.0, 1e-9,
+                   "friction takes energy and never gives it back"});
     session.check({drop.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
     session.check({drop.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
     session.check_promises(run, drop.prefix);
@@ -165,6 +186,11 @@ void refuse_contradictions(const Session& session, const Parameters& p) {
     if (p.core == 0.0 && session.given("core-range"))
         throw InputError(
             "core-range: has no meaning without a core; give --core 0.1, or leave it out");
+    if (p.core > 0.0 && p.core_range < 0.01)
+        throw InputError(fmt::format(
+            "core-range: {:g} is below a hundredth of the spacing, 1: no step resolves such "
+            "a core; give 0.01 or more, or leave out --core",
+            p.core_range));
     if (p.disorder == 0.0 && session.given("seed"))
         throw InputError(
             "seed: has no meaning without disorder; give --disorder 0.1, or leave it out");

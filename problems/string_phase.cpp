@@ -33,6 +33,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -118,6 +119,11 @@ bool is_standard(const Parameters& p, const RunRecord& run) {
            run.complete && run.statistics.t_end >= 500.0;
 }
 
+/// rms, at any time: what round-off of momenta is relative to where particles are faster than sound, 1.
+double largest_speed(const History& h) {
+    return std::sqrt(2.0 * h.largest("kinetic") / h.first("mass"));
+}
+
 /// Friction takes energy, all that there is: by how much a row lies above the one before, at most.
 double largest_rise(const std::vector<double>& energy) {
     double rise = 0.0;
@@ -140,7 +146,8 @@ void report(Session& session, const Parameters& p, const Sample& sample, const R
     const auto n = static_cast<double>(run.statistics.particles);
     session.check({sample.prefix + "momentum_per_particle",
                    std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
-                   0.0, 1e-12, "pairwise forces, and a friction that stops what does not move"});
+                   0.0, 1e-12 * std::max(1.0, largest_speed(h)),
+                   "pairwise forces, and a friction that stops what does not move"});
     session.check({sample.prefix + "energy_rise_per_particle", largest_rise(h.column("energy")) / n,
                    0.0, 1e-9, "friction takes energy and never gives it back"});
     session.check(
@@ -190,6 +197,18 @@ void draw(Session& session, const Parameters& p, const std::vector<Sample>& samp
 void refuse_contradictions(const Session& session, const Parameters& p) {
     if (p.core == 0.0 && session.given("core-range"))
         throw InputError("core-range: has no meaning for --core 0; leave it out");
+    const double spacing =
+        std::min(p.side / std::sqrt(static_cast<double>(p.particles)), 1.0 / std::sqrt(p.rho0));
+    if (p.core != 0.0 && p.core_range < 0.01 * spacing)
+        throw InputError(
+            fmt::format("core-range: {:g} is below a hundredth of the spacing {:.3g}: no step "
+                        "resolves such a core; give {:.3g} or more, or --core 0",
+                        p.core_range, spacing, std::ceil(10.0 * spacing) * 0.001));
+    if (!(p.side > 2.0 * p.range))
+        throw InputError(
+            fmt::format("side: {:g} is too short for --range {:g}: no particle may see another one "
+                        "twice; give more than {:g}, or a shorter --range",
+                        p.side, p.range, 2.0 * p.range));
 }
 
 }  // namespace

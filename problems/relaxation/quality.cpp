@@ -50,24 +50,39 @@ double scatter(const std::vector<double>& values) {
     return std::sqrt(squares) / sum;
 }
 
+/// Most particles have another one within next_shell; those that have none are looked at again, farther
+/// off each time.
+double mean_nearest(const Points<2>& x) {
+    std::vector<double> nearest(static_cast<std::size_t>(x.cols()), HUGE_VAL);
+    std::size_t missing = nearest.size();
+    for (double reach = Ruler::next_shell; missing > 0 && std::isfinite(reach); reach *= 2.0) {
+        const PairList<2> pairs(x, reach, {});
+        for (std::size_t i = 0; i < nearest.size(); ++i) {
+            if (std::isfinite(nearest[i])) continue;
+            const auto r = x.col(static_cast<Eigen::Index>(i));
+            for (const std::uint32_t j : pairs.neighbours(i))
+                if (j != i) nearest[i] = std::min(nearest[i], (x.col(j) - r).norm());
+            if (std::isfinite(nearest[i])) --missing;
+        }
+    }
+    CompensatedSum sum;
+    for (const double distance : nearest) sum += distance;
+    return sum / static_cast<double>(nearest.size());
+}
+
 Quality measure(const Ruler& ruler, const Points<2>& x) {
     const auto rho = ruler.density(x), distance = ruler.distances_from_border(x);
     const auto neighbours = ruler.neighbours(x);
     std::vector<double> interior;
-    double off_border = 0.0, six = 0.0, nearest = 0.0;
+    double off_border = 0.0, six = 0.0;
     for (std::size_t i = 0; i < rho.size(); ++i) {
         if (distance[i] > Ruler::range) interior.push_back(rho[i]);
         if (distance[i] > Ruler::next_shell) {
             ++off_border;
             six += neighbours[i] == 6 ? 1.0 : 0.0;
         }
-        const auto column = static_cast<Eigen::Index>(i);
-        double least = HUGE_VAL;
-        for (Eigen::Index j = 0; j < x.cols(); ++j)
-            if (j != column) least = std::min(least, (x.col(j) - x.col(column)).squaredNorm());
-        nearest += std::sqrt(least) / static_cast<double>(rho.size());
     }
-    return {scatter(rho), scatter(interior), nearest,
+    return {scatter(rho), scatter(interior), mean_nearest(x),
             off_border > 0.0 ? six / off_border : std::nan(""), ruler.outside(x)};
 }
 

@@ -39,6 +39,9 @@ struct Quality {
 };
 Quality measure(const Ruler& ruler, const Points<2>& x);
 
+/// Mean distance of the nearest other particle; infinite for one alone.
+double mean_nearest(const Points<2>& x);
+
 /// Relative standard deviation; NaN for fewer than two.
 double scatter(const std::vector<double>& values);
 

@@ -6,11 +6,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace relaxation {
@@ -46,8 +52,39 @@ bool cross_each_other(const Points<2>& polygon, Eigen::Index j, Eigen::Index k) 
     return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
+/// A thinner shape leaves random_places() next to no chance, and a wall around it no end.
+constexpr double least_part = 1e-3;
+
 /// Even between 0 and 1, the same numbers with every library.
 double drawn(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// Between blanks, or the first comma: "x,y", "x y". A second comma stays in its word, which then is no
+/// number.
+std::vector<std::string> words_of(std::string line) {
+    if (const auto comma = line.find(','); comma != std::string::npos) line[comma] = ' ';
+    std::istringstream in(line);
+    return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// A word that is a finite number from its begin to its end.
+std::optional<double> number_of(const std::string& word) {
+    double value = 0.0;
+    const char* last = word.data() + word.size();
+    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+/// Names of columns: all words begin with a letter and none is what some write for a number.
+bool is_header(const std::vector<std::string>& words) {
+    return std::all_of(words.begin(), words.end(), [](const std::string& word) {
+        double value = 0.0;
+        const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
+        return std::isalpha(static_cast<unsigned char>(word.front())) && read.ec != std::errc{} &&
+               read.ptr == word.data();
+    });
+}
 
 }  // namespace
 
@@ -55,6 +92,13 @@ Region::Region(Points<2> polygon) : polygon_(std::move(polygon)) {
     const double area = polygon_.cols() < 3 ? 0.0 : signed_area(polygon_);
     if (!std::isfinite(area) || area == 0.0)
         throw InputError("outline: these corners surround no area; give three or more in order");
+    const double length =
+        (polygon_.rowwise().maxCoeff() - polygon_.rowwise().minCoeff()).maxCoeff();
+    if (!(std::abs(area) / length >= least_part * length))
+        throw InputError(
+            fmt::format("outline: a shape of length {:g} and area {:g} is too thin; let it fill a "
+                        "thousandth of the square around it",
+                        length, std::abs(area)));
     if (area < 0.0) polygon_ = polygon_.rowwise().reverse().eval();
     for (Eigen::Index j = 0; j < polygon_.cols(); ++j)
         for (Eigen::Index k = j + 1; k < polygon_.cols(); ++k)
@@ -133,27 +177,30 @@ Region lobed_region(int lobes, double depth) {
 
 Region region_from_file(const std::string& path) {
     std::ifstream in(path);
-    if (!in)
+    if (!in || std::filesystem::is_directory(path))
         throw InputError(fmt::format(
             "outline: '{}' cannot be read; give a file with a line x,y a corner", path));
     std::vector<Point<2>> corners;
     std::string line;
+    bool first = true;
     for (int number = 1; std::getline(in, line); ++number) {
-        const auto first = line.find_first_not_of(" \t\r");
-        if (first == std::string::npos || line[first] == '#' ||
-            std::isalpha(static_cast<unsigned char>(line[first])))
-            continue;
-        std::replace(line.begin(), line.end(), ',', ' ');
-        std::istringstream words(line);
-        Point<2> corner;
-        if (!(words >> corner.x() >> corner.y()) || !corner.allFinite())
-            throw InputError(
-                fmt::format("outline: line {} of '{}' is no corner; write two numbers, "
-                            "x,y",
-                            number, path));
+        const auto words = words_of(line);
+        if (words.empty() || words[0].front() == '#') continue;
+        if (std::exchange(first, false) && is_header(words)) continue;
+        const auto x = number_of(words[0]);
+        const auto y = words.size() == 2 ? number_of(words[1]) : std::nullopt;
+        if (!x || !y)
+            throw InputError(fmt::format(
+                "outline: line {} of '{}' is no corner; write two numbers, x,y", number, path));
+        const Point<2> corner(*x, *y);
         if (corners.empty() || corner != corners.back()) corners.push_back(corner);
     }
+    if (in.bad()) throw InputError(fmt::format("outline: '{}' cannot be read to its end", path));
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3)
+        throw InputError(
+            fmt::format("outline: '{}' has {} corners; give a line x,y for each of three or more",
+                        path, corners.size()));
     if (corners.size() > 20000)
         throw InputError(
             fmt::format("outline: '{}' has {} corners; 20000 are enough", path, corners.size()));
@@ -169,12 +216,15 @@ Points<2> random_places(const Region& region, int particles, int seed) {
     const Point<2> size = region.polygon().rowwise().maxCoeff() - low;
     Points<2> places(2, particles);
     for (auto place : places.colwise()) {
-        Point<2> r;
+        // Region fills a thousandth of its box or more: e^-100 is the chance that this does not do
+        int draws = 0;
         do {
-            r.x() = low.x() + drawn(random) * size.x();
-            r.y() = low.y() + drawn(random) * size.y();
-        } while (!region.contains(r));
-        place = r;
+            if (++draws > 100000)
+                throw InputError(
+                    "outline: no place inside was found; give a shape that is less thin");
+            place.x() = low.x() + drawn(random) * size.x();
+            place.y() = low.y() + drawn(random) * size.y();
+        } while (!region.contains(place));
     }
     return places;
 }

@@ -15,7 +15,7 @@ using namespace spam;
 class Region {
   public:
     /// `polygon`: 2 x M corners in order, M >= 3, in either sense. Throws InputError where it has no
-    /// area or crosses itself.
+    /// area, less than a thousandth of that of the square around it, or crosses itself.
     explicit Region(Points<2> polygon);
 
     /// Corners, counterclockwise.
@@ -47,8 +47,8 @@ class Region {
 /// r(theta) = 1 + depth (cos(lobes theta) + sin(2 theta)/2), 720 corners: no symmetry.
 Region lobed_region(int lobes, double depth);
 
-/// Corners from a file, a line "x,y" (or "x y") each; lines that begin with # or a letter are passed
-/// over. Throws InputError naming file and line.
+/// Corners from a file, a line "x,y" (or "x y") each. Names of columns may stand above them; lines that
+/// are empty or begin with # are passed over. Throws InputError naming file and line.
 Region region_from_file(const std::string& path);
 
 /// N places in the region of area N: anywhere.

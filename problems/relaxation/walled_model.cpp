@@ -113,6 +113,16 @@ double Wall::weight_outside(const Point<2>& r) const {
     return 1.0 - inside;
 }
 
+/// A hundredth of the range inside: on the border itself round-off decides what is inside.
+double Wall::least_weight_on_border() const {
+    double least = 1.0;
+    for (const Piece& piece : pieces_) {
+        const Point<2> inwards = -0.01 * weight_.range() * piece.normal.normalized();
+        least = std::min(least, weight_outside(0.5 * (piece.from + piece.to) + inwards));
+    }
+    return least;
+}
+
 WalledModel::WalledModel(Particles<2> particles, const Region& region, double range)
     : Model<2>(particles, {}, {Field::position, Field::velocity}),
       inside_(std::move(particles), range),

@@ -28,6 +28,9 @@ class Wall {
     double energy(const Point<2>& r) const;
     /// The part of a particle's weight that is outside, 0 to 1: Phi without the spring.
     double weight_outside(const Point<2>& r) const;
+    /// The least weight_outside() along the border: 1/2 of one that is straight as far as the range, less
+    /// at corners inwards and where what is outside is thin. There little keeps particles in.
+    double least_weight_on_border() const;
 
   private:
     /// A short straight piece of the border.

@@ -85,12 +85,27 @@ BOOST_AUTO_TEST_CASE(other_cases_claim_nothing) {
     BOOST_TEST(drop.value.contains("tension_m4"));
 }
 
+BOOST_AUTO_TEST_CASE(a_drop_that_explodes_fails) {
+    const Scratch folder;
+    const Outcome outcome =
+        run_in(folder, "drop", {"--cells", "6", "--surface-tension", "1e6", "--t-end", "20"});
+    BOOST_TEST(outcome.status == 1);
+    for (const auto& item : json_of(folder / "out/result.json"))
+        BOOST_TEST((item["holds"] == true) == (item["name"] != "energy_rise"), item.dump());
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
     BOOST_TEST(contains(refusal("string_phase", {"--core", "0", "--core-range", "1"}),
                         "core-range: has no meaning for --core 0"));
     BOOST_TEST(contains(refusal("string_phase", {"--core", "0.1", "--core-range", "4"}),
                         "core-range: 4 must lie above 0 and below"));
-    BOOST_TEST(contains(refusal("string_phase", {"--side", "6"}), "enlarge the box"));
+    BOOST_TEST(contains(refusal("string_phase", {"--core-range", "1e-300"}),
+                        "core-range: 1e-300 is below a hundredth of the spacing"));
+    BOOST_TEST(contains(refusal("string_phase", {"--side", "6"}), "give more than 7"));
+    BOOST_TEST(contains(refusal("string_phase", {"--side", "7", "--particles", "30"}),
+                        "side: 7 is too short for --range 3.5"));
+    BOOST_TEST(contains(refusal("drop", {"--core", "0.1", "--core-range", "1e-3"}),
+                        "core-range: 0.001 is below a hundredth of the spacing"));
     BOOST_TEST(contains(refusal("drop", {"--seed", "3"}), "seed: has no meaning without disorder"));
     BOOST_TEST(contains(refusal("drop", {"--core-range", "0.5"}), "core-range: has no meaning"));
     BOOST_TEST(contains(refusal("drop", {"--surface-tension", "0.1", "--kernel", "w2"}),

@@ -144,6 +144,7 @@ BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) 
         {"lattice_stability", {"--potential", "both", "--t-end", "4"}, {"t-end", "integrates"}},
         {"relaxation", {"--outline", "nowhere.csv"}, {"outline", "nowhere.csv", "x,y"}},
         {"relaxation", {"--outline", "nowhere.csv", "--lobes", "4"}, {"lobes", "outline"}},
+        {"relaxation", {"--outline", "."}, {"outline", "cannot be read"}},
         {"relaxation", {"--range", "0.9"}, {"range", "0.9"}},
         {"sheared_square", {"--cells", "2"}, {"cells", "2", "between 6 and 2000"}},
         {"sheared_square", {"--shear", "0.9"}, {"shear", "0.9", "0.5"}},

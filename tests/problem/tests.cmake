@@ -29,5 +29,6 @@ spam_problem_test(problem/integrators nlohmann_json::nlohmann_json)
 spam_test(problem/own_study problem nlohmann_json::nlohmann_json)
 spam_test(problem/walls property)  # parts of the problem relaxation
 target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxation/region.cpp
-                                          ${PROJECT_SOURCE_DIR}/problems/relaxation/walled_model.cpp)
+                                          ${PROJECT_SOURCE_DIR}/problems/relaxation/walled_model.cpp
+                                          ${PROJECT_SOURCE_DIR}/problems/relaxation/quality.cpp)
 target_include_directories(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the problem relaxation: regions, and walls that stand for evenly spread matter outside.
+#include "relaxation/quality.hpp"
 #include "relaxation/walled_model.hpp"
 #include "support/process.hpp"
 #include <spam/core/error.hpp>
@@ -86,6 +87,29 @@ BOOST_AUTO_TEST_CASE(a_wall_is_the_weight_of_what_is_outside) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_border_is_smooth_where_half_of_a_weight_is_outside) {
+    const auto least = [](const Region& region) {
+        return Wall(region, range).least_weight_on_border();
+    };
+    BOOST_TEST(std::abs(least(lobed_region(1, 0.0).of_area(1e4)) - 0.5) < 0.03);
+    BOOST_TEST(std::abs(least(lobed_region(3, 0.2).of_area(400.0)) - 0.5) < 0.1);
+    BOOST_TEST(least(arrow()) < 0.3);                                // the notch
+    BOOST_TEST(least(lobed_region(50, 0.6).of_area(400.0)) < 0.05);  // gaps between lobes
+}
+
+BOOST_AUTO_TEST_CASE(nearest_neighbours_are_those_of_all_pairs) {
+    Points<2> x = 3.0 * random_places(lobed_region(3, 0.2).of_area(100.0), 100, 1);
+    x.col(7).setConstant(500.0);  // far off
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        double least = HUGE_VAL;
+        for (Eigen::Index j = 0; j < x.cols(); ++j)
+            if (j != i) least = std::min(least, (x.col(j) - x.col(i)).norm());
+        sum += least;
+    }
+    BOOST_TEST(std::abs(mean_nearest(x) - sum / 100.0) < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(a_region_knows_its_inside) {
     const Region region = arrow();
     BOOST_TEST(region.contains({-2.0, 0.0}));
@@ -118,10 +142,21 @@ BOOST_AUTO_TEST_CASE(outlines_that_are_none_are_refused) {
                                   return std::string(error.what()).find(word) != std::string::npos;
                               });
     };
-    refused("", "no area");
-    refused("0,0\n1,0\n", "no area");
-    refused("0,0\n1,0\nx\n2,here\n", "line 4");
+    refused("", "has 0 corners");
+    refused("x,y\n# none\n", "has 0 corners");
+    refused("0,0\n1,0\n", "has 2 corners");
+    refused("0,0\n1,0\n2,0\n", "no area");
+    refused("0,0\n1,0\n2,2\n2,here\n", "line 4");
+    for (const char* line : {"x,y", "x0,1", "nan,0", "0", "0,1,2", "0 1 2", "0,1x", "0,,1", "0;1"})
+        refused(std::string("x,y\n0,0\n1,0\n") + line + "\n1,1\n0,1\n", "line 4");
+    for (const char* line : {"nan,0", "inf inf", "x0,1", "x,0"})
+        refused(std::string(line) + "\n0,0\n1,0\n1,1\n", "line 1");
+    BOOST_CHECK_EXCEPTION(region_from_file(folder.path()), InputError, [](const InputError& error) {
+        return std::string(error.what()).find("cannot be read") != std::string::npos;
+    });
     refused("0,0\n2,2\n2,0\n0,1\n", "crosses");
+    refused("0,0\n1000,1000\n1000,1000.0001\n", "too thin");
+    refused("0,0\n1e8,0\n1e8,1e-8\n0,1e-8\n", "too thin");
     refused("0,0\n1,inf\n1,0\n", "line 2");
     folder.write("outline.csv", "x,y\n# a square, closed\n0,0\n2 0\n2,2\n0,2\n0,0\n");
     const Region square = region_from_file(folder / "outline.csv");
