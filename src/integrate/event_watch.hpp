@@ -40,7 +40,7 @@ class EventWatch {
     void count(double t, std::size_t entries, const std::string& name);
 
     const std::vector<Event>& events_;
-    double t_ = 0.0;      ///< of begin()
+    double t_ = 0.0;  ///< of begin()
     std::span<const double> y_;
     double whole_ = 0.0;         ///< length of the step looked at last
     double window_end_ = 0.0;    ///< one step after the first of those counted
