@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(densities_and_ranges_belong_to_each_other) {
         double rho = 0.0;
         for (Eigen::Index j = 0; j < state.position().cols(); ++j)
             rho += model.particles().mass[static_cast<std::size_t>(j)] *
-                   w.value((state.position().col(i) - state.position().col(j)).norm());
+                   w.value((state.position().col(k) - state.position().col(j)).norm());
         BOOST_TEST(std::abs(rho - state.density()(0, k)) < 1e-13 * rho);
         smallest = std::min(smallest, h[i]);
         largest = std::max(largest, h[i]);
