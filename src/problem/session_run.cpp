@@ -106,14 +106,11 @@ void Session::refuse_unstable(const Case<Dim>& one) const {
     constexpr double limit = 2.785;
     const double rate = one.model.fastest_damping();
     if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
-    throw InputError(
-        fmt::format("dt: damping ({}) takes the shortest waves away at a rate of about {:.3g}, "
-                    "which rk4 follows "
-                    "with steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
-                    given("viscosity")      ? "--viscosity"
-                    : given("conductivity") ? "--conductivity"
-                                            : "of the model: friction, viscosity or conduction",
-                    rate, limit / rate, *integrator_.dt));
+    const auto name = problem_.options_.first_given({"damping", "viscosity", "conductivity"});
+    throw InputError(fmt::format(
+        "dt: damping ({}) takes fast motion away at a rate of about {:.3g}, which rk4 follows with "
+        "steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
+        name.empty() ? "of the model" : "--" + name, rate, limit / rate, *integrator_.dt));
 }
 
 template <int Dim>
