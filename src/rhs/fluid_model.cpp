@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
+#include "carried_energy.hpp"
 #include "fluid_sweeps.hpp"
 #include "packed_particles.hpp"
 #include <spam/core/error.hpp>
@@ -263,42 +264,12 @@ std::vector<double> FluidModel<Dim>::temperature(std::span<const double> y) cons
 template <int Dim>
 std::vector<double> FluidModel<Dim>::state(const Points<Dim>& position, const Points<Dim>& velocity,
                                            double T) {
-    std::vector<double> y(this->layout().size(), 0.0);
-    const State<Dim> state(this->layout(), y);
-    state.position() = position;
-    state.velocity() = velocity;
-    const auto rho = summed_density(position);
-    double fastest = 0.0, most = 0.0, mean = 0.0;
-    for (std::size_t i = 0; i < rho.size(); ++i) {
-        const auto k = static_cast<Eigen::Index>(i);
-        const double e = fluid_.state.starting_energy(rho[i], T);
-        if (!std::isfinite(fluid_.state.pressure(rho[i], e)))
-            throw InputError(
-                fmt::format("equation of state: density {:.6g} and temperature {:g} of particle {} "
-                            "at the start are outside "
-                            "the law ({}); start thinner or warmer, or change its constants",
-                            rho[i], T, this->particles().id[i], fluid_.state.describe()));
-        state.energy()(0, k) = e;
-        if (state.has(Field::density)) state.density()(0, k) = rho[i];
-        fastest = std::max({fastest, velocity.col(k).norm(), fluid_.state.sound_speed(rho[i], e)});
-        most = std::max(most, std::abs(e));
-        mean += rho[i] / static_cast<double>(rho.size());
-    }
-    if (!(fastest > 0.0)) fastest = 1.0;
-    this->layout().set_scale(Field::position, this->particles().spacing);
-    this->layout().set_scale(Field::velocity, fastest);
-    this->layout().set_scale(Field::energy, std::max(most, fastest * fastest));
-    if (state.has(Field::density)) this->layout().set_scale(Field::density, mean);
-    return y;
+    return fluid_start(*this, fluid_.state, position, velocity, summed_density(position), T);
 }
 
 template <int Dim>
 double FluidModel<Dim>::internal_energy(std::span<const double> y) const {
-    const auto e = ConstState<Dim>(this->layout(), y).energy();
-    CompensatedSum sum;
-    for (Eigen::Index i = 0; i < e.cols(); ++i)
-        sum += this->particles().mass[static_cast<std::size_t>(i)] * e(0, i);
-    return sum;
+    return carried_energy(*this, y);
 }
 
 /// Pressures act along r_ij; viscous stresses do not.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
+#include "carried_energy.hpp"
 #include "gauss_forces.hpp"
 #include "packed_particles.hpp"
 #include "sweeps.hpp"
@@ -272,11 +273,7 @@ void SmoothParticleModel<Dim>::remember(Archive& archive) {
 
 template <int Dim>
 double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) const {
-    const auto e = ConstState<Dim>(this->layout(), y).energy();
-    CompensatedSum sum;
-    for (Eigen::Index i = 0; i < e.cols(); ++i)
-        sum += this->particles().mass[static_cast<std::size_t>(i)] * e(0, i);
-    return sum;
+    return carried_energy(*this, y);
 }
 
 /// For observers: its own list, so that the one of the right-hand side stays as it is.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../core/levels.hpp"
+#include "carried_energy.hpp"
 #include "packed_particles.hpp"
 #include "range_sweeps.hpp"
 #include <spam/core/error.hpp>
@@ -249,27 +250,7 @@ std::vector<double> VariableRangeModel<Dim>::solve_densities(const Points<Dim>& 
 template <int Dim>
 std::vector<double> VariableRangeModel<Dim>::state(const Points<Dim>& position,
                                                    const Points<Dim>& velocity, double T) {
-    std::vector<double> y(this->layout().size(), 0.0);
-    const State<Dim> state(this->layout(), y);
-    state.position() = position;
-    state.velocity() = velocity;
-    const auto rho = solve_densities(position);
-    double fastest = 0.0, most = 0.0, mean = 0.0;
-    for (std::size_t i = 0; i < rho.size(); ++i) {
-        const auto k = static_cast<Eigen::Index>(i);
-        const double e = fluid_.state.starting_energy(rho[i], T);
-        state.energy()(0, k) = e;
-        state.density()(0, k) = rho[i];
-        fastest = std::max({fastest, velocity.col(k).norm(), fluid_.state.sound_speed(rho[i], e)});
-        most = std::max(most, std::abs(e));
-        mean += rho[i] / static_cast<double>(rho.size());
-    }
-    if (!(fastest > 0.0)) fastest = 1.0;
-    this->layout().set_scale(Field::position, this->particles().spacing);
-    this->layout().set_scale(Field::velocity, fastest);
-    this->layout().set_scale(Field::density, mean);
-    this->layout().set_scale(Field::energy, std::max(most, fastest * fastest));
-    return y;
+    return fluid_start(*this, fluid_.state, position, velocity, solve_densities(position), T);
 }
 
 template <int Dim>
@@ -283,11 +264,7 @@ std::vector<double> VariableRangeModel<Dim>::ranges(std::span<const double> y) c
 
 template <int Dim>
 double VariableRangeModel<Dim>::internal_energy(std::span<const double> y) const {
-    const auto e = ConstState<Dim>(this->layout(), y).energy();
-    CompensatedSum sum;
-    for (Eigen::Index i = 0; i < e.cols(); ++i)
-        sum += this->particles().mass[static_cast<std::size_t>(i)] * e(0, i);
-    return sum;
+    return carried_energy(*this, y);
 }
 
 template <int Dim>

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// For models whose particles carry their energies in y.
+#pragma once
+
+#include <spam/core/error.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/material/fluid.hpp>
+#include <spam/rhs/model.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spam {
+
+/// sum m e
+template <int Dim>
+double carried_energy(const Model<Dim>& model, std::span<const double> y) {
+    const auto e = ConstState<Dim>(model.layout(), y).energy();
+    CompensatedSum sum;
+    for (Eigen::Index i = 0; i < e.cols(); ++i)
+        sum += model.particles().mass[static_cast<std::size_t>(i)] * e(0, i);
+    return sum;
+}
+
+/// y of a fluid at `position` with these velocities and densities `rho` (N), and the energies of
+/// temperature T or the law's own; sets the scales of the layout. Throws InputError naming a particle
+/// outside the law.
+template <int Dim>
+std::vector<double> fluid_start(Model<Dim>& model, const AnyEquationOfState& law,
+                                const Points<Dim>& position, const Points<Dim>& velocity,
+                                const std::vector<double>& rho, double T) {
+    std::vector<double> y(model.layout().size(), 0.0);
+    const State<Dim> state(model.layout(), y);
+    state.position() = position;
+    state.velocity() = velocity;
+    double fastest = 0.0, most = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        const double e = law.starting_energy(rho[i], T);
+        if (!std::isfinite(law.pressure(rho[i], e)))
+            throw InputError(fmt::format(
+                "equation of state: density {:.6g} and temperature {:g} of particle {} at the "
+                "start are outside the law ({}); start thinner or warmer, or change its constants",
+                rho[i], T, model.particles().id[i], law.describe()));
+        state.energy()(0, k) = e;
+        if (state.has(Field::density)) state.density()(0, k) = rho[i];
+        fastest = std::max({fastest, velocity.col(k).norm(), law.sound_speed(rho[i], e)});
+        most = std::max(most, std::abs(e));
+        mean += rho[i] / static_cast<double>(rho.size());
+    }
+    if (!(fastest > 0.0)) fastest = 1.0;
+    model.layout().set_scale(Field::position, model.particles().spacing);
+    model.layout().set_scale(Field::velocity, fastest);
+    model.layout().set_scale(Field::energy, std::max(most, fastest * fastest));
+    if (state.has(Field::density)) model.layout().set_scale(Field::density, mean);
+    return y;
+}
+
+}  // namespace spam
