@@ -28,6 +28,7 @@
 #include <spam/material/embedded_atom.hpp>
 #include <spam/rhs/damped_model.hpp>
 #include <spam/rhs/density_potential_model.hpp>
+#include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -64,8 +65,7 @@ struct Drop {
 Points<2> places(const Parameters& p) {
     std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
     Points<2> x = square_lattice<2>({p.cells, p.cells});
-    for (double& coordinate : x.reshaped())
-        coordinate += p.disorder * (static_cast<double>(random() >> 11) * 0x1p-52 - 1.0);
+    for (double& coordinate : x.reshaped()) coordinate += p.disorder * (2.0 * drawn(random) - 1.0);
     return x;
 }
 

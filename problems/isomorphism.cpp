@@ -23,6 +23,7 @@
 #include <spam/rhs/density_potential_model.hpp>
 #include <spam/rhs/fluid_model.hpp>
 #include <spam/rhs/pair_potential_model.hpp>
+#include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -52,8 +53,7 @@ constexpr std::size_t fluid = 0, molecules = 1, moved = 2;
 Points<2> random_velocities(Eigen::Index n, double speed) {
     std::mt19937_64 random(6);
     Points<2> v(2, n);
-    // By hand: what the distributions of the library draw is not the same everywhere.
-    for (auto& c : v.reshaped()) c = 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0;
+    for (auto& c : v.reshaped()) c = 2.0 * drawn(random) - 1.0;
     v.colwise() -= v.rowwise().mean().eval();
     return speed * std::sqrt(static_cast<double>(n) / v.squaredNorm()) * v;
 }

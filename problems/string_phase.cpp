@@ -29,6 +29,7 @@
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/rhs/damped_model.hpp>
 #include <spam/rhs/density_potential_model.hpp>
+#include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -66,8 +67,7 @@ struct Sample {
 Points<2> random_places(const Parameters& p) {
     std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
     Points<2> x(2, p.particles);
-    for (double& coordinate : x.reshaped())
-        coordinate = p.side * (static_cast<double>(random() >> 11) * 0x1p-53);
+    for (double& coordinate : x.reshaped()) coordinate = p.side * drawn(random);
     return x;
 }
 

@@ -8,6 +8,7 @@
 #include <spam/material/lucy_gas.hpp>
 #include <spam/rhs/fluid_model.hpp>
 #include <spam/rhs/variable_range_model.hpp>
+#include <spam/setup/drawn.hpp>
 
 #include <fmt/format.h>
 
@@ -80,8 +81,7 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
     std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
     Points<Dim> x = particles.reference_position;
     for (Eigen::Index i = 0; i < x.cols(); ++i)  // the same numbers with every library
-        for (int a = 0; a < Dim; ++a)
-            x(a, i) += 0.1 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+        for (int a = 0; a < Dim; ++a) x(a, i) += 0.1 * (drawn(random) - 0.5);
     auto [model, y0] = begun<Dim>(std::move(particles), x, box, p);
     Gas<Dim> gas{cells, weight_function<Dim>(to_string(p.kernel), p.range), std::move(model),
                  std::move(y0)};

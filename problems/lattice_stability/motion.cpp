@@ -2,6 +2,7 @@
 #include "motion.hpp"
 
 #include <spam/io/gnuplot.hpp>
+#include <spam/setup/drawn.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
@@ -17,8 +18,7 @@ namespace {
 Points<2> random_velocities(Eigen::Index particles, double speed, int seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
     Points<2> v(2, particles);
-    for (double& component : v.reshaped())
-        component = 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0;
+    for (double& component : v.reshaped()) component = 2.0 * drawn(random) - 1.0;
     v.colwise() -= v.rowwise().mean().eval();
     return v * (speed / std::sqrt(v.squaredNorm() / static_cast<double>(particles)));
 }

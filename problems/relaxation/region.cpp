@@ -2,6 +2,7 @@
 #include "region.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/setup/drawn.hpp>
 
 #include <fmt/format.h>
 
@@ -56,7 +57,6 @@ bool cross_each_other(const Points<2>& polygon, Eigen::Index j, Eigen::Index k) 
 constexpr double least_part = 1e-3;
 
 /// Even between 0 and 1, the same numbers with every library.
-double drawn(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// Between blanks, or the first comma: "x,y", "x y". A second comma stays in its word, which then is no
 /// number.

@@ -5,6 +5,7 @@
 #include <spam/rhs/pair_potential_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/setup/drawn.hpp>
 #include <spam/setup/example_systems.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -32,10 +33,8 @@ std::unique_ptr<Model<2>> smooth_model(int size, const Scheme& scheme) {
                                                     ElasticSolid::triangular_lattice(), scheme);
 }
 
-/// Even between -1 and 1, the same numbers with every library.
-double drawn(std::mt19937_64& random) {
-    return 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0;
-}
+/// Even between -1 and 1.
+double deviate(std::mt19937_64& random) { return 2.0 * drawn(random) - 1.0; }
 
 }  // namespace
 
@@ -60,7 +59,7 @@ Start<2> shaken(Start<2> start, double speed) {
     auto v = State<2>(start.model->layout(), start.y0).velocity();
     Points<2> more(2, v.cols());
     for (Eigen::Index i = 0; i < v.cols(); ++i)
-        for (int a = 0; a < 2; ++a) more(a, i) = speed * drawn(random);
+        for (int a = 0; a < 2; ++a) more(a, i) = speed * deviate(random);
     v += more.colwise() - more.rowwise().mean();
     return start;
 }
@@ -78,7 +77,7 @@ Start<2> expanding_gas(int cells) {
     std::mt19937_64 random(4);
     auto x = State<2>(start.model->layout(), start.y0).position();
     for (Eigen::Index i = 0; i < x.cols(); ++i)
-        for (int a = 0; a < 2; ++a) x(a, i) += 0.05 * drawn(random);
+        for (int a = 0; a < 2; ++a) x(a, i) += 0.05 * deviate(random);
     return start;
 }
 
