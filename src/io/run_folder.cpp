@@ -3,7 +3,9 @@
 #include <spam/io/run_folder.hpp>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 
 namespace spam {
@@ -34,43 +36,76 @@ void move_aside(const fs::path& path) {
     }
 }
 
+/// Why an existing folder cannot be moved aside; empty where it can.
+std::string why_not(const fs::path& path, bool force) {
+    std::error_code error;
+    if (force && holds_current_folder(path))
+        return fmt::format(
+            "out: '{}' is or contains the current folder and cannot be moved aside; choose another "
+            "--out",
+            path.string());
+    // --force is for results of earlier runs, not for a home or a thesis named by mistake.
+    if (!fs::exists(path / "run.log", error))
+        return fmt::format(
+            "out: '{}' is not empty and holds no results of a run (no run.log), so that even "
+            "--force leaves it alone; choose another --out",
+            path.string());
+    if (!force)
+        return fmt::format(
+            "out: '{}' exists; add --force to move it aside, or choose another --out",
+            path.string());
+    return {};
+}
+
+void create(const fs::path& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error)
+        throw InputError(fmt::format("out: cannot create '{}': {}; choose another --out",
+                                     path.string(), error.message()));
+}
+
+/// The folder, empty and locked; what it held is moved aside. Between any two lines another process may
+/// take, move or remove a folder of that name: what has been found counts only once the lock is held
+/// and is still that of the name.
+FolderLock take(const fs::path& path, bool force) {
+    constexpr int attempts = 1000;
+    std::error_code error;
+    for (int k = 0; k < attempts; ++k) {
+        if (fs::exists(path, error) && !fs::is_directory(path, error))
+            throw InputError(
+                fmt::format("out: '{}' is not a folder; choose another --out", path.string()));
+        create(path);
+        FolderLock lock(path);
+        if (!lock.is_of(path)) {
+            if (::access(path.c_str(), R_OK) != 0 && errno == EACCES) break;
+            continue;
+        }
+        if (fs::is_empty(path, error) && !error) return lock;
+        if (const std::string reason = why_not(path, force); !reason.empty())
+            throw InputError(reason);
+        move_aside(path);
+    }
+    throw InputError(fmt::format("out: cannot read '{}'; choose another --out", path.string()));
+}
+
 }  // namespace
 
 RunFolder::RunFolder(const fs::path& path, bool force) : path_(path) {
-    std::error_code error;
     while (path_.has_relative_path() && !path_.has_filename()) path_ = path_.parent_path();
-    const auto status = fs::status(path_, error);
-    if (fs::exists(status)) {
-        const bool usable = fs::is_directory(status) && fs::is_empty(path_, error) && !error;
-        if (!fs::is_directory(status))
-            throw InputError(
-                fmt::format("out: '{}' is not a folder; choose another --out", path_.string()));
-        if (!usable && force && holds_current_folder(path_))
-            throw InputError(fmt::format(
-                "out: '{}' is or contains the current folder and cannot be moved aside; choose "
-                "another --out",
-                path_.string()));
-        // --force is for results of earlier runs, not for a home or a thesis named by mistake.
-        if (!usable && !fs::exists(path_ / "run.log", error))
-            throw InputError(
-                fmt::format("out: '{}' is not empty and holds no results of a run (no run.log), so "
-                            "that even --force leaves it alone; choose another --out",
-                            path_.string()));
-        if (!usable && !force)
-            throw InputError(fmt::format(
-                "out: '{}' exists; add --force to move it aside, or choose another --out",
-                path_.string()));
-        if (!usable) move_aside(path_);
-    }
-    fs::create_directories(path_, error);
-    if (error)
-        throw InputError(fmt::format("out: cannot create '{}': {}; choose another --out",
-                                     path_.string(), error.message()));
+    lock_ = take(path_, force);
     const fs::path probe = path_ / ".writable";
     if (!std::ofstream(probe))
         throw InputError(
             fmt::format("out: cannot write into '{}'; choose another --out", path_.string()));
+    std::error_code error;
     fs::remove(probe, error);
+}
+
+RunFolder RunFolder::reopen(const fs::path& path) {
+    RunFolder folder(path);
+    folder.lock_.emplace(path);
+    return folder;
 }
 
 RunFolder RunFolder::inside(std::string_view name) const {

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/io/folder_lock.hpp>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace spam {
 
 /// Where a run leaves its results. Never overwrites: an existing folder with contents is refused,
-/// or with `force` moved aside to <path>.old-1, -2, ... first.
+/// or with `force` moved aside to <path>.old-1, -2, ... first. Held (FolderLock) as long as this or a
+/// copy lives: a folder where another run is at work is refused in every case.
 class RunFolder {
   public:
     /// Creates the folder. Throws InputError when it exists and is not empty (without force) or
     /// cannot be created or written.
     RunFolder(const std::filesystem::path& path, bool force);
 
-    /// One that a run has left, to go on in.
-    static RunFolder reopen(const std::filesystem::path& path) { return RunFolder(path); }
+    /// One that a run has left, to go on in. Throws InputError where a run is at work in it.
+    static RunFolder reopen(const std::filesystem::path& path);
 
     /// A folder inside, created.
     RunFolder inside(std::string_view name) const;
@@ -31,6 +35,7 @@ class RunFolder {
   private:
     explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
     std::filesystem::path path_;
+    std::optional<FolderLock> lock_{};
 };
 
 }  // namespace spam
