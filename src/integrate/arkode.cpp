@@ -284,11 +284,13 @@ void Arkode::take_piece(double h, double t_next) {
 double Arkode::take_step(double t_stop) {
     if (dt_) {
         const FixedGrid::Step next = grid_.next(t_, t_stop);
+        whole_step_ = false;
         for (double h = next.length; t_ < next.to; h = next.to - t_) {
             take_piece(h, next.to);
             if (t_ < next.to && InterruptWatch::received() != 0) return t_;
         }
         grid_.arrive(next);
+        whole_step_ = next.whole;
         statistics_.last_step = next.length;
     } else {
         check(

@@ -41,10 +41,8 @@ struct Stops {
         if (s.checkpoint_every > 0.0) slack = std::min(slack, 1e-9 * s.checkpoint_every);
     }
 
-    double next() const {
-        const double stop = std::min({output.next(), snapshot.next(), checkpoint.next()});
-        return schedule.t_end - stop < slack ? schedule.t_end : stop;
-    }
+    double due() const { return std::min({output.next(), snapshot.next(), checkpoint.next()}); }
+    double next() const { return schedule.t_end - due() < slack ? schedule.t_end : due(); }
     void skip(double t) {
         for (DueTimes* due : {&output, &snapshot, &checkpoint}) due->reached(t, slack);
     }
@@ -61,10 +59,10 @@ bool DueTimes::reached(double t, double slack) {
 
 int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers) {
     Once output(observers.output), snapshot(observers.snapshot);
-    Once checkpoint(observers.checkpoint);
     Stops stops(schedule);
+    bool at_checkpoint = schedule.resumed;  // whether (t, y) is that of the latest checkpoint
     const auto finish = [&](double t) {
-        checkpoint(t);
+        if (!at_checkpoint && observers.last) observers.last(t);
         output(t);
         snapshot(t);
     };
@@ -78,17 +76,27 @@ int drive(Integrator& integrator, const Schedule& schedule, const Observers& obs
         output(integrator.t());
         snapshot(integrator.t());
     }
+    InterruptWatch::complete_results();
     try {
         while (integrator.t() < schedule.t_end && InterruptWatch::received() == 0) {
+            // Where this step would end if the run had a later end: only such states are checkpoints,
+            // because a run with that end must pass through them.
+            const double due = stops.due();
+            at_checkpoint = false;
             const double t =
                 integrator.step(integrator.lands_on_stops() ? stops.next() : schedule.t_end);
+            const bool regular = integrator.lands_on_stops() ? t < schedule.t_end || t == due
+                                                             : integrator.whole_step();
             const bool row = stops.output.reached(t, stops.slack);
             if (row) output(t);
             if (stops.snapshot.reached(t, stops.slack)) snapshot(t);
             if (observers.step) observers.step(t);
             if (row && observers.enough && observers.enough(t)) break;
             if (row && observers.revise && observers.revise(t)) integrator.reset(t);
-            if (stops.checkpoint.reached(t, stops.slack)) checkpoint(t);
+            if (stops.checkpoint.reached(t, stops.slack) && regular && observers.checkpoint) {
+                observers.checkpoint(t);
+                at_checkpoint = true;
+            }
         }
         finish(integrator.t());
     } catch (const GuardStop&) {

@@ -16,14 +16,15 @@ class FixedGrid {
 
     struct Step {
         double length, to;
-        bool on_grid;  ///< both ends
+        bool on_grid;  ///< both ends, within a rounding error
+        bool whole;    ///< it ends at a time of the grid to the last bit: no stop had an influence
     };
     /// The step from t to the next grid time, or a shorter one to t_stop.
     Step next(double t, double t_stop) const {
         const double grid = time(n_ + 1);
         const double to = grid >= t_stop - slack() ? t_stop : grid;
         const bool on_grid = near(t, time(n_)) && near(to, grid);
-        return {on_grid ? dt_ : to - t, to, on_grid};
+        return {on_grid ? dt_ : to - t, to, on_grid, to == grid};
     }
     /// After that step, at step.to.
     void arrive(const Step& step) {

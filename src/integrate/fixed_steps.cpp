@@ -59,8 +59,10 @@ void FixedSteps::take_pieces(double h, double t_next) {
 
 double FixedSteps::take_step(double t_stop) {
     const FixedGrid::Step next = grid_.next(t_, t_stop);
+    whole_step_ = false;
     take_pieces(next.length, next.to);
     if (t_ < next.to) return t_;  // interrupted
+    whole_step_ = next.whole;
     grid_.arrive(next);
     ++statistics_.steps;
     statistics_.last_step = next.length;

@@ -1,33 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/integrate/interrupt.hpp>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
 #include <csignal>
+#include <cstddef>
+#include <string>
 
 namespace spam {
 namespace {
 
-constexpr int watched[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t received_signal = 0;
+volatile std::sig_atomic_t results_begun = 0;
 
-extern "C" void remember_signal(int signal) {
-    received_signal = signal;
-    std::signal(signal, SIG_DFL);  // the second one ends the process
+/// What the handler says, one line a signal, composed beforehand: a handler may not format.
+std::array<std::string, watched.size()> lines;
+
+extern "C" void on_signal(int signal) {
+    if (results_begun != 0) {
+        received_signal = signal;
+        std::signal(signal, SIG_DFL);  // the second one ends the process
+        return;
+    }
+    for (std::size_t k = 0; k < watched.size(); ++k)
+        if (watched[k] == signal && write(STDERR_FILENO, lines[k].data(), lines[k].size()) < 0)
+            break;  // nobody is left who could be told
+    _exit(128 + signal);
 }
 
 }  // namespace
 
-InterruptWatch::InterruptWatch() {
-    for (const int signal : watched)
-        if (std::signal(signal, remember_signal) == SIG_IGN)
-            std::signal(signal, SIG_IGN);  // nohup and background jobs mean it
-    std::signal(SIGPIPE, SIG_IGN);         // whoever reads the output may leave; the run goes on
+InterruptWatch::InterruptWatch(const std::string& program) {
+    results_begun = 0;
+    for (std::size_t k = 0; k < watched.size(); ++k) {
+        lines[k] = fmt::format("{}: interrupted by signal {}; there are no results yet\n", program,
+                               watched[k]);
+        if (std::signal(watched[k], on_signal) == SIG_IGN)
+            std::signal(watched[k], SIG_IGN);  // nohup and background jobs mean it
+    }
+    std::signal(SIGPIPE, SIG_IGN);  // whoever reads the output may leave; the run goes on
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is a failed write, reported as such
 }
 
 InterruptWatch::~InterruptWatch() {
     for (const int signal : watched) std::signal(signal, SIG_DFL);
 }
+
+void InterruptWatch::complete_results() { results_begun = 1; }
 
 int InterruptWatch::received() { return received_signal; }
 

@@ -65,6 +65,10 @@ template <int Dim>
 void SnapshotSeries<Dim>::resume(const std::vector<double>& times) {
     files_.clear();
     for (const double t : times) files_.emplace_back(t, snapshot_name(files_.size()));
+    std::error_code ignored;
+    for (std::size_t k = times.size();
+         std::filesystem::remove(folder_ / snapshot_name(k), ignored);)
+        ++k;
 }
 
 template <int Dim>

@@ -21,7 +21,7 @@ std::string case_path(std::size_t number) { return fmt::format("/cases/{}", numb
 void write_case(CheckpointWriter& file, const std::string& path, const CaseMemory& one) {
     file.text(path + "/label", one.label);
     file.text(path + "/model", one.model);
-    file.text(path + "/stopped", one.stopped);
+    if (!one.has_state()) return;
     file.numbers(path + "/t", std::span(&one.t, 1), 1);
     for (const auto& [name, columns, values] : one.state)
         file.numbers(path + "/state/" + name, values, columns);
@@ -37,7 +37,7 @@ CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     CaseMemory one;
     one.label = file.text(path + "/label");
     one.model = file.text(path + "/model");
-    one.stopped = file.text(path + "/stopped");
+    if (!file.has(path + "/t")) return one;
     one.t = file.numbers(path + "/t").at(0);
     one.id = file.integers(path + "/particles/id");
     one.body = file.integers(path + "/particles/body");
@@ -108,18 +108,24 @@ std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model) 
     return y;
 }
 
-void write_checkpoint(CheckpointPair& checkpoints, const SessionMemory& memory) {
+CheckpointWriter checkpoint_file(const SessionMemory& memory) {
     CheckpointWriter file;
     file.text("/version", memory.version);
     file.text("/instruction_set", memory.instruction_set);
     file.text("/problem", memory.problem);
     file.text("/case", memory.case_toml);
     file.text("/command", memory.command);
-    const std::int64_t counts[] = {static_cast<std::int64_t>(memory.cases.size()), memory.smoke};
+    const std::int64_t counts[] = {static_cast<std::int64_t>(memory.cases.size()), memory.smoke,
+                                   memory.on_schedule};
     file.integers("/counts", counts);
+    std::vector<double> plans;
+    for (const PlanMemory& plan : memory.plans)
+        plans.insert(plans.end(),
+                     {plan.t_end, plan.output_every, plan.snapshot_every, plan.checkpoint_every});
+    file.numbers("/plans", plans, 4);
     for (std::size_t k = 0; k < memory.cases.size(); ++k)
         write_case(file, case_path(k), memory.cases[k]);
-    checkpoints.save(std::move(file));
+    return file;
 }
 
 SessionMemory read_checkpoint(const std::filesystem::path& path) {
@@ -133,8 +139,12 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     memory.problem = file.text("/problem");
     memory.case_toml = file.text("/case");
     memory.command = file.text("/command");
+    const auto plans = file.numbers("/plans");
+    for (std::size_t k = 0; k + 3 < plans.size(); k += 4)
+        memory.plans.push_back({plans[k], plans[k + 1], plans[k + 2], plans[k + 3]});
     const auto counts = file.integers("/counts");
     memory.smoke = counts.at(1) != 0;
+    memory.on_schedule = counts.at(2) != 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(counts.at(0)); ++k)
         memory.cases.push_back(read_case(file, case_path(k)));
     return memory;

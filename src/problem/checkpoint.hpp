@@ -29,7 +29,13 @@ struct CaseMemory {
     std::vector<std::int64_t> id, body;
     std::vector<std::byte> motion;   ///< model and integrator
     std::vector<std::byte> records;  ///< rows, remarks, what the problem gathered
-    std::string stopped;             ///< why a guard ended it, and the next case began
+    /// False where the case has not come to its first checkpoint: it is begun from its start.
+    bool has_state() const { return !state.empty(); }
+};
+
+/// The end and the intervals of a case.
+struct PlanMemory {
+    double t_end = 0.0, output_every = 0.0, snapshot_every = 0.0, checkpoint_every = 0.0;
 };
 
 /// All that a session writes into a checkpoint.
@@ -37,6 +43,10 @@ struct SessionMemory {
     std::string version, instruction_set;  ///< other ones may lead to other last digits
     std::string problem, case_toml, command;
     bool smoke = false;
+    /// Whether every case stands at a time of its checkpoint schedule. What goes on from there is the
+    /// same, bit for bit, as a run that was never stopped.
+    bool on_schedule = true;
+    std::vector<PlanMemory> plans;  ///< of all cases known, in order
     std::vector<CaseMemory> cases;  ///< those begun, in order
 };
 
@@ -49,9 +59,8 @@ CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, doubl
 template <int Dim>
 std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model);
 
-/// Writes the next of a folder's checkpoints. Throws OutputError; what was there before is then as it
-/// was.
-void write_checkpoint(CheckpointPair& checkpoints, const SessionMemory& memory);
+/// The whole memory as a file. Writing it is left to the caller.
+CheckpointWriter checkpoint_file(const SessionMemory& memory);
 
 /// Throws InputError with one line where the file is not a whole checkpoint of this version.
 SessionMemory read_checkpoint(const std::filesystem::path& file);

@@ -165,7 +165,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         return status;
     };
     keep_standard_descriptors();
-    const InterruptWatch watch;
+    const InterruptWatch watch(name_);
     try {
         if (!options_.parse(argc, argv)) return 0;
         settle_restart();

@@ -32,7 +32,8 @@ std::string Problem::recall_case(const std::string& name) {
     return earlier_->case_toml;
 }
 
-/// A run that is gone on with does so in the folder of its results, unless another is named.
+/// A run that is gone on with does so in the folder of its results, unless another is named. No run may
+/// be at work in either.
 void Problem::settle_restart() {
     if (!earlier_) return;
     namespace fs = std::filesystem;
@@ -43,14 +44,15 @@ void Problem::settle_restart() {
     fs::path folder = fs::path(common_.restart).parent_path();
     if (folder.empty()) folder = ".";
     std::error_code error;
-    const bool results = fs::exists(folder / "run.log", error);
-    if (results && !options_.given("out")) common_.out = folder.string();
-    in_place_ = results && fs::equivalent(common_.out, folder, error) && !error;
-    if (in_place_ && common_.force)
+    if (!fs::exists(folder / "run.log", error)) return;
+    if (!options_.given("out")) common_.out = folder.string();
+    const bool in_place = fs::equivalent(common_.out, folder, error) && !error;
+    if (in_place && common_.force)
         throw InputError(
             "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
-            "choose "
-            "another --out");
+            "choose another --out");
+    const RunFolder held = RunFolder::reopen(folder);
+    if (in_place) reopened_ = held;
 }
 
 }  // namespace spam

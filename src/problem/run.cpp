@@ -154,17 +154,16 @@ void Run<Dim>::recall(const CaseMemory& memory) {
     records.expect_end();
     if (events_) rewrite_events();
     resumed_ = true;
-    ended_ = memory.stopped;
 }
 
 /// What is written now can be gone on from later. Here the run does so itself, so that it goes the same
 /// way as one that was restarted.
 template <int Dim>
 void Run<Dim>::checkpoint(const Watchers& watchers) {
-    const CaseMemory written = memory();
-    watchers.checkpoint(written);
+    CaseMemory written = memory();
     Archive back(written.motion);
     remember_motion(back);
+    watchers.checkpoint(std::move(written));
 }
 
 template <int Dim>
@@ -243,6 +242,7 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     };
     observers.snapshot = [&](double t) { snapshot(t, watchers); };
     if (watchers.checkpoint) observers.checkpoint = [&](double) { checkpoint(watchers); };
+    if (watchers.last) observers.last = [&](double) { watchers.last(memory()); };
     observers.step = [&](double t) {
         watch(t, watchers);
         if (watchers.step) watchers.step(t);
@@ -256,11 +256,6 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         Schedule schedule{plan.t_end, plan.output_every, plan.snapshot_every,
                           plan.checkpoint_every};
         schedule.resumed = resumed_;
-        if (!ended_.empty()) {
-            observers.output(integrator_->t());
-            observers.snapshot(integrator_->t());
-            throw GuardStop(ended_);
-        }
         const int signal = spam::drive(*integrator_, schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);

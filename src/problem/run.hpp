@@ -26,8 +26,11 @@ class Run {
 
     struct Watchers {
         std::function<void(double t)> snapshot, step;
-        /// Writes what going on from here later needs; where empty the run makes no barriers.
-        std::function<void(const CaseMemory&)> checkpoint;
+        /// Writes what going on from here later needs, at a time of the schedule; where empty the run
+        /// makes no barriers.
+        std::function<void(CaseMemory&&)> checkpoint;
+        /// The same at the end of a run that ends off the schedule.
+        std::function<void(CaseMemory&&)> last;
         std::function<void(double t, const Remark&)> remark;
         std::function<void(double t, const std::string& text)> warning;
     };
@@ -77,7 +80,6 @@ class Run {
     double seconds_before_ = 0.0;  ///< a restart
     std::vector<double> snapshot_times_;
     bool resumed_ = false;
-    std::string ended_;  ///< by a guard, before a restart that only finishes it
 };
 
 /// The change that 'to integrator error' allows.

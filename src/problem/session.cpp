@@ -14,6 +14,11 @@
 #include <array>
 
 namespace spam {
+namespace {
+
+constexpr const char* last_checkpoint = "checkpoint_last.h5";
+
+}  // namespace
 
 Session::Session(Problem& problem, const IntegratorOptions& integrator, std::string command)
     : problem_(problem),
@@ -36,16 +41,50 @@ void Session::leave_out_of_case(const std::vector<std::string>& names) {
 
 /// The folder comes into being with the first run: everything before may still be refused.
 void Session::open_folder() {
-    if (folder_) return;
-    if (problem_.in_place_)
-        folder_ = RunFolder::reopen(problem_.common_.out);
+    if (folder_) return write_case_file();
+    if (problem_.reopened_)
+        folder_ = problem_.reopened_;
     else
         folder_.emplace(problem_.common_.out, problem_.common_.force);
     terminal_.log_to(*folder_ / "run.log");
     describe_environment();
     memory_->case_toml = problem_.options_.case_toml(left_out_);
-    folder_->write("case.toml", memory_->case_toml);
+    write_case_file();
 }
+
+/// The options as they were given or chosen; of ends and intervals those that hold for all cases.
+std::string Session::case_file() const {
+    std::string text = problem_.options_.case_toml(left_out_);
+    if (problem_.common_.smoke) text += "smoke = true\n";
+    struct Part {
+        const char* name;
+        double PlanMemory::*value;
+        bool given;
+    };
+    const auto& common = problem_.common_;
+    const Part parts[] = {
+        {"t-end", &PlanMemory::t_end, common.t_end.has_value()},
+        {"output-every", &PlanMemory::output_every, common.output_every.has_value()},
+        {"snapshot-every", &PlanMemory::snapshot_every, common.snapshot_every.has_value()},
+        {"checkpoint-every", &PlanMemory::checkpoint_every, common.checkpoint_every.has_value()}};
+    const auto& plans = memory_->plans;
+    for (const Part& part : parts) {
+        if (part.given || plans.empty()) continue;
+        const auto same = [&](const PlanMemory& plan) {
+            return plan.*part.value == plans.front().*part.value;
+        };
+        if (std::all_of(plans.begin(), plans.end(), same)) {
+            text += fmt::format("{} = {}\n", part.name, plans.front().*part.value);
+            continue;
+        }
+        text += fmt::format("# {} of the cases, in order:", part.name);
+        for (const PlanMemory& plan : plans) text += fmt::format(" {}", plan.*part.value);
+        text += '\n';
+    }
+    return text;
+}
+
+void Session::write_case_file() { folder_->write("case.toml", case_file()); }
 
 void Session::describe_environment() {
     std::array<char, 256> host{};
@@ -61,8 +100,17 @@ void Session::describe_environment() {
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
     const SessionMemory* earlier = problem_.earlier_.get();
     if (earlier == nullptr) return;
-    terminal_.say(fmt::format("restart     {}, t = {:.6g}", problem_.common_.restart,
-                              earlier->cases.back().t));
+    terminal_.say(fmt::format("restart     {}, {}", problem_.common_.restart,
+                              earlier->cases.empty() || !earlier->cases.back().has_state()
+                                  ? "from the start"
+                                  : fmt::format("t = {:.6g}", earlier->cases.back().t)));
+    if (!earlier->on_schedule)
+        terminal_.say(
+            "note        this state is off the checkpoint schedule: last digits may differ from "
+            "those "
+            "of a run that was never stopped. --restart with the folder's name goes on from the "
+            "last "
+            "checkpoint on the schedule and gives the same bytes.");
     const auto warn = [&](const char* what, const std::string& then, const std::string& now) {
         if (then != now)
             terminal_.warn(fmt::format(
@@ -73,15 +121,40 @@ void Session::describe_environment() {
     warn("instruction set", earlier->instruction_set, memory_->instruction_set);
 }
 
-const CaseMemory* Session::earlier_case(std::size_t number) const {
-    const SessionMemory* earlier = problem_.earlier_.get();
+CaseMemory* Session::earlier_case(std::size_t number) const {
+    SessionMemory* earlier = problem_.earlier_.get();
     if (earlier == nullptr || number >= earlier->cases.size()) return nullptr;
-    return &earlier->cases[number];
+    return earlier->cases[number].has_state() ? &earlier->cases[number] : nullptr;
 }
 
+/// A state on the schedule; a later one off it has had its day.
 void Session::save_checkpoint() {
     if (!checkpoints_) checkpoints_.emplace(folder_->path());
-    write_checkpoint(*checkpoints_, *memory_);
+    checkpoints_->save(checkpoint_file(*memory_));
+    std::error_code ignored;
+    std::filesystem::remove(*folder_ / last_checkpoint, ignored);
+}
+
+/// Before the first step, so that whatever stops a run leaves something to go on from: no case begun, or
+/// what a run in another folder had come to.
+void Session::save_first() {
+    SessionMemory* earlier = problem_.earlier_.get();
+    if (problem_.reopened_ || !memory_->cases.empty()) return;
+    if (earlier == nullptr) return save_checkpoint();
+    earlier->case_toml = memory_->case_toml;
+    earlier->plans = memory_->plans;
+    checkpoints_.emplace(folder_->path());
+    checkpoints_->save(checkpoint_file(*earlier));
+}
+
+/// The state in which a case ended off the schedule goes into a file of its own. What --restart goes on
+/// from stays the state on the schedule, in the file as in the memory.
+void Session::save_last(std::size_t number, CaseMemory&& state) {
+    std::swap(memory_->cases[number], state);
+    memory_->on_schedule = false;
+    checkpoint_file(*memory_).save(*folder_ / last_checkpoint);
+    memory_->on_schedule = true;
+    std::swap(memory_->cases[number], state);
 }
 
 void Session::check(Check check) { checks_.push_back(std::move(check)); }

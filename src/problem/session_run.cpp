@@ -57,34 +57,43 @@ std::vector<Drift> drifts_at_start(const Promises& p, int dim, double integrator
 
 }  // namespace
 
+/// Ends and intervals of the case of that number: as given, else those of the run that is gone on with,
+/// else the case's own, else parts of its length. Never those of another case.
 template <int Dim>
-void Session::settle_plan(Plan<Dim>& plan) {
-    auto& common = problem_.common_;
-    if (!common.t_end) common.t_end = plan.t_end;
-    plan.t_end = *common.t_end;
+void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
+    const auto& common = problem_.common_;
+    const SessionMemory* before = problem_.earlier_.get();
+    std::optional<PlanMemory> earlier;
+    if (before != nullptr && number < before->plans.size()) earlier = before->plans[number];
+    const auto settled = [&](const std::optional<double>& given, double PlanMemory::*remembered,
+                             double own, double otherwise) {
+        return given ? *given : earlier ? (*earlier).*remembered : own > 0.0 ? own : otherwise;
+    };
+    plan.t_end = settled(common.t_end, &PlanMemory::t_end, plan.t_end, plan.t_end);
     if (!(plan.t_end > 0.0) || !std::isfinite(plan.t_end))
         throw InputError(fmt::format("t-end: {} must be a number above 0", plan.t_end));
-    const auto settle = [&](std::optional<double>& given, double& interval, double parts) {
-        if (!given) given = interval > 0.0 ? interval : plan.t_end / parts;
-        interval = *given;
-    };
     // Times closer than this would not be told apart, or never be reached.
-    const auto limit = [&](const char* name, double interval, const char* what) {
-        if (!(plan.t_end / interval <= 1e9))
+    const auto limit = [&](const char* name, const std::optional<double>& interval,
+                           const char* what) {
+        if (interval && !(plan.t_end / *interval <= 1e9))
             throw InputError(
                 fmt::format("{}: {} would take {:.0e} {} to t = {:g}; choose a larger one", name,
-                            interval, plan.t_end / interval, what, plan.t_end));
+                            *interval, plan.t_end / *interval, what, plan.t_end));
     };
-    if (integrator_.dt) limit("dt", *integrator_.dt, "steps");
-    if (common.output_every) limit("output-every", *common.output_every, "rows");
-    if (common.snapshot_every) limit("snapshot-every", *common.snapshot_every, "files");
-    settle(common.output_every, plan.output_every, 240.0);
-    settle(common.snapshot_every, plan.snapshot_every, 12.0);
-    if (common.checkpoint_every) limit("checkpoint-every", *common.checkpoint_every, "files");
+    limit("dt", integrator_.dt, "steps");
+    limit("output-every", common.output_every, "rows");
+    limit("snapshot-every", common.snapshot_every, "files");
+    limit("checkpoint-every", common.checkpoint_every, "files");
+    plan.output_every = settled(common.output_every, &PlanMemory::output_every, plan.output_every,
+                                plan.t_end / 240.0);
+    plan.snapshot_every = settled(common.snapshot_every, &PlanMemory::snapshot_every,
+                                  plan.snapshot_every, plan.t_end / 12.0);
     const double twelfth = plan.t_end / 12.0 / plan.snapshot_every;  // in snapshots
-    if (plan.checkpoint_every == 0.0)
-        plan.checkpoint_every = std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every;
-    settle(common.checkpoint_every, plan.checkpoint_every, 12.0);
+    plan.checkpoint_every =
+        settled(common.checkpoint_every, &PlanMemory::checkpoint_every, plan.checkpoint_every,
+                std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every);
+    memory_->plans.push_back(
+        {plan.t_end, plan.output_every, plan.snapshot_every, plan.checkpoint_every});
     plan.guard = common.guard;
     if (Dim == 1 && common.guard.angular_momentum)
         throw InputError("limit-angular-momentum: nothing turns in one dimension; leave it out");
@@ -157,7 +166,7 @@ RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan
 
 template <int Dim>
 std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
-    for (auto& one : cases) settle_plan(one.plan);
+    for (auto& one : cases) settle_plan(one.plan, memory_->plans.size());
     refuse_idle_balance(cases);
     for (const auto& one : cases) refuse_unstable(one);
     for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
@@ -174,6 +183,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         end_dry_run();
     }
     open_folder();
+    save_first();
     std::vector<RunRecord> records;
     for (auto& one : cases) {
         if (!records.empty() && InterruptWatch::received() != 0) break;
@@ -189,7 +199,7 @@ template <int Dim>
 void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
     for (std::size_t k = 0; k < cases.size(); ++k) {
         const CaseMemory* earlier = earlier_case(memory_->cases.size() + k);
-        if (earlier == nullptr) return;
+        if (earlier == nullptr) continue;
         if (earlier->label != cases[k].label)
             throw InputError(
                 fmt::format("restart: the checkpoint holds the case '{}' in place of '{}'",
@@ -203,14 +213,25 @@ void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
     }
 }
 
+/// Of a case that was begun and stopped before its first checkpoint nothing stays in the folder.
+template <int Dim>
+void Session::begin_anew(const RunFolder& folder, SnapshotSeries<Dim>& snapshots) {
+    if (!problem_.reopened_) return;
+    std::error_code ignored;
+    std::filesystem::remove(folder / "events.csv", ignored);
+    snapshots.resume({});
+}
+
 /// Rows, events and snapshots up to the checkpoint, also in a folder of another name.
 template <int Dim>
-void Session::resume(Run<Dim>& run, const CaseMemory& earlier, const RunFolder& folder,
+void Session::resume(Run<Dim>& run, CaseMemory& earlier, const RunFolder& folder,
                      SnapshotSeries<Dim>& snapshots) {
     run.recall(earlier);
     snapshots.resume(run.snapshot_times());
-    if (problem_.in_place_) return;
-    const auto from = std::filesystem::path(problem_.common_.restart).parent_path() / earlier.label;
+    memory_->cases.back() = std::move(earlier);  // until this run comes to a checkpoint of its own
+    if (problem_.reopened_) return;
+    const auto from =
+        std::filesystem::path(problem_.common_.restart).parent_path() / run.record().label;
     for (const auto& name : snapshots.names()) {
         std::error_code error;  // where they are gone the list of snapshots begins later
         std::filesystem::copy_file(from / name, folder / name, error);
@@ -223,10 +244,11 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
     const std::size_t number = memory_->cases.size() - 1;
     typename Run<Dim>::Watchers watchers;
     watchers.snapshot = [&run, &snapshots](double t) { snapshots.add(t, run.y()); };
-    watchers.checkpoint = [this, number](const CaseMemory& written) {
-        memory_->cases[number] = written;
+    watchers.checkpoint = [this, number](CaseMemory&& state) {
+        memory_->cases[number] = std::move(state);
         save_checkpoint();
     };
+    watchers.last = [this, number](CaseMemory&& state) { save_last(number, std::move(state)); };
     watchers.step = [this, &run, t_end = one.plan.t_end](double t) {
         const double fraction = t / t_end;
         if (!terminal_.progress_due(fraction)) return;
@@ -255,19 +277,21 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
 
 template <int Dim>
 RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
-    const CaseMemory* earlier = earlier_case(memory_->cases.size());
-    memory_->cases.emplace_back();
+    CaseMemory* earlier = earlier_case(memory_->cases.size());
+    memory_->cases.emplace_back().label = one.label;
     Run<Dim> run(one, integrator_, &folder);
     run.record().statistics.problem = problem_.name_;
     SnapshotSeries<Dim> snapshots(folder, one.model);
-    if (earlier != nullptr) resume(run, *earlier, folder, snapshots);
+    if (earlier != nullptr)
+        resume(run, *earlier, folder, snapshots);
+    else
+        begin_anew(folder, snapshots);
     const auto watchers = watchers_of(run, one, snapshots);
     terminal_.begin_progress();
     RunRecord& record = run.record();
     try {
         const std::string reason = run.drive(watchers);
         if (guard_reason_.empty()) guard_reason_ = reason;
-        memory_->cases.back().stopped = reason;
     } catch (const OutputError&) {
         try {  // there may be room for this much
             write_statistics(folder, record.statistics);

@@ -3,6 +3,7 @@
 #include "dry_run.hpp"
 #include "duration.hpp"
 #include <spam/core/error.hpp>
+#include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ bool Session::continues(const char* study) const {
     if (problem_.common_.force || !StudyTable::unfinished(folder, study)) return false;
     std::ifstream in(folder / "case.toml", std::ios::binary);
     const std::string begun{std::istreambuf_iterator<char>(in), {}};
-    if (begun != problem_.options_.case_toml(left_out_))
+    if (begun != case_file())
         throw InputError(fmt::format(
             "out: '{}' holds an unfinished study of another case (its case.toml); give the same "
             "options to go on with it, --force to begin anew, or another --out",
@@ -104,6 +105,7 @@ StudyTable Session::begin_study(const std::string& table, const std::vector<std:
 }
 
 bool Session::run_study(StudyTable& table, const std::vector<StudyTask>& tasks, int threads) {
+    InterruptWatch::complete_results();
     const std::size_t had = table.known();
     if (had > 0) terminal_.say(fmt::format("{} of {} are known already", had, tasks.size()));
     terminal_.begin_progress();

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints and --restart: a run that was stopped and one that was not are the same, byte for byte.
-#include "problem/result_files.hpp"
-#include <spam/io/checkpoint_pair.hpp>
-
-#include <boost/test/unit_test.hpp>
+#include "problem/twins.hpp"
 
 #include <cmath>
 #include <random>
@@ -11,59 +8,16 @@
 using namespace spam::test;
 using spam::CheckpointReader;
 using spam::newest_checkpoint;
-using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
 namespace {
 
 const Words problems = split(SPAM_PROBLEM_NAMES, ',');
 
-Words with(Words some, const Words& more) {
-    some.insert(some.end(), more.begin(), more.end());
-    return some;
-}
-
-Outcome run_in(const Scratch& folder, const std::string& name, const Words& arguments) {
-    return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(240));
-}
-
-/// 0, or 1 where a run is too short for the problem's own checks.
-void require_ran(const Outcome& outcome) {
-    BOOST_REQUIRE_MESSAGE(outcome.status == 0 || outcome.status == 1, outcome.out << outcome.err);
-}
-
 double key(const fs::path& toml, const std::string& name) {
     const std::string text = contents_of(toml);
     const auto at = text.find("\n" + name + " = ");
     return at == std::string::npos ? 0.0 : std::stod(text.substr(at + name.size() + 4));
-}
-
-/// What a run leaves: rows, events, configurations; and of the newest checkpoint every field.
-std::map<std::string, std::string> left_by(const fs::path& folder) {
-    std::map<std::string, std::string> all;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        const auto name = entry.path().filename().string();
-        if (name == "invariants.csv" || name == "events.csv" || name.starts_with("snapshot"))
-            all[entry.path().lexically_relative(folder).string()] = contents_of(entry.path());
-    }
-    const CheckpointReader checkpoint(newest_checkpoint(folder).value());
-    for (int k = 0; checkpoint.has("/cases/" + std::to_string(k) + "/label"); ++k)
-        for (const char* field : {"position", "velocity", "density", "stress", "energy"}) {
-            const std::string path = "/cases/" + std::to_string(k) + "/state/" + field;
-            if (!checkpoint.has(path)) continue;
-            const auto values = checkpoint.numbers(path);
-            all[path].assign(reinterpret_cast<const char*>(values.data()),
-                             values.size() * sizeof(double));
-        }
-    return all;
-}
-
-void check_same(const std::map<std::string, std::string>& one,
-                const std::map<std::string, std::string>& other) {
-    BOOST_TEST(!one.empty());
-    for (const auto& [name, contents] : one)
-        BOOST_TEST((other.contains(name) && other.at(name) == contents), name << " differs");
-    BOOST_TEST(one.size() == other.size());
 }
 
 /// Intervals that a whole run and its halves share: 16 rows, 4 snapshots, 8 checkpoints in T.

@@ -10,7 +10,7 @@ struct Schedule {
     double t_end = 0.0;
     double output_every = 0.0;      ///< rows of invariants; t = 0 and t_end always
     double snapshot_every = 0.0;    ///< configurations; t = 0 and t_end always
-    double checkpoint_every = 0.0;  ///< t_end always; 0: never
+    double checkpoint_every = 0.0;  ///< 0: never
     double start = 0.0;             ///< intervals are counted from here
     bool resumed = false;           ///< what was due up to the integrator's time has been done
 };
@@ -22,10 +22,12 @@ struct Observers {
     std::function<void(double t)> step;  ///< after every step: progress
     /// After every output: whether y was changed, or the rates, so that the integrator begins anew.
     std::function<bool(double t)> revise;
-    /// After all else at its time, and before what is observed only because the run ends: a run that
-    /// goes on from here later has the same rows as one that was never stopped. May change what the
-    /// integrator remembers.
+    /// After all else at a time of the schedule: a run that goes on from here later is the same, bit
+    /// for bit, as one that was never stopped. May change what the integrator remembers.
     std::function<void(double t)> checkpoint;
+    /// Where the run ends at a state that is none of those, by a signal, a guard, enough, or a t_end off
+    /// the schedule: before what is observed only because it ends.
+    std::function<void(double t)> last;
     /// After every output: whether the run has shown what it was for and ends here.
     std::function<bool(double t)> enough;
 };

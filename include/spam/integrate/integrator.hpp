@@ -123,6 +123,9 @@ class Integrator {
     };
     const Statistics& statistics() const { return statistics_; }
     double t() const { return t_; }
+    /// Fixed steps: whether the latest one was neither shortened by its t_stop nor interrupted by a
+    /// signal between events, so that a run with a later end passes through the same (t, y).
+    bool whole_step() const { return whole_step_; }
     const Ode& ode() const { return ode_; }
     /// `most`: accepted steps, counted from the beginning of the run.
     void allow_steps(std::size_t most) { most_steps_ = most; }
@@ -142,6 +145,7 @@ class Integrator {
     const Ode& ode_;
     Vector& y_;
     double t_;
+    bool whole_step_ = true;
     Statistics statistics_;
 
   private:

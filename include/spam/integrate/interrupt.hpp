@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 namespace spam {
 
-/// While alive, SIGINT, SIGTERM and SIGHUP are remembered instead of ending the process, so that a run can
-/// complete its results; a second signal ends it at once.
+/// What SIGINT, SIGTERM and SIGHUP do while this is alive. At first they end the process at once, with
+/// a line on standard error and status 128 + signal: nothing has been computed that could be lost.
+/// From complete_results() on they are only noted, so that a run can complete its results; a second
+/// signal then ends the process. A signal that was ignored at the start stays ignored (nohup).
 class InterruptWatch {
   public:
-    InterruptWatch();
+    /// `program` names the process in that line.
+    explicit InterruptWatch(const std::string& program);
     ~InterruptWatch();
     InterruptWatch(const InterruptWatch&) = delete;
     InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-    /// The signal received, 0 if none.
+    /// From here on there are results to be completed.
+    static void complete_results();
+
+    /// The signal noted, 0 if none.
     static int received();
 };
 

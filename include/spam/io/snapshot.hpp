@@ -22,7 +22,7 @@ class SnapshotSeries {
         : folder_(folder),
           model_(model) {}
 
-    /// Goes on after earlier ones at these times.
+    /// Goes on after earlier ones at these times; removes what an earlier run left after them.
     void resume(const std::vector<double>& times);
     /// Names of the files so far.
     std::vector<std::string> names() const;

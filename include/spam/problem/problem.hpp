@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/io/options.hpp>
+#include <spam/io/run_folder.hpp>
 #include <spam/physics/scheme.hpp>
 #include <spam/problem/drift_guard.hpp>
 #include <spam/problem/integrator_settings.hpp>
@@ -60,9 +61,10 @@ class Problem {
     Options options_;
     CommonOptions common_;
     Scheme scheme_;
-    std::unique_ptr<const SessionMemory> earlier_;  ///< of --restart
+    std::unique_ptr<SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;
-    bool in_place_ = false;  ///< its results are those of the checkpoint
+    std::optional<RunFolder>
+        reopened_;  ///< the folder of the checkpoint, where results go on in it
 };
 
 }  // namespace spam

@@ -78,12 +78,18 @@ class Session {
 
     [[noreturn]] void end_dry_run();
     void open_folder();
+    std::string case_file() const;
+    void write_case_file();
+    void save_first();
     void save_checkpoint();
-    const CaseMemory* earlier_case(std::size_t number) const;
+    void save_last(std::size_t number, CaseMemory&& state);
+    CaseMemory* earlier_case(std::size_t number) const;
     template <int Dim>
     void check_restart(const std::vector<Case<Dim>>& cases) const;
     template <int Dim>
-    void resume(Run<Dim>& run, const CaseMemory& earlier, const RunFolder& folder,
+    void begin_anew(const RunFolder& folder, SnapshotSeries<Dim>& snapshots);
+    template <int Dim>
+    void resume(Run<Dim>& run, CaseMemory& earlier, const RunFolder& folder,
                 SnapshotSeries<Dim>& snapshots);
     void begin(const std::vector<std::string>& description, const char* study,
                bool of_integrators = false);
@@ -91,7 +97,7 @@ class Session {
     void describe_environment();
     int finish();
     template <int Dim>
-    void settle_plan(Plan<Dim>& plan);
+    void settle_plan(Plan<Dim>& plan, std::size_t number);
     template <int Dim>
     void refuse_idle_balance(const std::vector<Case<Dim>>& cases);
     template <int Dim>
