@@ -69,7 +69,9 @@ std::string Session::case_file() const {
         {"checkpoint-every", &PlanMemory::checkpoint_every, common.checkpoint_every.has_value()}};
     const auto& plans = memory_->plans;
     for (const Part& part : parts) {
-        if (part.given || plans.empty()) continue;
+        const bool left_out =
+            std::find(left_out_.begin(), left_out_.end(), part.name) != left_out_.end();
+        if (part.given || left_out || plans.empty()) continue;
         const auto same = [&](const PlanMemory& plan) {
             return plan.*part.value == plans.front().*part.value;
         };

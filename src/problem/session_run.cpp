@@ -89,9 +89,9 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
     plan.snapshot_every = settled(common.snapshot_every, &PlanMemory::snapshot_every,
                                   plan.snapshot_every, plan.t_end / 12.0);
     const double twelfth = plan.t_end / 12.0 / plan.snapshot_every;  // in snapshots
-    plan.checkpoint_every =
-        settled(common.checkpoint_every, &PlanMemory::checkpoint_every, plan.checkpoint_every,
-                std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every);
+    plan.checkpoint_every = settled(
+        common.checkpoint_every, &PlanMemory::checkpoint_every, plan.checkpoint_every,
+        std::min(plan.t_end, std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every));
     memory_->plans.push_back(
         {plan.t_end, plan.output_every, plan.snapshot_every, plan.checkpoint_every});
     plan.guard = common.guard;
