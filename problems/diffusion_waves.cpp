@@ -9,7 +9,7 @@
 //
 // Gradients of smooth particles are filters, and diffusion is two of them in turn: heat decays at
 // kappa k^2 c^2/(rho_s^3 c_v) instead of kappa k^2/(rho c_v), and the friction of a shear wave is smaller
-// by the same factor (diagnostics/diffusion_waves.hpp; physics.md 8: 0.9398 for 24 cells and h = 3). A
+// by the same factor (diagnostics/diffusion_waves.hpp derives it: 0.9398 for 24 cells and h = 3). A
 // lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
 #include "diffusion_waves/frozen_model.hpp"
 #include <spam/diagnostics/diffusion_waves.hpp>
@@ -139,13 +139,13 @@ void report(Session& session, const Parameters& p, Wave wave, const RunRecord& r
     const History& h = run.history;
     const double t = h.last("t"), left = h.last("amplitude");
     const bool known = is_known(session, p, wave, t);
-    session.check({prefix + "amplitude_left", left,
-                   known ? std::optional(p.expected(wave, t)) : std::nullopt,
-                   wave == Wave::thermal ? 1e-6 : 1e-4, "lattice sums, physics.md 8"});
+    session.check(
+        {prefix + "amplitude_left", left, known ? std::optional(p.expected(wave, t)) : std::nullopt,
+         wave == Wave::thermal ? 1e-6 : 1e-4, "[HH07] 4, with gradient sums over the lattice"});
     if (wave == Wave::thermal && left > 0.0)
         session.check({prefix + "rate_by_continuum", -std::log(left) / (t * p.continuum_rate(wave)),
                        known ? std::optional(p.exact().factor) : std::nullopt, 1e-4,
-                       "c^2/rho_s^3, physics.md 8: 0.9398 for 24 cells, h = 3"});
+                       "c^2/rho_s^3 of the lattice: 0.9398 for 24 cells, h = 3"});
     session.check({prefix + "amplitude_left_in_continuum",
                    std::exp(-p.continuum_rate(wave) * t),
                    {},

@@ -173,7 +173,7 @@ std::vector<Table> tabulate_all(const Parameters& p, const std::vector<double>& 
     return {tabulate(line(), p, h), tabulate(square(), p, h), tabulate(triangular(), p, h)};
 }
 
-/// What an independent program found, six digits.
+/// Six digits; tests/problem/lattice_sums.cpp finds them on a grid of points.
 struct Known {
     std::string lattice, law;
     double h, least, largest;
@@ -196,7 +196,7 @@ Check claim(const Table& table, const std::string& law, double h, bool least, do
         if (one.lattice == table.lattice && one.law == law && std::abs(one.h - h) < 1e-12) {
             item.expected = least ? one.least : one.largest;
             item.tolerance = 1e-6;
-            item.source = "[HH01] exercise 3, computed before";
+            item.source = "[HH01] exercise 3, sums on a grid of points";
         }
     if (table.lattice == "line" && law == "monaghan" && std::fmod(h, 2.0) == 0.0) {
         item.expected = 1.0;

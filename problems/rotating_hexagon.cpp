@@ -115,7 +115,7 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
     if (p.md()) refuse(names, "--model md (springs between initial neighbours)");
 }
 
-// ---- what the paper and an independent prototype say of the standard case ----
+// ---- what is known of the standard case, from the paper and tests/drift/hexagon.cpp ----
 
 /// 217 particles, speed 0.1, Lucy with range 3, RK4 with dt <= 0.1; one turn and integrated density,
 /// or total Lagrangian and up to 100 turns.
