@@ -217,25 +217,30 @@ int main(int argc, char** argv) {
                     "heat and momentum diffuse through smooth particles, [HH07] 4");
     Parameters p;
     auto& options = problem.options();
-    options.choice<Wave>("wave", p.wave, {Wave::both, Wave::thermal, Wave::shear}, "which");
+    options.choice<Wave>("wave", p.wave, {Wave::both, Wave::thermal, Wave::shear},
+                         "which wave to compute, or both");
     options.integer("cells", p.cells, "n x n particles at spacing 1, one wavelength",
                     between(4, 2000));
-    options.number("amplitude", p.amplitude, "of temperature and velocity at the start",
+    options.number("amplitude", p.amplitude, "initial amplitude of the temperature or velocity",
                    between(1e-7, 1e3));
-    options.number("temperature", p.temperature, "of the fluid at the start", positive());
+    options.number("temperature", p.temperature, "initial temperature of the fluid", positive());
     options.choice<Matter>("equation-of-state", p.matter,
-                           {Matter::ideal_gas, Matter::van_der_waals}, "of the fluid");
-    options.number("attraction", p.attraction, "a of van der Waals", non_negative());
-    options.number("excluded", p.excluded, "b of van der Waals, a volume by mass", non_negative());
-    options.number("conductivity", p.conductivity, "kappa", positive());
-    options.number("viscosity", p.viscosity, "shear viscosity eta; no bulk viscosity", positive());
+                           {Matter::ideal_gas, Matter::van_der_waals},
+                           "equation of state of the fluid");
+    options.number("attraction", p.attraction, "constant a of van der Waals' equation",
+                   non_negative());
+    options.number("excluded", p.excluded,
+                   "constant b of van der Waals' equation, a volume per mass", non_negative());
+    options.number("conductivity", p.conductivity, "heat conductivity kappa", positive());
+    options.number("viscosity", p.viscosity, "shear viscosity eta (there is no bulk viscosity)",
+                   positive());
     options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
-                            "sum over neighbours, or continuity equation");
+                            "density as a sum over neighbours, or by the continuity equation");
     options.choice<MeanDensityKind>("mean-density", p.scheme.mean_density,
                                     {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
-                                    "of pairs, in gradients");
+                                    "mean density of a pair, in gradients");
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
-    options.number("range", p.scheme.range, "its range h", between(1.2, 20.0));
+    options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 20.0));
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_contradictions(options, p);

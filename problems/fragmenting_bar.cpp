@@ -144,9 +144,12 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("columns", p.columns, "particles across the bar", between(2, 200));
     options.integer("rows", p.rows, "particles along the bar", between(4, 2000));
-    options.integer("projectile", p.projectile, "n of the hexagon that hits it", between(1, 100));
-    options.number("speed", p.speed, "of the projectile; sound moves at 1.06", positive());
-    options.number("offset", p.offset, "where it hits, above the middle of the bar", any_number());
+    options.integer("projectile", p.projectile, "size n of the hexagonal projectile",
+                    between(1, 100));
+    options.number("speed", p.speed, "speed of the projectile (the speed of sound is 1.06)",
+                   positive());
+    options.number("offset", p.offset, "height of the impact above the middle of the bar",
+                   any_number());
     problem.use_scheme({.transport = Transport::monaghan,
                         .angular_momentum = AngularMomentum::torque_pair,
                         .viscosity = 1.0});

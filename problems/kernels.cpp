@@ -281,9 +281,9 @@ int main(int argc, char** argv) {
                     "weight functions and the evenness of lattices, [HH01] exercises 2, 3");
     Parameters p;
     auto& options = problem.options();
-    options.number("smallest-range", p.smallest, "the first range h", between(1.1, 20.0));
-    options.number("largest-range", p.largest, "the last range h", between(1.1, 20.0));
-    options.integer("ranges", p.ranges, "how many, at equal distances", between(1, 40));
+    options.number("smallest-range", p.smallest, "smallest range h", between(1.1, 20.0));
+    options.number("largest-range", p.largest, "largest range h", between(1.1, 20.0));
+    options.integer("ranges", p.ranges, "number of ranges, equally spaced", between(1, 40));
     options.integer("family", p.family, "n of the third weight function, w_n", between(2, 8));
 
     return problem.main(argc, argv, [&](Session& session) {
