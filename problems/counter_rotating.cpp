@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: two hexagons that turn against each other, and who keeps its angular momentum; 5 s
+// spam-list: two counter-rotating hexagons: what conserves the angular momentum of each; 5 s
 //
 // Two counter-rotating hexagons, [HHM04] VII and IX.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a square drop becomes round by surface tension, and only by it, [HH07] 7 and 8; 5 s
+// spam-list: a square drop becomes round with surface tension and stays square without, [HH07] 7 and 8; 5 s
 //
 // Surface tension from density gradients, [HH07] 7 and 8.
 //
@@ -142,16 +142,16 @@ void report(Session& session, const Parameters& p, const Drop& drop, const RunRe
         m4.expected = round ? 0.0 : 0.35;
         m4.tolerance = round ? 0.06 : 0.15;
         m4.source = round ? "[HH07] 7: gradients make drops round"
-                          : "[HH07] 7: without them a square has no reason to be";
+                          : "[HH07] 7: without them the drop does not become round";
     }
     session.check(m4);
     const auto n = static_cast<double>(run.statistics.particles);
     session.check({drop.prefix + "momentum_per_particle",
                    std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
                    0.0, 1e-12 * std::max(1.0, largest_speed(h)),
-                   "pairwise forces, and a friction that stops what does not move"});
+                   "pairwise forces; friction leaves a momentum of zero at zero"});
     session.check({drop.prefix + "energy_rise", largest_rise(h), 0.0, 1e-9,
-                   "friction takes energy and never gives it back"});
+                   "friction can only take energy away"});
     session.check({drop.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
     session.check({drop.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
     session.check_promises(run, drop.prefix);

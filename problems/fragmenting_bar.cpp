@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a bar hit by a projectile breaks into pieces, each with a balance of its own; 20 s
+// spam-list: a bar hit by a projectile breaks into pieces, each conserving its angular momentum; 20 s
 //
 // A bar is hit by a projectile, [HHM04] IX: the case that "local conservation of angular momentum is
 // necessary" for.
@@ -133,7 +133,7 @@ void refuse_tunnelling(const Session& session, const Parameters& p, double row_i
             p.speed, p.speed * interval, what, name, interval, range, name, range / p.speed));
     };
     if (session.integrator().dt) refuse("dt", *session.integrator().dt, "a step");
-    refuse("output-every", row_interval, "the time between two looks for bodies,");
+    refuse("output-every", row_interval, "the time between two searches for bodies,");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: free expansion of a gas and where its entropy comes from, [HH01] Figs. 2, 3; 10 s
+// spam-list: free expansion of a gas and the growth of its entropy, [HH01] Figs. 2, 3; 10 s
 //
 // Free expansion of an ideal gas into four times its room, [HH01].
 //

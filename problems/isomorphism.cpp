@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: smooth-particle fluids that move like molecules, until chaos parts them; 8 s
+// spam-list: smooth-particle fluids that move like molecules, until rounding errors have grown; 8 s
 //
 // Isomorphisms, [HH01] and [HH07] 6: with the right equation of state smooth particles ARE molecules.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: weight functions beside a Gaussian, and how evenly lattices fill space, [HH01]; 2 s
+// spam-list: weight functions beside a Gaussian, and how even the density of lattices is, [HH01]; 2 s
 //
 // What the weight functions look like and how well they interpolate: exercises 2 and 3 of [HH01].
 //

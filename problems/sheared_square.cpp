@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a sheared elastic square let go: it vibrates and does not turn, [HHM04] Fig. 2; 3 s
+// spam-list: a sheared elastic square is released: it vibrates and does not rotate, [HHM04] Fig. 2; 3 s
 //
 // The deformed unit square of [HHM04] V, Fig. 2.
 //

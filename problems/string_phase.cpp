@@ -206,8 +206,8 @@ void refuse_contradictions(const Session& session, const Parameters& p) {
                         p.core_range, spacing, std::ceil(10.0 * spacing) * 0.001));
     if (!(p.side > 2.0 * p.range))
         throw InputError(
-            fmt::format("side: {:g} is too short for --range {:g}: no particle may see another one "
-                        "twice; give more than {:g}, or a shorter --range",
+            fmt::format("side: {:g} is too short for --range {:g}: no pair may interact twice "
+                        "through the periodic border; give more than {:g}, or a shorter --range",
                         p.side, p.range, 2.0 * p.range));
 }
 

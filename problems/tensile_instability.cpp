@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: one particle disturbs a stretched lattice: tensile instability, [HHM04] Fig. 1; 6 s
+// spam-list: tensile instability of a stretched lattice, disturbed by one particle, [HHM04] Fig. 1; 6 s
 //
 // Tensile instability, [HHM04] IV and Fig. 1.
 //

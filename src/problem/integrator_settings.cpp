@@ -96,8 +96,8 @@ void IntegratorSettings::refuse_idle(const Options& options, const std::string& 
     const std::string control = options.first_given({"controller", "safety"});
     if (!control.empty() && !method.starts_with("arkode:"))
         throw InputError(
-            fmt::format("{}: {} has a step control of its own, only arkode:<table> leaves a "
-                        "choice; leave it out",
+            fmt::format("{}: {} has its own step-size control, the option is for arkode:<table> "
+                        "only; leave it out",
                         control, method));
 }
 
