@@ -309,8 +309,7 @@ int main(int argc, char** argv) {
     options.number("amplitude", p.amplitude, "largest displacement", between(1e-9, 2.0));
     options.number("block", p.block, "side d of the blocks whose rotation is measured",
                    at_least(2.0));
-    options.flag("compare-sizes", p.compare_sizes,
-                 "compare three sizes and find the order of the error");
+    options.flag("compare-sizes", p.compare_sizes, "find the order of the error from three sizes");
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {
