@@ -92,6 +92,15 @@ Words broken_links(const std::string& text, const fs::path& document) {
     return broken;
 }
 
+/// Documents that a source names and that the repository does not hold.
+Words absent_documents(const std::string& text) {
+    static const std::regex name("[A-Za-z0-9_][A-Za-z0-9_/-]*\\.md\\b(?!\\()");
+    Words absent;
+    for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it)
+        if (!fs::exists(root / it->str())) absent.push_back(it->str());
+    return absent;
+}
+
 /// Option names without values, by problem, as --help lists them.
 std::map<std::string, std::set<std::string>> options_of_problems() {
     static const std::regex option("--([a-z0-9-]+)");
@@ -154,6 +163,18 @@ BOOST_AUTO_TEST_CASE(links_and_anchors_lead_somewhere) {
             BOOST_TEST(false, document << ": no " << target);
 }
 
+BOOST_AUTO_TEST_CASE(sources_cite_documents_that_exist) {
+    std::size_t sources = 0;
+    for (const char* extension : {".hpp", ".cpp", ".cmake"})
+        for (const auto& source : files_ending_in(extension)) {
+            ++sources;
+            if (source.filename() == "documents.cpp") continue;  // has wrong ones, see below
+            for (const auto& name : absent_documents(contents_of(source)))
+                BOOST_TEST(false, source << ": no " << name);
+        }
+    BOOST_TEST(sources > 100U);
+}
+
 BOOST_AUTO_TEST_CASE(every_picture_is_shown) {
     std::string all;
     for (const auto& document : files_ending_in(".md")) all += contents_of(document);
@@ -193,6 +214,7 @@ BOOST_AUTO_TEST_CASE(the_checks_can_fail) {
     const fs::path document = root / "README.md";
     BOOST_TEST(broken_links("[a](nowhere.md) [b](src/README.md#rooms)", document).size() == 1U);
     BOOST_TEST(broken_links("[a](src/README.md#no-such-heading)", document).size() == 1U);
+    BOOST_TEST(absent_documents("as README.md and notes.md say").size() == 1U);
     BOOST_TEST(anchor_of("Sources, licence, how to cite") == "sources-licence-how-to-cite");
     const std::map<std::string, std::set<std::string>> options{{"drop", {"cells"}}};
     BOOST_TEST(unknown_in("./spam run drop --cells 3", options).empty());
