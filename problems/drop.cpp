@@ -151,7 +151,7 @@ void report(Session& session, const Parameters& p, const Drop& drop, const RunRe
                    0.0, 1e-12 * std::max(1.0, largest_speed(h)),
                    "pairwise forces; friction leaves a momentum of zero at zero"});
     session.check({drop.prefix + "energy_rise", largest_rise(h), 0.0, 1e-9,
-                   "friction can only take energy away"});
+                   "friction takes energy and never gives it back"});
     session.check({drop.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
     session.check({drop.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
     session.check_promises(run, drop.prefix);

@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     add_system_option(options, names, p.problem);
     options.integer("size", p.size, "n of the hexagons, which have 1 + 3n + 3n^2 particles",
                     between(2, 50));
-    options.number("speed", p.speed, "speed of the corners of the hexagons", positive());
+    options.number("speed", p.speed, "of their corners", positive());
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {

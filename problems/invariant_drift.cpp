@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     add_system_option(options, names, p.problem);
     options.integer("size", p.size, "n of the hexagons, which have 1 + 3n + 3n^2 particles",
                     between(2, 50));
-    options.number("speed", p.speed, "speed of the corners of the hexagons", positive());
+    options.number("speed", p.speed, "of their corners", positive());
     options.number("turns", p.turns, "number of nominal turns of hexagons", positive());
     options.integer("cells", p.cells, "cells x cells particles of the wave (an even number)",
                     between(8, 200));

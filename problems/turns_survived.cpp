@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",
                     between(2, 200));
-    options.number("speed", p.speed, "speed of the corners of the hexagon", positive());
+    options.number("speed", p.speed, "speed of its corners", positive());
     options.number("turns", p.turns, "largest number of nominal turns", positive());
     options.integer("jobs", p.jobs, "number of cases computed at the same time", between(1, 1024));
     options.exclude_from_case({"jobs"});

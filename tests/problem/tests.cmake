@@ -20,6 +20,8 @@ spam_problem_test(problem/every_problem nlohmann_json::nlohmann_json)
 spam_problem_test(readme/documents nlohmann_json::nlohmann_json)
 spam_problem_test(problem/figures nlohmann_json::nlohmann_json)
 spam_problem_test(problem/waves nlohmann_json::nlohmann_json)
+spam_test(problem/lattice_sums property)  # a part of the problem kernels
+target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
 spam_problem_test(problem/expansion nlohmann_json::nlohmann_json)
 spam_problem_test(problem/sweep nlohmann_json::nlohmann_json)
@@ -28,8 +30,6 @@ spam_problem_test(problem/restart nlohmann_json::nlohmann_json)
 spam_problem_test(problem/full_disk nlohmann_json::nlohmann_json)
 spam_problem_test(problem/integrators nlohmann_json::nlohmann_json)
 spam_test(problem/own_study problem nlohmann_json::nlohmann_json)
-spam_test(problem/lattice_sums property)  # a part of the problem kernels
-target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_test(problem/walls property)  # parts of the problem relaxation
 target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxation/region.cpp
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/walled_model.cpp
