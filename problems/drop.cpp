@@ -149,7 +149,7 @@ void report(Session& session, const Parameters& p, const Drop& drop, const RunRe
     session.check({drop.prefix + "momentum_per_particle",
                    std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
                    0.0, 1e-12 * std::max(1.0, largest_speed(h)),
-                   "pairwise forces; friction leaves a momentum of zero at zero"});
+                   "pairwise forces, and a friction that stops what does not move"});
     session.check({drop.prefix + "energy_rise", largest_rise(h), 0.0, 1e-9,
                    "friction takes energy and never gives it back"});
     session.check({drop.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
