@@ -97,7 +97,7 @@ void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
     for (const auto& one : cases)
         if (one.model.particles().bodies() > 1 || one.plan.revise) return;
     if (given("balance"))
-        throw InputError("balance: has no effect with a single body; leave it out");
+        throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
 }
 

@@ -72,7 +72,7 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
             fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
     leave_out_of_case(of_runs);
     if (given("balance"))
-        throw InputError("balance: has no effect with a single body; leave it out");
+        throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
     begin(description, nullptr);
     return statistics_.back();
