@@ -47,8 +47,8 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
     const IntegrationMethod& method = integration_method(options.method);
     if (method.multistep && !ode.events.empty())
         throw InputError(
-            fmt::format("integrator: {} builds on earlier steps, which {} makes invalid at every "
-                        "event; use rk4 or arkode:DORMAND_PRINCE_7_4_5",
+            fmt::format("integrator: {} builds on earlier steps and cannot end one at {}, which "
+                        "makes them invalid; use rk4 or arkode:DORMAND_PRINCE_7_4_5",
                         method.name, ode.events.front().name));
     if (options.relaxation) require_energy(ode);
     IntegratorOptions resolved = options;
