@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: two hexagons that turn against each other, and who keeps its angular momentum; 5 s
+// spam-list: two counter-rotating hexagons: what conserves the angular momentum of each; 5 s
 //
 // Two counter-rotating hexagons, [HHM04] VII and IX.
 //
@@ -91,10 +91,11 @@ int main(int argc, char** argv) {
                     "two hexagons that rotate against each other, [HHM04] VII, IX");
     int size = 8;
     double speed = 0.1, turns = 1.0;
-    problem.options().integer("size", size, "corners are n spacings from the centre",
+    problem.options().integer("size", size,
+                              "n: the corners are n spacings from the centre of each hexagon",
                               between(1, 1000));
     problem.options().number("speed", speed, "speed of the corners", positive());
-    problem.options().number("turns", turns, "nominal turns to run", positive());
+    problem.options().number("turns", turns, "number of nominal turns", positive());
     problem.use_scheme(
         {.transport = Transport::monaghan, .angular_momentum = AngularMomentum::torque_pair});
 

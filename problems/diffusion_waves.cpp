@@ -9,7 +9,7 @@
 //
 // Gradients of smooth particles are filters, and diffusion is two of them in turn: heat decays at
 // kappa k^2 c^2/(rho_s^3 c_v) instead of kappa k^2/(rho c_v), and the friction of a shear wave is smaller
-// by the same factor (diagnostics/diffusion_waves.hpp; physics.md 8: 0.9398 for 24 cells and h = 3). A
+// by the same factor (diagnostics/diffusion_waves.hpp derives it: 0.9398 for 24 cells and h = 3). A
 // lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
 #include "diffusion_waves/frozen_model.hpp"
 #include <spam/diagnostics/diffusion_waves.hpp>
@@ -139,13 +139,13 @@ void report(Session& session, const Parameters& p, Wave wave, const RunRecord& r
     const History& h = run.history;
     const double t = h.last("t"), left = h.last("amplitude");
     const bool known = is_known(session, p, wave, t);
-    session.check({prefix + "amplitude_left", left,
-                   known ? std::optional(p.expected(wave, t)) : std::nullopt,
-                   wave == Wave::thermal ? 1e-6 : 1e-4, "lattice sums, physics.md 8"});
+    session.check(
+        {prefix + "amplitude_left", left, known ? std::optional(p.expected(wave, t)) : std::nullopt,
+         wave == Wave::thermal ? 1e-6 : 1e-4, "[HH07] 4, with gradient sums over the lattice"});
     if (wave == Wave::thermal && left > 0.0)
         session.check({prefix + "rate_by_continuum", -std::log(left) / (t * p.continuum_rate(wave)),
                        known ? std::optional(p.exact().factor) : std::nullopt, 1e-4,
-                       "c^2/rho_s^3, physics.md 8: 0.9398 for 24 cells, h = 3"});
+                       "c^2/rho_s^3 of the lattice: 0.9398 for 24 cells, h = 3"});
     session.check({prefix + "amplitude_left_in_continuum",
                    std::exp(-p.continuum_rate(wave) * t),
                    {},
@@ -217,25 +217,30 @@ int main(int argc, char** argv) {
                     "heat and momentum diffuse through smooth particles, [HH07] 4");
     Parameters p;
     auto& options = problem.options();
-    options.choice<Wave>("wave", p.wave, {Wave::both, Wave::thermal, Wave::shear}, "which");
+    options.choice<Wave>("wave", p.wave, {Wave::both, Wave::thermal, Wave::shear},
+                         "which wave to compute, or both");
     options.integer("cells", p.cells, "n x n particles at spacing 1, one wavelength",
                     between(4, 2000));
-    options.number("amplitude", p.amplitude, "of temperature and velocity at the start",
+    options.number("amplitude", p.amplitude, "initial amplitude of the temperature or velocity",
                    between(1e-7, 1e3));
-    options.number("temperature", p.temperature, "of the fluid at the start", positive());
+    options.number("temperature", p.temperature, "initial temperature of the fluid", positive());
     options.choice<Matter>("equation-of-state", p.matter,
-                           {Matter::ideal_gas, Matter::van_der_waals}, "of the fluid");
-    options.number("attraction", p.attraction, "a of van der Waals", non_negative());
-    options.number("excluded", p.excluded, "b of van der Waals, a volume by mass", non_negative());
-    options.number("conductivity", p.conductivity, "kappa", positive());
-    options.number("viscosity", p.viscosity, "shear viscosity eta; no bulk viscosity", positive());
+                           {Matter::ideal_gas, Matter::van_der_waals},
+                           "equation of state of the fluid");
+    options.number("attraction", p.attraction, "constant a of van der Waals' equation",
+                   non_negative());
+    options.number("excluded", p.excluded,
+                   "constant b of van der Waals' equation, a volume per mass", non_negative());
+    options.number("conductivity", p.conductivity, "heat conductivity kappa", positive());
+    options.number("viscosity", p.viscosity, "shear viscosity eta (there is no bulk viscosity)",
+                   positive());
     options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
-                            "sum over neighbours, or continuity equation");
+                            "density as a sum over neighbours, or by the continuity equation");
     options.choice<MeanDensityKind>("mean-density", p.scheme.mean_density,
                                     {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
-                                    "of pairs, in gradients");
+                                    "mean density of a pair, in gradients");
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
-    options.number("range", p.scheme.range, "its range h", between(1.2, 20.0));
+    options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 20.0));
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_contradictions(options, p);

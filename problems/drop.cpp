@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a square drop becomes round by surface tension, and only by it, [HH07] 7 and 8; 5 s
+// spam-list: a square drop becomes round with surface tension and stays square without, [HH07] 7 and 8; 5 s
 //
 // Surface tension from density gradients, [HH07] 7 and 8.
 //
@@ -142,7 +142,7 @@ void report(Session& session, const Parameters& p, const Drop& drop, const RunRe
         m4.expected = round ? 0.0 : 0.35;
         m4.tolerance = round ? 0.06 : 0.15;
         m4.source = round ? "[HH07] 7: gradients make drops round"
-                          : "[HH07] 7: without them a square has no reason to be";
+                          : "[HH07] 7: without them the drop does not become round";
     }
     session.check(m4);
     const auto n = static_cast<double>(run.statistics.particles);
@@ -203,15 +203,16 @@ int main(int argc, char** argv) {
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "the drop is cells x cells particles", between(2, 1000));
-    options.number("surface-tension", p.surface_tension, "s_g, 0 for none (both: 0 and 0.1)",
+    options.number("surface-tension", p.surface_tension,
+                   "strength s_g of the surface tension; 0 for none (default: both 0 and 0.1)",
                    non_negative());
-    options.number("core", p.core, "energy of a core that keeps particles apart, 0 for none",
+    options.number("core", p.core, "energy of the core that keeps two particles apart; 0 for none",
                    non_negative());
     options.number("core-range", p.core_range, "distance at which cores touch", positive());
-    options.number("disorder", p.disorder, "largest displacement at random from the square lattice",
+    options.number("disorder", p.disorder, "largest random displacement from the square lattice",
                    between(0.0, 0.5));
-    options.integer("seed", p.seed, "of the disorder", between(0, 1000000000));
-    options.number("damping", p.damping, "rate of the friction", positive());
+    options.integer("seed", p.seed, "seed of the random displacements", between(0, 1000000000));
+    options.number("damping", p.damping, "rate of the friction, gamma", positive());
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 

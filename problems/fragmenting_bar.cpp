@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a bar hit by a projectile breaks into pieces, each with a balance of its own; 20 s
+// spam-list: a bar hit by a projectile breaks into pieces, each conserving its angular momentum; 20 s
 //
 // A bar is hit by a projectile, [HHM04] IX: the case that "local conservation of angular momentum is
 // necessary" for.
@@ -133,7 +133,7 @@ void refuse_tunnelling(const Session& session, const Parameters& p, double row_i
             p.speed, p.speed * interval, what, name, interval, range, name, range / p.speed));
     };
     if (session.integrator().dt) refuse("dt", *session.integrator().dt, "a step");
-    refuse("output-every", row_interval, "the time between two looks for bodies,");
+    refuse("output-every", row_interval, "the time between two searches for bodies,");
 }
 
 }  // namespace
@@ -144,9 +144,12 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("columns", p.columns, "particles across the bar", between(2, 200));
     options.integer("rows", p.rows, "particles along the bar", between(4, 2000));
-    options.integer("projectile", p.projectile, "n of the hexagon that hits it", between(1, 100));
-    options.number("speed", p.speed, "of the projectile; sound moves at 1.06", positive());
-    options.number("offset", p.offset, "where it hits, above the middle of the bar", any_number());
+    options.integer("projectile", p.projectile, "size n of the hexagonal projectile",
+                    between(1, 100));
+    options.number("speed", p.speed, "speed of the projectile (the speed of sound is 1.06)",
+                   positive());
+    options.number("offset", p.offset, "height of the impact above the middle of the bar",
+                   any_number());
     problem.use_scheme({.transport = Transport::monaghan,
                         .angular_momentum = AngularMomentum::torque_pair,
                         .viscosity = 1.0});

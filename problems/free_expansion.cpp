@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: free expansion of a gas and where its entropy comes from, [HH01] Figs. 2, 3; 10 s
+// spam-list: free expansion of a gas and the growth of its entropy, [HH01] Figs. 2, 3; 10 s
 //
 // Free expansion of an ideal gas into four times its room, [HH01].
 //
@@ -139,21 +139,26 @@ int main(int argc, char** argv) {
     Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25);
     Parameters p;
     auto& options = problem.options();
-    options.integer("dimension", p.dimension, "2: fourfold expansion; 1: twofold, on a line",
+    options.integer("dimension", p.dimension,
+                    "2: fourfold expansion in the plane; 1: twofold expansion on a line",
                     between(1, 2));
     options.integer("cells", p.cells, "particles along an edge of the gas, at spacing 1",
                     between(2, 4000));
-    options.integer("particles", p.particles, "in place of cells: a square number of particles",
+    options.integer("particles", p.particles,
+                    "number of particles, a square number; instead of --cells",
                     between(4, 16000000));
-    options.choice<Walls>("walls", p.walls, {Walls::periodic}, "what the gas meets");
+    options.choice<Walls>("walls", p.walls, {Walls::periodic}, "boundary of the box");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
-    options.number("range", p.range, "range h: no pair interacts beyond", positive());
+    options.number("range", p.range, "range h: pairs farther apart do not interact", positive());
     options.choice<Ranges>("ranges", p.ranges, {Ranges::fixed, Ranges::density},
-                           "the same for all, or range/rho^(1/dimension): more in the thin gas");
-    options.integer("seed", p.seed, "of the offsets from the lattice", between(0, 1000000000));
-    options.flag("compare", p.compare, "three sizes on one picture, [HH01] Fig. 3");
-    options.flag("cost", p.cost, "seconds against the number of particles, [HH01] exercise 4");
-    options.flag("movie", p.movie, "frames of a film");
+                           "range of a particle: the same for all, or range/rho^(1/dimension), "
+                           "larger in the thin gas");
+    options.integer("seed", p.seed, "seed of the random offsets from the lattice",
+                    between(0, 1000000000));
+    options.flag("compare", p.compare, "compare three sizes in one picture, [HH01] Fig. 3");
+    options.flag("cost", p.cost,
+                 "measure seconds against the number of particles, [HH01] exercise 4");
+    options.flag("movie", p.movie, "draw the frames of a film");
     options.exclude_from_case({"movie"});
 
     return problem.main(argc, argv, [&](Session& session) {

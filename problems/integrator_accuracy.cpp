@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: error against work of many integrators on eight systems; 2 min on 2 cores
+// spam-list: error against work: many integrators on eight systems; 2 min on 2 cores
 //
 // Which integrator for which accuracy? Every method integrates every system with smaller and smaller
 // steps, fixed ones and those it chooses itself; the error at the end is that against a reference

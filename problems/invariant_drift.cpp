@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: long runs by many integrators: do energy and angular momentum drift for ever; 1 min on 2 cores
+// spam-list: drift of energy and angular momentum in long runs with many integrators; 1 min on 2 cores
 //
 // Every method integrates for a long time, all with the same number of right-hand sides per time
 // (problem/drift_study.hpp). Whose energy keeps drifting, whose stays near what it was?

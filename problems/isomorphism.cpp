@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: smooth-particle fluids that move like molecules, until chaos parts them; 8 s
+// spam-list: smooth-particle fluids that move like molecules, until rounding errors have grown; 8 s
 //
 // Isomorphisms, [HH01] and [HH07] 6: with the right equation of state smooth particles ARE molecules.
 //
@@ -204,10 +204,10 @@ int main(int argc, char** argv) {
     options.choice<Law>("law", p.law, {Law::both, Law::lucy, Law::embedded_atom},
                         "the gas of Lucy's potential, embedded atoms, or both");
     options.integer("cells", p.cells, "n x n particles at spacing 1", between(4, 400));
-    options.number("speed", p.speed, "root mean square of the velocities at the start", positive());
-    options.number("range", p.range, "of Lucy's weight function", between(1.2, 20.0));
+    options.number("speed", p.speed, "root mean square of the initial velocities", positive());
+    options.number("range", p.range, "range h of Lucy's weight function", between(1.2, 20.0));
     options.number("perturbation", p.perturbation,
-                   "how far one molecule of the second copy is moved", between(1e-12, 1e-2));
+                   "initial displacement of one molecule of the second copy", between(1e-12, 1e-2));
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("cells")) p.cells = 8;

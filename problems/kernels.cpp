@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: weight functions beside a Gaussian, and how evenly lattices fill space, [HH01]; 2 s
+// spam-list: weight functions beside a Gaussian, and how even the density of lattices is, [HH01]; 2 s
 //
 // What the weight functions look like and how well they interpolate: exercises 2 and 3 of [HH01].
 //
@@ -173,7 +173,7 @@ std::vector<Table> tabulate_all(const Parameters& p, const std::vector<double>& 
     return {tabulate(line(), p, h), tabulate(square(), p, h), tabulate(triangular(), p, h)};
 }
 
-/// What an independent program found, six digits.
+/// Six digits; tests/problem/lattice_sums.cpp finds them on a grid of points.
 struct Known {
     std::string lattice, law;
     double h, least, largest;
@@ -196,7 +196,7 @@ Check claim(const Table& table, const std::string& law, double h, bool least, do
         if (one.lattice == table.lattice && one.law == law && std::abs(one.h - h) < 1e-12) {
             item.expected = least ? one.least : one.largest;
             item.tolerance = 1e-6;
-            item.source = "[HH01] exercise 3, computed before";
+            item.source = "[HH01] exercise 3, sums on a grid of points";
         }
     if (table.lattice == "line" && law == "monaghan" && std::fmod(h, 2.0) == 0.0) {
         item.expected = 1.0;
@@ -281,9 +281,9 @@ int main(int argc, char** argv) {
                     "weight functions and the evenness of lattices, [HH01] exercises 2, 3");
     Parameters p;
     auto& options = problem.options();
-    options.number("smallest-range", p.smallest, "the first range h", between(1.1, 20.0));
-    options.number("largest-range", p.largest, "the last range h", between(1.1, 20.0));
-    options.integer("ranges", p.ranges, "how many, at equal distances", between(1, 40));
+    options.number("smallest-range", p.smallest, "smallest range h", between(1.1, 20.0));
+    options.number("largest-range", p.largest, "largest range h", between(1.1, 20.0));
+    options.integer("ranges", p.ranges, "number of ranges, equally spaced", between(1, 40));
     options.integer("family", p.family, "n of the third weight function, w_n", between(2, 8));
 
     return problem.main(argc, argv, [&](Session& session) {

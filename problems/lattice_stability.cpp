@@ -66,7 +66,8 @@ void analyse_one(Session& session, const Options& options, Parameters& p) {
     if (session.plots()) draw_spectra(session, p, one, *p.range);
 }
 
-/// What is known of 144 particles of the triangular lattice, computed before.
+/// [HH07] 8 of 144 particles of the triangular lattice: whether it melts. Free flight would take them 6
+/// spacings far in this time.
 void check_motion(Session& session, const Parameters& p, const std::vector<Sample>& samples,
                   const std::vector<RunRecord>& runs) {
     for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -79,13 +80,13 @@ void check_motion(Session& session, const Parameters& p, const std::vector<Sampl
                               h.last("t") == 600.0;
         Check rms{prefix + "rms_displacement", h.last("rms_displacement"), {}, 0.0, "measured"};
         if (standard && acting == Acting::density) {
-            rms.expected = 3.5;  // above 1.5; free flight would be 6
+            rms.expected = 3.5;
             rms.tolerance = 2.0;
-            rms.source = "melts: above 1.5, computed before";
+            rms.source = "[HH07] 8: melts; above 1.5 spacings";
         } else if (standard && acting == Acting::both) {
             rms.expected = 0.0;
             rms.tolerance = 0.15;
-            rms.source = "is held: below .15, computed before";
+            rms.source = "[HH07] 8: is held; below 0.15 spacings";
         }
         session.check(rms);
         session.check_promises(runs[k], prefix);
@@ -157,23 +158,28 @@ int main(int argc, char** argv) {
     options.choice<Acting>("potential", p.acting, all_potentials,
                            "analyse one lattice only, under e(rho) alone (density), with the "
                            "curvature or the gradient potential, or with both");
-    options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function (w5)");
+    options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range,
-                   "its range h, in spacings (four of them, 3.25 in motion; with --potential 2.5)",
+                   "range h of the weight function, in spacings (default: 2.5, 3, 3.25 and 3.5 for "
+                   "the table, 3.25 for the motion, 2.5 with --potential)",
                    between(1.05, 50.0));
     options.number("strength", p.strength, "s_c of the curvature potential", positive());
     options.number("surface-tension", p.surface_tension, "s_g of the gradient potential",
                    positive());
-    options.number("misfit", p.misfit, "rest density over what particles sum to at a site",
+    options.number("misfit", p.misfit,
+                   "rest density of the law, divided by the density at a site of the lattice",
                    between(0.5, 2.0));
-    options.integer("cells", p.cells, "the lattice at rest is cells x cells particles, even",
+    options.integer("cells", p.cells,
+                    "the lattice at rest has cells x cells particles (an even number)",
                     {[](double n) { return n >= 4.0 && n <= 24.0 && std::fmod(n, 2.0) == 0.0; },
                      "an even number between 4 and 24 (a matrix of 2 cells x cells squared)"});
-    options.integer("block", p.block, "the one in motion is block x block particles, even",
+    options.integer("block", p.block,
+                    "the moving lattice has block x block particles (an even number)",
                     {[](double n) { return n >= 4.0 && n <= 400.0 && std::fmod(n, 2.0) == 0.0; },
                      "an even number between 4 and 400"});
-    options.number("speed", p.speed, "rms of the random velocities", positive());
-    options.integer("seed", p.seed, "of the random velocities", between(0.0, 1e9));
+    options.number("speed", p.speed, "root mean square of the random initial velocities",
+                   positive());
+    options.integer("seed", p.seed, "seed of the random initial velocities", between(0.0, 1e9));
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.given("potential")) return analyse_one(session, options, p);

@@ -307,9 +307,9 @@ int main(int argc, char** argv) {
                                  "displacements across or along the wave vector");
     options.integer("cells", p.cells, "cells x cells particles (an even number)", between(4, 400));
     options.number("amplitude", p.amplitude, "largest displacement", between(1e-9, 2.0));
-    options.number("block", p.block, "side d of the blocks whose turning is measured",
+    options.number("block", p.block, "side d of the blocks whose rotation is measured",
                    at_least(2.0));
-    options.flag("compare-sizes", p.compare_sizes, "three sizes, order of the error");
+    options.flag("compare-sizes", p.compare_sizes, "find the order of the error from three sizes");
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {

@@ -175,17 +175,20 @@ int main(int argc, char** argv) {
     Problem problem("relaxation", "a mesh for an irregular shape by viscous relaxation, [HH07] 7");
     Parameters p;
     auto& options = problem.options();
-    options.integer("particles", p.particles, "how many fill the shape", between(20, 1e6));
-    options.integer("lobes", p.lobes, "of r = 1 + depth (cos(lobes a) + sin(2a)/2)",
+    options.integer("particles", p.particles, "number of particles that fill the shape",
+                    between(20, 1e6));
+    options.integer("lobes", p.lobes,
+                    "number of lobes of the shape, r = 1 + depth (cos(lobes a) + sin(2a)/2)",
                     between(1, 50));
-    options.number("depth", p.depth, "how far that curve is from a circle", between(0.0, 0.6));
-    options.text("outline", p.outline, "a file of corners, x,y a line, in place of that curve");
-    options.choice<Start>("start", p.start, {Start::random, Start::lattice},
-                          "particles begin anywhere, or on a triangular lattice cut at the border");
-    options.number("range", p.range, "of the repulsion, in sqrt(area of a particle)",
+    options.number("depth", p.depth, "depth of the lobes; 0 gives a circle", between(0.0, 0.6));
+    options.text("outline", p.outline, "file with the corners of another shape, one x,y per line");
+    options.choice<Start>(
+        "start", p.start, {Start::random, Start::lattice},
+        "particles start at random places, or on a triangular lattice cut at the border");
+    options.number("range", p.range, "range of the repulsion, in units of sqrt(area of a particle)",
                    between(1.1, 20.0));
     options.number("damping", p.damping, "gamma of the friction -gamma v", positive());
-    options.integer("seed", p.seed, "of the places at the start", between(0.0, 1e9));
+    options.integer("seed", p.seed, "seed of the random initial places", between(0.0, 1e9));
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.given("outline")) {

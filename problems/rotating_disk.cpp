@@ -293,8 +293,9 @@ int main(int argc, char** argv) {
                           "a disk, or a hexagon with its corners at the radius");
     options.number("radius", p.radius, "distance of the outermost particles from the centre",
                    between(6, 1000));
-    options.number("speed", p.speed, "speed at that distance", positive());
-    options.number("damping", p.damping, "friction of what is not rigid motion (3 c_L/radius)",
+    options.number("speed", p.speed, "speed at the radius", positive());
+    options.number("damping", p.damping,
+                   "rate of the friction on motion that is not rigid (default 3 c_L/radius)",
                    non_negative());
     options.choice<Which>("model", p.model, {Which::both, Which::md, Which::spam},
                           "smooth particles, molecular dynamics with springs, or both");

@@ -115,7 +115,7 @@ void refuse_contradictions(const Options& options, const Parameters& p) {
     if (p.md()) refuse(names, "--model md (springs between initial neighbours)");
 }
 
-// ---- what the paper and an independent prototype say of the standard case ----
+// ---- what is known of the standard case, from the paper and tests/drift/hexagon.cpp ----
 
 /// 217 particles, speed 0.1, Lucy with range 3, RK4 with dt <= 0.1; one turn and integrated density,
 /// or total Lagrangian and up to 100 turns.
@@ -218,11 +218,12 @@ int main(int argc, char** argv) {
                     "a rotating elastic hexagon of smooth particles, [HHM04] VI-VIII");
     Parameters p;
     auto& options = problem.options();
-    options.integer("size", p.size,
-                    "corners are n spacings from the centre: 1 + 3n + 3n^2 particles",
-                    between(1, 2000));
+    options.integer(
+        "size", p.size,
+        "n: the corners are n spacings from the centre, there are 1 + 3n + 3n^2 particles",
+        between(1, 2000));
     options.number("speed", p.speed, "speed of the corners", positive());
-    options.number("turns", p.turns, "nominal turns to run (1)", positive());
+    options.number("turns", p.turns, "number of nominal turns (default 1)", positive());
     options.choice<ModelKind>("model", p.model, {ModelKind::spam, ModelKind::md},
                               "smooth particles, or molecular dynamics with springs");
     options.number(
@@ -233,12 +234,13 @@ int main(int argc, char** argv) {
     problem.use_scheme();
     options.choice<Formulation>("formulation", p.formulation,
                                 {Formulation::updated, Formulation::total_lagrangian},
-                                "sums over present neighbours, or over initial ones");
+                                "sums over the present neighbours, or over the initial ones");
     options.number("penalty", p.penalty,
-                   "kappa against zero-energy modes, total_lagrangian only (0.1)", non_negative());
+                   "penalty kappa against zero-energy modes, total_lagrangian only (default 0.1)",
+                   non_negative());
 
     options.flag("torques", p.torques,
-                 "columns with the distribution of pair and particle torques, [HHM04] VIII");
+                 "add columns with the distribution of pair and particle torques, [HHM04] VIII");
 
     return problem.main(argc, argv, [&](Session& session) {
         options.command_line_wins({"t-end"}, {"turns"});

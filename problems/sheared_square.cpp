@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a sheared elastic square let go: it vibrates and does not turn, [HHM04] Fig. 2; 3 s
+// spam-list: a sheared elastic square is released: it vibrates and does not rotate, [HHM04] Fig. 2; 3 s
 //
 // The deformed unit square of [HHM04] V, Fig. 2.
 //
@@ -273,7 +273,7 @@ void draw_motion(Session& session, const Parameters& p, const RunRecord& run,
 
 int main(int argc, char** argv) {
     Problem problem("sheared_square",
-                    "a sheared elastic square vibrates and does not turn, [HHM04] Fig. 2");
+                    "a sheared elastic square vibrates and does not rotate, [HHM04] Fig. 2");
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "particles along a side", between(6, 2000));

@@ -243,9 +243,8 @@ int main(int argc, char** argv) {
         const Box<2> box = triangular_box(p.cells, p.cells);
         if (session.given("closest-approach"))
             throw InputError(
-                "closest-approach: a linear analysis of a lattice at rest knows no events; leave "
-                "it "
-                "out");
+                "closest-approach: has no effect in a linear analysis, where nothing is reflected; "
+                "leave it out");
         if (session.given("mean-density"))
             throw InputError(
                 "mean-density: both means are the same to first order about a lattice of equal "

@@ -206,8 +206,8 @@ void refuse_contradictions(const Session& session, const Parameters& p) {
                         p.core_range, spacing, std::ceil(10.0 * spacing) * 0.001));
     if (!(p.side > 2.0 * p.range))
         throw InputError(
-            fmt::format("side: {:g} is too short for --range {:g}: no particle may see another one "
-                        "twice; give more than {:g}, or a shorter --range",
+            fmt::format("side: {:g} is too short for --range {:g}: no pair may interact twice "
+                        "through the periodic border; give more than {:g}, or a shorter --range",
                         p.side, p.range, 2.0 * p.range));
 }
 
@@ -218,14 +218,17 @@ int main(int argc, char** argv) {
                     "strings of an embedded-atom fluid and their cure by cores, [HH07] 8");
     Parameters p;
     auto& options = problem.options();
-    options.integer("particles", p.particles, "at random places in the box", between(2, 1000000));
-    options.number("side", p.side, "of the periodic box", positive());
-    options.integer("seed", p.seed, "of the random places", between(0, 1000000000));
+    options.integer("particles", p.particles, "number of particles, at random places in the box",
+                    between(2, 1000000));
+    options.number("side", p.side, "side of the periodic box", positive());
+    options.integer("seed", p.seed, "seed of the random places", between(0, 1000000000));
     options.number("rho0", p.rho0, "density at which the fluid has no pressure", positive());
-    options.number("core", p.core, "energy of a core, 0 for none (both: 0 and 0.1)",
-                   non_negative());
+    options.number(
+        "core", p.core,
+        "energy of the core that keeps two particles apart; 0 for none (default: both 0 and 0.1)",
+        non_negative());
     options.number("core-range", p.core_range, "distance at which cores touch", positive());
-    options.number("damping", p.damping, "rate of the friction", positive());
+    options.number("damping", p.damping, "rate of the friction, gamma", positive());
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: one particle disturbs a stretched lattice: tensile instability, [HHM04] Fig. 1; 6 s
+// spam-list: tensile instability of a stretched lattice, disturbed by one particle, [HHM04] Fig. 1; 6 s
 //
 // Tensile instability, [HHM04] IV and Fig. 1.
 //
@@ -274,7 +274,7 @@ int main(int argc, char** argv) {
                    between(-1.0, 1.0));
     options.integer("cells", p.cells, "cells x cells particles (an even number)", between(2, 400));
     options.number(
-        "speed", p.speed, "speed of the one particle at the start",
+        "speed", p.speed, "initial speed of the one moving particle",
         {[](double v) { return v >= 1e-12; }, "at least 1e-12 (round-off gives the others 1e-15)"});
     problem.use_scheme();
 

@@ -19,7 +19,8 @@ double mean_between(const History& h, const char* column, double from, double un
     return rows > 0 ? sum / rows : values.back();
 }
 
-/// A number an independent program found, times in those the sound takes along the gas.
+/// A recorded value, at a time in units of what the sound takes along the gas. The paper gives curves
+/// only.
 struct Known {
     const char* column;
     double time, value, tolerance;
@@ -71,13 +72,13 @@ struct Plateau {
 std::vector<Plateau> plateaus(const Gas<2>& gas, bool standard, double range) {
     std::vector<Plateau> all{{"entropy_sum"}, {"entropy_grid"}, {"entropy_full_v2"}};
     if (!standard || range != 6.0) return all;
-    const char* source = "[HH01] Fig. 3: nearly N k ln 4; an independent program";
+    const char* source = "[HH01] Fig. 3: nearly N k ln 4; recorded value";
     const char* alike = "[HH01] Fig. 3: smaller systems alike";
     if (gas.cells == 128) {
         all[0] = {"entropy_sum", 0.845, 0.02, source};
         all[1] = {"entropy_grid", 0.88, 0.02, source};
     } else if (gas.cells == 10) {
-        all[0] = {"entropy_sum", 0.65, 0.05, "[HH01] exercise 4; an independent program"};
+        all[0] = {"entropy_sum", 0.65, 0.05, "[HH01] exercise 4; recorded value"};
     } else if (gas.cells >= 32 && gas.cells < 128) {
         all[0] = {"entropy_sum", 0.87, 0.05, alike};
         all[1] = {"entropy_grid", 0.88, 0.05, alike};
@@ -87,7 +88,7 @@ std::vector<Plateau> plateaus(const Gas<2>& gas, bool standard, double range) {
 
 std::vector<Plateau> plateaus(const Gas<1>& gas, bool standard, double range) {
     std::vector<Plateau> all{{"entropy_sum"}, {"entropy_grid"}, {"entropy_full_v2"}};
-    const char* source = "[HH01] exercise 1; an independent program";
+    const char* source = "[HH01] exercise 1; recorded value";
     if (standard && range == 6.0 && gas.cells == 1000) all[0] = {"entropy_sum", 0.49, 0.02, source};
     if (standard && range == 40.0 && gas.cells == 2000)
         all[0] = {"entropy_sum", 0.90, 0.03, source};
@@ -139,13 +140,13 @@ void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const Run
         Dim == 1 && standard && plateau && p.range == 40.0 && gas.cells == 2000
             ? 0.95
             : std::optional<double>{},
-        0.02, "[HH01] exercise 1; an independent program");
+        0.02, "[HH01] exercise 1; recorded value");
     if (Dim == 2 && standard && p.range == 6.0 && gas.cells == 128)
         for (const Known& one : known_16384)
             if (one.time * n <= end)
                 say(fmt::format("{}_at_{:g}", one.column, one.time * n),
                     h.at(one.time * n, one.column), one.value, one.tolerance,
-                    "[HH01] Fig. 3; an independent program");
+                    "[HH01] Fig. 3; recorded value");
 }
 
 template void check(Session&, const Parameters&, const Gas<1>&, const RunRecord&);

@@ -94,7 +94,7 @@ void draw_displacements(Session& session, const std::vector<Sample>& samples,
         kinetic.curves.push_back({.title = title, .x = h.column("t"), .y = share, .style = style});
     }
     session.note_drawn(draw_curves(session.plots_folder(), "displacements",
-                                   "A lattice that melts, and what holds it",
+                                   "A lattice that melts, and potentials that hold it",
                                    {displacement, kinetic}));
 }
 

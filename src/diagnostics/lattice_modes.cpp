@@ -30,8 +30,8 @@ void require_wide_box(const SmoothParticleModel<Dim>& model) {
         if (!model.box().periodic(a)) refuse("the box must be periodic in every direction");
         if (!(model.box().length(a) > 2.0 * reach))
             refuse(
-                fmt::format("a periodic length of {:g} must be above {:g}, twice the distance "
-                            "over which particles feel each other; use more cells",
+                fmt::format("a periodic length of {:g} must be above {:g}, twice the distance over "
+                            "which particles interact; use more cells",
                             model.box().length(a), 2.0 * reach));
     }
 }

@@ -63,9 +63,7 @@ void require_relaxation(const IntegratorOptions& options) {
             fmt::format("{} cannot rescale its steps, only arkode:<table> can; leave it out, or "
                         "use --integrator arkode:VERNER_8_5_6",
                         method));
-    if (options.dt)
-        refuse(
-            "a rescaled step ends beside the grid of fixed ones; leave --relaxation or --dt out");
+    if (options.dt) refuse("fixed steps cannot be rescaled; leave --relaxation or --dt out");
     if (known.order < 2 || !known.adaptive)
         refuse(fmt::format("{} {}; use arkode:VERNER_8_5_6", method,
                            known.order < 2

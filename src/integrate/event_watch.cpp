@@ -129,8 +129,7 @@ void EventWatch::count(double t, std::size_t entries, const std::string& name) {
     }
     if (++in_long_window_ > std::max(most_in_long_window, 2 * entries))
         throw GuardStop(
-            fmt::format("{}: {} events within {:g} steps at t = {:.6g}; what rests at the surface "
-                        "would be stopped again and again",
+            fmt::format("{}: {} events within {:g} steps at t = {:.6g}; they repeat without end",
                         name, in_long_window_, long_window, t));
     if (at_last_t_ >= most_at_once)
         throw GuardStop(fmt::format("{}: {} events in a row at t = {:.6g}: time does not go on",

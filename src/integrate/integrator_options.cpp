@@ -22,9 +22,10 @@ void require_positive(const std::string& option, double value, const char* fix) 
 void validate_steps(const IntegratorOptions& options, const IntegrationMethod& method) {
     if (options.dt) require_positive("dt", *options.dt, "give a positive time step");
     if (!method.fixed && options.dt)
-        throw InputError(fmt::format(
-            "dt: {} lives on changing its order and its step by the tolerances; leave --dt out",
-            method.name));
+        throw InputError(
+            fmt::format("dt: {} chooses its order and its steps by the tolerances and has no fixed "
+                        "step; leave --dt out",
+                        method.name));
     if (!method.adaptive && !options.dt)
         throw InputError(
             method.name.starts_with("arkode:")

@@ -46,10 +46,10 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
     require_fields(options, ode);
     const IntegrationMethod& method = integration_method(options.method);
     if (method.multistep && !ode.events.empty())
-        throw InputError(fmt::format(
-            "integrator: {} goes on from earlier steps and cannot end one at {}, after which none "
-            "of them counts; use rk4 or arkode:DORMAND_PRINCE_7_4_5",
-            method.name, ode.events.front().name));
+        throw InputError(
+            fmt::format("integrator: {} builds on earlier steps and cannot end one at {}, which "
+                        "makes them invalid; use rk4 or arkode:DORMAND_PRINCE_7_4_5",
+                        method.name, ode.events.front().name));
     if (options.relaxation) require_energy(ode);
     IntegratorOptions resolved = options;
     resolved.method = method.name;

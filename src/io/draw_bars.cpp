@@ -28,7 +28,7 @@ std::string text_of(const Bar& bar) {
 
 /// The share of the frame's width that a bar's text takes.
 double text_share(const Bar& bar) {
-    return std::min(0.6, (8.2 * static_cast<double>(text_of(bar).size()) + 20.0) / frame_width);
+    return std::min(0.6, (9.4 * static_cast<double>(text_of(bar).size()) + 20.0) / frame_width);
 }
 
 /// From zero (from the decade below the smallest, if logarithmic), with room for the texts.

@@ -133,7 +133,7 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     SessionMemory memory;
     memory.version = file.text("/version");
     if (release(memory.version) != release(version()))
-        throw InputError(fmt::format("'{}' was written by spam {}, this is {}; go on with that one",
+        throw InputError(fmt::format("'{}' was written by spam {}, this is {}; use that version",
                                      path.string(), memory.version, version()));
     memory.instruction_set = file.text("/instruction_set");
     memory.problem = file.text("/problem");

@@ -56,10 +56,11 @@ IntegratorOptions options_of_cost(const Trial<Dim>& trial, const StudyMethod& me
 
 void DriftStudy::add_options(Options& options) {
     jobs_ = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    options.text("methods", methods_, "names as --integrator takes them, separated by commas");
+    options.text("methods", methods_,
+                 "methods to compare: names as for --integrator, separated by commas");
     options.number("calls-per-time", calls_per_time_, "right-hand sides per unit of time",
                    between(1e-3, 1e6));
-    options.integer("jobs", jobs_, "runs computed at a time", between(1, 1024));
+    options.integer("jobs", jobs_, "number of runs computed at the same time", between(1, 1024));
     options.exclude_from_case({"jobs"});
 }
 

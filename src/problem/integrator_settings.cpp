@@ -44,31 +44,38 @@ const std::vector<std::string>& IntegratorSettings::names() {
 void IntegratorSettings::add_to(Options& options) {
     options.group("Integrator");
     options.text("integrator", method_,
-                 "rk4, leapfrog, arkode:<SUNDIALS table>, cvode:adams, gsl:<stepper>: adaptive "
-                 "where they can be, fixed with --dt");
-    options.number("dt", dt_, fmt::format("fixed time step (rk4: {})", default_dt_), positive());
-    options.number("rtol", rtol_, "relative tolerance of adaptive steps (1e-8)", positive());
-    options.number("atol", atol_, "absolute tolerance, times each field's scale (1e-10)",
+                 "method: rk4, leapfrog, arkode:<SUNDIALS table>, cvode:adams or gsl:<stepper>; "
+                 "steps are adaptive where the method allows it, and fixed with --dt");
+    options.number("dt", dt_, fmt::format("fixed time step (default of rk4: {})", default_dt_),
                    positive());
+    options.number("rtol", rtol_, "relative tolerance of adaptive steps (default 1e-8)",
+                   positive());
+    options.number(
+        "atol", atol_,
+        "absolute tolerance of adaptive steps, in units of each field's scale (default 1e-10)",
+        positive());
     for (const Field field : fields)
         options.number(
             tolerance_of(field), field_atol_[static_cast<std::size_t>(field)],
-            fmt::format("absolute tolerance of the {}, in place of --atol times its scale",
+            fmt::format("absolute tolerance of the {}, instead of --atol times its scale",
                         field_name(field)),
             positive());
     options.text("controller", controller_,
-                 fmt::format("how arkode: chooses its next step: {} (pid)",
+                 fmt::format("step-size controller of ARKODE: {} (default pid)",
                              fmt::join(arkode_controllers(), ", ")));
-    options.number("safety", safety_, "arkode: part of the step that would just do (0.96)",
-                   positive());
-    options.number("min-step", min_step_, "adaptive steps below this stop the run (1e-12)",
-                   positive());
-    options.number("max-step", max_step_, "longest adaptive step", positive());
+    options.number("safety", safety_,
+                   "safety factor of ARKODE's step-size controller (default 0.96)", positive());
+    options.number(
+        "min-step", min_step_,
+        "smallest adaptive step; the run stops where it would need a smaller one (default 1e-12)",
+        positive());
+    options.number("max-step", max_step_, "largest adaptive step", positive());
     options.number("initial-step", initial_step_, "first adaptive step", positive());
     options.flag("relaxation", relaxation_,
-                 "arkode: rescale every adaptive step so that the energy is kept to round-off "
-                 "(SUNDIALS 6.6 or later)");
-    options.integer("max-steps", max_steps_, "a run of more steps is stopped",
+                 "rescale every adaptive step of ARKODE so that the energy is conserved to "
+                 "round-off (SUNDIALS 6.6 or later)");
+    options.integer("max-steps", max_steps_,
+                    "largest number of steps; a run that needs more is stopped",
                     between(1, 2'000'000'000));
 }
 
@@ -89,8 +96,8 @@ void IntegratorSettings::refuse_idle(const Options& options, const std::string& 
     const std::string control = options.first_given({"controller", "safety"});
     if (!control.empty() && !method.starts_with("arkode:"))
         throw InputError(
-            fmt::format("{}: {} has a step control of its own, only arkode:<table> leaves a "
-                        "choice; leave it out",
+            fmt::format("{}: {} has its own step-size control, the option is for arkode:<table> "
+                        "only; leave it out",
                         control, method));
 }
 

@@ -35,24 +35,24 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
     options_.group("Running");
     options_.text("out", common_.out, "result folder");
     options_.flag("force", common_.force, "move an existing result folder aside");
-    options_.flag("dry-run", common_.dry_run, "describe the case, compute and write nothing");
-    options_.flag("smoke", common_.smoke, "a version that takes seconds");
-    options_.flag("quiet", common_.quiet, "print nothing but errors");
-    options_.flag("no-plots", common_.no_plots, "leave out the pictures");
+    options_.flag("dry-run", common_.dry_run, "describe the case; compute and write nothing");
+    options_.flag("smoke", common_.smoke, "run a short version that takes seconds");
+    options_.flag("quiet", common_.quiet, "print errors only");
+    options_.flag("no-plots", common_.no_plots, "draw no pictures");
     options_.integer("threads", common_.threads, "threads for the sums over particles",
                      between(1, 1024));
     options_.number("t-end", common_.t_end, "time at which the run ends", positive());
-    options_.number("output-every", common_.output_every, "interval between rows of invariants.csv",
+    options_.number("output-every", common_.output_every, "time between rows of invariants.csv",
                     positive());
-    options_.number("snapshot-every", common_.snapshot_every, "interval between .vtp snapshots",
+    options_.number("snapshot-every", common_.snapshot_every, "time between snapshots (.vtp)",
                     positive());
-    options_.number(
-        "checkpoint-every", common_.checkpoint_every,
-        "interval between checkpoint_0.h5 and _1.h5, in turn; one is always left at the "
-        "end",
-        positive());
+    options_.number("checkpoint-every", common_.checkpoint_every,
+                    "time between checkpoints, written to checkpoint_0.h5 and checkpoint_1.h5 in "
+                    "turn; one is always written at the end",
+                    positive());
     options_.text("restart", common_.restart,
-                  "checkpoint to go on from, with its case; a result folder: its newest");
+                  "continue from a checkpoint file with its case, or from the last scheduled "
+                  "checkpoint of a result folder");
     options_.exclude_from_case(
         {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
     options_.case_from(
@@ -72,8 +72,10 @@ void Problem::add_guard_options() {
                                  {DriftAction::off, DriftAction::warn, DriftAction::stop},
                                  "what to do when an invariant changes by more than its limit");
     const auto limit = [&](const char* name, std::optional<double>& target) {
-        options_.number(std::string("limit-") + name, target,
-                        "relative change at which it acts (what the scheme promises)", positive());
+        options_.number(
+            std::string("limit-") + name, target,
+            "largest relative change before the guard reacts (default: the scheme's bound)",
+            positive());
     };
     limit("mass", guard.mass);
     limit("momentum", guard.momentum);
@@ -113,28 +115,32 @@ void Problem::use_scheme(const Scheme& standard) {
     options_.group("Scheme");
     options_.choice<Density>("density", scheme_.density,
                              {Density::continuity, Density::summed, Density::chain_rule},
-                             "how density is found");
-    options_.choice<Transport>("transport", scheme_.transport,
-                               {Transport::plain, Transport::average, Transport::monaghan},
-                               "velocity that moves the particles: v, <v>, <v>_Monaghan");
+                             "how the density is computed: by the continuity equation, as a sum "
+                             "over neighbours, or by the chain rule with the transport velocity");
+    options_.choice<Transport>(
+        "transport", scheme_.transport, {Transport::plain, Transport::average, Transport::monaghan},
+        "velocity that moves the particles: v, the average <v>, or Monaghan's average");
     options_.choice<MeanDensityKind>("mean-density", scheme_.mean_density,
                                      {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
-                                     "rho_ij of a pair");
+                                     "mean density rho_ij of a pair");
     options_.choice<AngularMomentum>(
         "angular-momentum", scheme_.angular_momentum,
         {AngularMomentum::free, AngularMomentum::gauss, AngularMomentum::torque_particle,
          AngularMomentum::torque_pair},
-        "leave it free, constrain it by Gauss' principle, or balance "
-        "torques of particles or pairs");
-    options_.choice<Balance>("balance", scheme_.balance, {Balance::body, Balance::global},
-                             "what keeps its angular momentum: every body, or all together");
-    options_.choice<GaussSingular>("gauss-singular", scheme_.gauss_singular,
-                                   {GaussSingular::skip, GaussSingular::stop},
-                                   "where Gauss' denominator vanishes: go on without, or stop");
-    options_.number("viscosity", scheme_.viscosity, "alpha of von Neumann's viscosity; 0: none",
+        "what is done about the angular momentum: nothing, Gauss' principle, or balanced torques "
+        "of particles or pairs");
+    options_.choice<Balance>(
+        "balance", scheme_.balance, {Balance::body, Balance::global},
+        "what conserves its angular momentum: every body by itself, or all bodies together");
+    options_.choice<GaussSingular>(
+        "gauss-singular", scheme_.gauss_singular, {GaussSingular::skip, GaussSingular::stop},
+        "where Gauss' denominator vanishes: continue without the constraint, or stop");
+    options_.number("viscosity", scheme_.viscosity,
+                    "coefficient alpha of von Neumann's artificial viscosity; 0 for none",
                     non_negative());
     options_.number("closest-approach", scheme_.closest_approach,
-                    "distance at which approaching pairs are reflected; 0: none", non_negative());
+                    "distance at which approaching pairs are reflected; 0 for no reflection",
+                    non_negative());
     options_.group("Problem");
 }
 

@@ -96,7 +96,8 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
         {plan.t_end, plan.output_every, plan.snapshot_every, plan.checkpoint_every});
     plan.guard = common.guard;
     if (Dim == 1 && common.guard.angular_momentum)
-        throw InputError("limit-angular-momentum: nothing turns in one dimension; leave it out");
+        throw InputError(
+            "limit-angular-momentum: there is no angular momentum in one dimension; leave it out");
 }
 
 /// What balances every body or all together: the same where there is one body, and always will be.
@@ -105,7 +106,7 @@ void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
     for (const auto& one : cases)
         if (one.model.particles().bodies() > 1 || one.plan.revise) return;
     if (given("balance"))
-        throw InputError("balance: each body or all of them are the same for one; leave it out");
+        throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
 }
 
@@ -117,8 +118,8 @@ void Session::refuse_unstable(const Case<Dim>& one) const {
     if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
     const auto name = problem_.options_.first_given({"damping", "viscosity", "conductivity"});
     throw InputError(fmt::format(
-        "dt: damping ({}) takes fast motion away at a rate of about {:.3g}, which rk4 follows with "
-        "steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
+        "dt: damping ({}) acts on fast motion at a rate of about {:.3g}, for which rk4 is stable "
+        "with steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
         name.empty() ? "of the model" : "--" + name, rate, limit / rate, *integrator_.dt));
 }
 

@@ -73,7 +73,7 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
             fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
     leave_out_of_case(of_runs);
     if (given("balance"))
-        throw InputError("balance: each body or all of them are the same for one; leave it out");
+        throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
     begin(description, nullptr);
     return statistics_.back();

@@ -110,7 +110,7 @@ std::vector<std::string> methods_of_every_kind() {
 void add_system_option(Options& options, std::vector<std::string> names, std::string& chosen) {
     names.insert(names.begin(), "all");
     options.choice(
-        "problem", names, "which system, or all of them",
+        "problem", names, "the system to study, or all of them",
         [&chosen, names](std::size_t k) { chosen = names[k]; },
         [&chosen, names] {
             return static_cast<std::size_t>(std::find(names.begin(), names.end(), chosen) -

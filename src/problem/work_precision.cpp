@@ -173,13 +173,19 @@ std::string_view to_string(StepKind kind) {
 
 void WorkPrecision::add_options(Options& options) {
     jobs_ = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    options.text("methods", methods_, "names as --integrator takes them, separated by commas");
-    options.choice<StepKind>("steps", steps_, {StepKind::both, StepKind::fixed, StepKind::adaptive},
-                             "which steps each method takes");
-    options.integer("calls", calls_, "right-hand sides of a run, at most", between(500, 1e8));
-    options.number("tightest", tightest_, "tolerance of adaptive steps", between(1e-14, 1e-2));
-    options.integer("jobs", jobs_, "runs computed at a time; 1 for undisturbed seconds",
-                    between(1, 1024));
+    options.text("methods", methods_,
+                 "methods to compare: names as for --integrator, separated by commas");
+    options.choice<StepKind>(
+        "steps", steps_, {StepKind::both, StepKind::fixed, StepKind::adaptive},
+        "whether the methods take fixed steps, adaptive steps, or both in turn");
+    options.integer("calls", calls_, "largest number of right-hand sides of a run",
+                    between(500, 1e8));
+    options.number("tightest", tightest_, "tightest tolerance of adaptive steps",
+                   between(1e-14, 1e-2));
+    options.integer(
+        "jobs", jobs_,
+        "number of runs computed at the same time; 1 where seconds are to be undisturbed",
+        between(1, 1024));
     options.exclude_from_case({"jobs"});
 }
 

@@ -34,15 +34,13 @@ void check(const Fluid& fluid, const FluidScheme& scheme, int dim) {
             "fluid move with their own; use --density summed or continuity");
     if (fluid.conduction && !fluid.state.thermal)
         throw InputError(
-            fmt::format("conduction: heat flows down a temperature, and the law ({}) has none; use "
-                        "an ideal gas or van der Waals, or leave the conductivity out",
+            fmt::format("conduction: needs a temperature, and the law ({}) has none; use an ideal "
+                        "gas or van der Waals, or leave the conductivity out",
                         fluid.state.describe()));
     const auto refuse_negative = [](const char* name, double value) {
         if (!(value >= 0.0) || !std::isfinite(value))
-            throw InputError(
-                fmt::format("{}: {:g} must be 0 or positive, or the fluid would make order out of "
-                            "heat",
-                            name, value));
+            throw InputError(fmt::format(
+                "{}: {:g} must be 0 or positive, or entropy would decrease", name, value));
     };
     if (fluid.viscosity) {
         refuse_negative("shear viscosity", fluid.viscosity->eta);

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(particle_torques_keep_the_angular_momentum) {
         BOOST_TEST_REQUIRE(run.complete);
         const History& h = run.history;
         BOOST_TEST(h.largest_change("angular_momentum") / h.first("angular_momentum") < 1e-9);
-        // physics.md 4: it jumps where a torque changes sign, and RK4 pays for that.
+        // Its factors jump where a torque changes sign, and RK4 is of order one there.
         const double dE = h.largest_change("energy") / h.first("energy");
         BOOST_TEST(dE < 2e-5);
         BOOST_TEST(dE > 1e-9);

@@ -256,7 +256,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_rescaled_is_refused) {
     BOOST_TEST(why_refused(verner) == "");
     auto fixed = verner;
     fixed.dt = 0.1;
-    says(fixed, "beside the grid");
+    says(fixed, "cannot be rescaled");
     says(relaxed("arkode:DORMAND_PRINCE_7_4_5"), "negative weight");
     says(relaxed("arkode:KNOTH_WOLKE_3_3"), "cannot choose its steps");
     for (const IntegrationMethod& method : integration_methods())

@@ -20,7 +20,7 @@ function(extract language file)
   string(REGEX MATCHALL "\n" lines "${text}")
   list(LENGTH lines count)
   if(count GREATER_EQUAL 60)
-    message(FATAL_ERROR "the ${language} example has ${count} lines; the README promises fewer than 60")
+    message(FATAL_ERROR "the ${language} example has ${count} lines; fewer than 60 are allowed")
   endif()
 endfunction()
 

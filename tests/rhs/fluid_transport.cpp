@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(heat_through_a_frozen_lattice) {
     const Lattice lattice{24, Kernel::lucy, 3.0};
     const double k2 = lattice.k() * lattice.k(), kappa = 0.7;
     const double measured = conduction_rate(lattice, kappa) / (kappa * k2);
-    BOOST_TEST(std::abs(measured - 0.9398) < 5e-5);  // physics.md 8
+    BOOST_TEST(std::abs(measured - 0.9398) < 5e-5);  // c^2/rho_s^3 by hand
     BOOST_TEST(std::abs(measured - lattice.factor()) < 1e-9);
     for (const Kernel kernel : {Kernel::monaghan, Kernel::w5}) {
         const Lattice other{20, kernel, 3.3};

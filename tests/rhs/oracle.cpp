@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(other_weight_functions) {
 }
 
 BOOST_AUTO_TEST_CASE(summed_density_of_the_lattice) {
-    // physics.md 7: site sum of the triangular lattice, Lucy, h = 3.
+    // sum_R w(|R|) over the sites of the triangular lattice, Lucy, h = 3: 1.1550863, itself included.
     Scheme scheme{.density = Density::summed, .range = 3.0};
     SmoothParticleModel<2> model(make_particles<2>(triangular_hexagon(8), 1.0), solid, scheme);
     std::vector<double> y(model.layout().size(), 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The total-Lagrangian solid against loops over all pairs written straight from physics.md 12, and
+// The total-Lagrangian solid against loops over all pairs (support/lagrangian_oracle.hpp), and
 // what it keeps: its forces are the slope of an energy that knows neither origin nor axes. Each
 // property with a law that fails.
 #include "support/lagrangian_oracle.hpp"

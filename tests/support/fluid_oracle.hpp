@@ -18,7 +18,8 @@ enum class FluidMutation {
     wrong_mass        ///< the particle's own mass in place of its partner's
 };
 
-/// The rates of FluidModel by loops over all pairs, straight from physics.md 1, in numbers.
+/// The rates of FluidModel by loops over all pairs, straight from the formulas of FluidModel, in
+/// numbers.
 template <int Dim>
 std::vector<double> fluid_rates(const FluidModel<Dim>& model, std::span<const double> y,
                                 FluidMutation mutation = FluidMutation::none) {

@@ -21,8 +21,14 @@ enum class LagrangianMutation {
     small_strain      ///< E = (F + F^t)/2 - 1, which sees rotations as strain
 };
 
-/// The equations of physics.md 12 as loops over all pairs, with Eigen, sharing no sum, list, law or
-/// weight function with the library. Slow, simple, and the judge of TotalLagrangianModel.
+/// The total-Lagrangian equations as loops over all pairs, with Eigen, sharing no sum, list, law or
+/// weight function with the library. Slow, simple, and the judge of TotalLagrangianModel. With
+/// X_ij = X_i - X_j, W_ij = w(|X_ij|), V the reference volume, kappa the penalty:
+///     A_i = sum_j V_j (x_j - x_i) (x) grad_i W_ij,  K_i = A_i^-1 at the reference,  F_i = A_i K_i
+///     E_i = (F^t F - 1)/2,   P_i = F_i (lambda tr(E_i) 1 + 2 eta E_i)
+///     d_ij = x_ij - (F_i + F_j) X_ij/2,   k_ij = kappa lambda V_i V_j W_ij/|X_ij|^2
+///     M_i = sum_j k_ij d_ij (x) X_ij/2,   P_i -> P_i - M_i/V_i
+///     m v_dot_i = sum_j V_i V_j (P_i K_i^t + P_j K_j^t) . grad_i W_ij - sum_j k_ij d_ij
 template <int Dim>
 class LagrangianOracle final : public Model<Dim> {
     using V = Point<Dim>;

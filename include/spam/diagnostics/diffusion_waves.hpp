@@ -9,7 +9,7 @@ namespace spam {
 /// one) at the wave number k along an axis, exactly, for small amplitudes. A gradient sum makes a sine
 /// into a cosine, times k times the filter c/rho_s, and diffusion is two of them:
 ///     c = (1/k) sum_j (-w'(r)/r) x sin kx,      rho_s = sum_j w(r_j),
-///     heat      decays at  kappa k^2 factor/c_v,  factor = c^2/rho_s^3    (physics.md 8: frozen lattice)
+///     heat      decays at  kappa k^2 factor/c_v,  factor = c^2/rho_s^3    (particles held in place)
 ///     momentum  is damped at  gamma = eta k^2 factor   (a transverse wave)
 /// factor -> 1 as k -> 0 but for the lattice's rest; 1 - factor is of second order in h k. Sheared, a lattice
 /// under the pressure P is besides not quite a fluid: sums over w_xx, whose integral vanishes, leave

@@ -5,9 +5,9 @@
 
 namespace spam {
 
-/// A_i = sum_j V_j (x_j - x_i) (x) grad_i W_ij, physics.md 12. F_i = A_i K_i is the deformation
-/// gradient, exact where x is a linear function of X: K_i is the inverse of A_i in the reference
-/// configuration.
+/// A_i = sum_j V_j (x_j - x_i) (x) grad_i W_ij. F_i = A_i K_i is the deformation gradient, with K_i the
+/// inverse of A_i in the reference configuration. Exact where x = G X + c: then x_j - x_i is
+/// G (X_j - X_i), so that A_i = G K_i^-1 and F_i = G.
 template <int Dim>
 struct DeformationGradient {
     static constexpr bool light = true;  // sweep.hpp

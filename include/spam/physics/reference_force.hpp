@@ -5,9 +5,11 @@
 
 namespace spam {
 
-/// sum_j V_j (P_i K_i^t + P_j K_j^t) . grad_i W_ij, the force of the stresses for unit V_i, physics.md
-/// 12; P less the penalty's M/V (B of StressedRecord). Minus the derivative of sum V energy(F): the
-/// angular momentum is kept although the pair forces are not central.
+/// sum_j V_j (P_i K_i^t + P_j K_j^t) . grad_i W_ij, the force of the stresses for unit V_i; P less the
+/// penalty's M/V (B of StressedRecord). It is minus the derivative of U = sum V energy(F): with
+/// P = d energy/dF and F_i = sum_j V_j (x_j - x_i) (x) K_i grad_i W_ij, particle i enters F_i and, as
+/// x_i, every F_j; grad_j W_ij = -grad_i W_ij gives both terms the same sign. U does not change when
+/// the body is turned: the angular momentum is kept although the pair forces are not central.
 template <int Dim>
 struct ReferenceForce {
     static constexpr bool light = true;  // sweep.hpp

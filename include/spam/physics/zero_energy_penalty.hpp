@@ -9,7 +9,7 @@ namespace spam {
 ///     d_ji = x_ji - (F_i + F_j) X_ji / 2 = -d_ij   bit for bit,
 /// and its share of the spring constant k_ij = kappa lambda V_i V_j W_ij / |X_ij|^2, without the
 /// factor kappa lambda V_i. The modes that F cannot see are those with d but without strain.
-/// Physics.md 12; d turns with the body, so that the penalty energy is invariant under rotations.
+/// d turns with the body, so that the penalty energy is invariant under rotations.
 template <int Dim, class T>
 struct UnseenStretch {
     Vec<Dim, T> d_ji;

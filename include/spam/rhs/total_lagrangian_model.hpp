@@ -22,7 +22,7 @@ struct TotalLagrangianScheme {
     double penalty = 0.1;  ///< kappa, against zero-energy modes; 0 leaves them free
 };
 
-/// An elastic solid of smooth particles that remembers its reference configuration, physics.md 12: y =
+/// An elastic solid of smooth particles that remembers its reference configuration X: y =
 /// (x, v); neighbours and weights are those of particles().reference_position for good, stresses
 /// follow from the deformation gradient. All forces derive from one energy that rotations leave
 /// unchanged: p is kept exactly, E and in open space L to integrator error, and there is no tensile
