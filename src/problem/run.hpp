@@ -80,7 +80,8 @@ class Run {
     std::string ended_;  ///< by a guard, before a restart that only finishes it
 };
 
-/// The change that 'to integrator error' allows.
-double promise_limit(const IntegratorOptions& options);
+/// The change that 'to integrator error' allows. With fixed steps a method keeps its order only where
+/// rates are `smooth`.
+double promise_limit(const IntegratorOptions& options, bool smooth);
 
 }  // namespace spam
