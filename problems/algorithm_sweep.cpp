@@ -240,7 +240,8 @@ int main(int argc, char** argv) {
                        "[HHM04] VIII: exact, with averaged velocities"});
         session.check({"promises_kept", kept, {}, 0.0, "of the 72"});
         session.check({"whole_to_the_end", whole, {}, 0.0, "of the 72"});
-        session.check({"whole_but_L_lost", lost, {}, 0.0, "of the 72: they have almost stopped rotating"});
+        session.check(
+            {"whole_but_L_lost", lost, {}, 0.0, "of the 72: they have almost stopped rotating"});
         session.check({"turns_survived_best", best, {}, 0.0, "with at least half of L"});
         if (session.plots()) draw(session, p, rows);
     });
