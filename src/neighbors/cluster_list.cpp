@@ -48,7 +48,9 @@ void ClusterList<Dim>::find_direct() {
     if (!box_.periodic()) return;
     direct_.resize(boxes_.size());
     const Displacement<Dim> drift = displacement();
-    const double margin = reach() + skin_;
+    // Nobody has moved by more than half the skin beside this: who is in range is within range + skin/2
+    // of the bounds of then, and within reach().
+    const double margin = reach();
     parallel_for(
         boxes_.size(),
         [&](std::size_t c) {

@@ -8,6 +8,8 @@ namespace spam {
 
 template <int Dim>
 PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim>& box) {
+    // Clusters of one particle lie as well in one order as in another: slots are particle numbers, and
+    // entries, which are in ascending slot, ascend.
     ClusterList<Dim> clusters(reach, 0.0, box, 1);
     clusters.build(position);
     const auto order = clusters.order();
