@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/diagnostics/entropy.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -12,12 +13,14 @@ double entropy(double e_int, double rho) {
     return 0.5 * Dim * std::log(e_int) - std::log(rho);
 }
 
-/// e_int - e from sums of (1, e, v, v^2) over neighbours.
+/// e_int - e from sums of (1, e, v, v^2) over neighbours. <v^2> - <v>^2 >= 0; where a node sees one
+/// particle only the two are the same but for their rounding, which in a thin gas is more than e: its
+/// logarithm would not exist.
 template <int Dim>
 double heat_of_motion(const Eigen::Ref<const Eigen::VectorXd>& sum, Heat heat) {
     const double v2 = sum(2 + Dim) / sum(0);
     const double mean2 = (sum.segment<Dim>(2) / sum(0)).squaredNorm();
-    return 0.5 * (heat == Heat::all_motion ? v2 : v2 - mean2);
+    return 0.5 * (heat == Heat::all_motion ? v2 : std::max(0.0, v2 - mean2));
 }
 
 }  // namespace

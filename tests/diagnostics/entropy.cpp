@@ -193,3 +193,26 @@ BOOST_AUTO_TEST_CASE(empty_room_has_none) {
     // e/rho = 1/2 wherever there is gas: one number everywhere, and the grid holds all the mass.
     BOOST_TEST(std::abs(gas.on_grid(grid, Heat::fluctuation, energy_of) + std::log(2.0)) < 1e-3);
 }
+
+// A node that sees one particle alone: <v^2> - <v>^2 is rounding, of either sign, and where the gas is thin
+// more than e. Each of many such pairs of numbers must leave an entropy.
+BOOST_AUTO_TEST_CASE(a_particle_alone_has_no_fluctuation) {
+    const double side = 100.0, thin = 1e-20;
+    const Box<2> box({side, side});
+    Points<2> x = square_lattice<2>({20, 20});
+    x *= 5.0;  // farther apart than they see
+    x.array() += 0.5 * side;
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    Points<2> v = x;
+    for (double& c : v.reshaped()) c = u(random);
+    const std::vector<double> mass(400, 1.0), rho(400, Lucy<2>(2.0).value(0.0)), e(400, thin);
+    const GasEntropy<2> entropy(Lucy<2>{2.0}, mass, x, v, rho, e, box);
+    const auto grid = FieldGrid<2>::over(box, {150, 150});
+    const double s = entropy.on_grid(grid, Heat::fluctuation, [=](double) { return thin; });
+    // ln e and no more, up to what rounding may add to it
+    BOOST_TEST(std::isfinite(s));
+    BOOST_TEST(s > std::log(thin) - 1.0);
+    BOOST_TEST(s < std::log(1e-14));
+    BOOST_TEST(std::isfinite(entropy.of_particles(Heat::fluctuation)));
+}
