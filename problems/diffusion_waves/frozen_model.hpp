@@ -35,6 +35,10 @@ class FrozenModel final : public Model<2> {
     }
     Promises promises() const override { return fluid_->promises(); }
     std::string describe() const override { return fluid_->describe() + "; particles nailed down"; }
+    double neighbour_forces(std::span<const double> y) const override {
+        return fluid_->neighbour_forces(y);
+    }
+    bool smooth() const override { return fluid_->smooth(); }
     std::size_t pairs() const override { return fluid_->pairs(); }
     double reach() const override { return fluid_->reach(); }
     double fastest_damping() const override { return fluid_->fastest_damping(); }

@@ -113,6 +113,17 @@ Promises SideBySide::promises() const {
     return all;
 }
 
+double SideBySide::neighbour_forces(std::span<const double> y) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < parts_.size(); ++k) sum += parts_[k]->neighbour_forces(part(k, y));
+    return sum;
+}
+
+bool SideBySide::smooth() const {
+    return std::all_of(parts_.begin(), parts_.end(),
+                       [](const auto& part) { return part->smooth(); });
+}
+
 std::string SideBySide::describe() const {
     std::string words;
     for (const auto& part : parts_)

@@ -22,6 +22,8 @@ class SideBySide final : public Model<2> {
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override;
     std::string describe() const override;
+    double neighbour_forces(std::span<const double> y) const override;
+    bool smooth() const override;
     std::size_t pairs() const override;
     double reach() const override;
     void remember(Archive& archive) override;

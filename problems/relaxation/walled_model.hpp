@@ -63,6 +63,10 @@ class WalledModel final : public Model<2> {
     /// What the wall stands for included.
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override;
+    double neighbour_forces(std::span<const double> y) const override {
+        return inside_.neighbour_forces(y);
+    }
+    bool smooth() const override { return inside_.smooth(); }
     std::string describe() const override;
     std::size_t pairs() const override { return inside_.pairs(); }
     double reach() const override { return inside_.reach(); }

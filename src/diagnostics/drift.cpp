@@ -7,6 +7,9 @@
 namespace spam {
 namespace {
 
+/// What rounding may leave of forces that cancel: a few units in the last place.
+constexpr double rounding = 1e-15;
+
 /// Largest change of a quantity stored as `name` or as `name`_x, _y, _z.
 double largest_vector_change(const History& history, const std::string& name) {
     double change = 0.0;
@@ -19,35 +22,58 @@ double largest_vector_change(const History& history, const std::string& name) {
     return change;
 }
 
+/// `exchanged`: between neighbours during the run. A change of rounding * exchanged is at the limit.
+Drift drift_of(const char* name, Promise promise, double change, double size, double exchanged,
+               double integrator_limit) {
+    const double limit = allowed_change(promise, integrator_limit);
+    double scale = std::max(size, rounding / limit * exchanged);
+    if (!(scale > 0.0)) scale = 1.0;
+    return {name, promise, change == 0.0 ? 0.0 : change / scale, limit, scale};
+}
+
 }  // namespace
 
 double allowed_change(Promise promise, double integrator_limit) {
     return promise == Promise::exact ? 1e-12 : integrator_limit;
 }
 
+void DriftScales::add(double t, const InvariantScales& now) {
+    momentum = std::max(momentum, now.momentum);
+    angular_momentum = std::max(angular_momentum, now.angular_momentum);
+    if (begun_) {
+        const double half = 0.5 * (t - t_);
+        impulse += half * (before_.force + now.force);
+        torque += half * (before_.torque + now.torque);
+        work += half * (before_.power + now.power);
+    }
+    begun_ = true;
+    t_ = t;
+    before_ = now;
+}
+
+void DriftScales::remember(Archive& archive) {
+    archive(momentum, angular_momentum, impulse, torque, work, t_, begun_);
+    archive(before_.momentum, before_.angular_momentum, before_.force, before_.torque,
+            before_.power);
+}
+
 std::vector<Drift> measure_drifts(const History& history, const Promises& promises,
-                                  double momentum_scale, double angular_momentum_scale,
-                                  double integrator_limit) {
-    const auto limit = [&](Promise p) { return allowed_change(p, integrator_limit); };
-    const auto relative = [](double change, double scale) {
-        return change == 0.0 ? 0.0 : change / (scale > 0.0 ? scale : 1.0);
+                                  const DriftScales& scales, double integrator_limit) {
+    if (history.rows().empty()) return {};
+    std::vector<Drift> drifts;
+    const auto add = [&](const char* name, Promise promise, double change, double size,
+                         double exchanged) {
+        drifts.push_back(drift_of(name, promise, change, size, exchanged, integrator_limit));
     };
-    const double energy_scale =
-        std::max(std::abs(history.first("energy")), history.largest("kinetic"));
-    std::vector<Drift> drifts{
-        {"mass", promises.mass, relative(history.largest_change("mass"), history.first("mass")),
-         limit(promises.mass)},
-        {"momentum", promises.momentum,
-         relative(largest_vector_change(history, "momentum"), momentum_scale),
-         limit(promises.momentum)}};
+    add("mass", promises.mass, history.largest_change("mass"), history.first("mass"), 0.0);
+    add("momentum", promises.momentum, largest_vector_change(history, "momentum"), scales.momentum,
+        scales.impulse);
     if (history.has("angular_momentum") || history.has("angular_momentum_z"))
-        drifts.push_back(
-            {"angular momentum", promises.angular_momentum,
-             relative(largest_vector_change(history, "angular_momentum"), angular_momentum_scale),
-             limit(promises.angular_momentum)});
-    drifts.push_back({"energy", promises.energy,
-                      relative(history.largest_change("energy"), energy_scale),
-                      limit(promises.energy)});
+        add("angular momentum", promises.angular_momentum,
+            largest_vector_change(history, "angular_momentum"), scales.angular_momentum,
+            scales.torque);
+    add("energy", promises.energy, history.largest_change("energy"),
+        std::max(std::abs(history.first("energy")), history.largest("kinetic")), scales.work);
     return drifts;
 }
 

@@ -65,24 +65,32 @@ std::vector<double> angular_momentum_of_bodies(const Model<2>& model, std::span<
 }
 
 template <int Dim>
-InvariantScales<Dim> measure_scales(const Model<Dim>& model, std::span<const double> y) {
+InvariantScales measure_scales(const Model<Dim>& model, std::span<const double> y) {
     const ConstState<Dim> state(model.layout(), y);
     const auto x = state.position();
     const auto v = state.velocity();
-    InvariantScales<Dim> scales{0.0, 0.0};
+    InvariantScales scales;
+    double distance = 0.0, speed = 0.0;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const double p = model.particles().mass[static_cast<std::size_t>(i)] * v.col(i).norm();
+        const double x_i = x.col(i).norm(), v_i = v.col(i).norm();
+        const double p = model.particles().mass[static_cast<std::size_t>(i)] * v_i;
         scales.momentum += p;
-        scales.angular_momentum += p * x.col(i).norm();
+        scales.angular_momentum += p * x_i;
+        distance += x_i;
+        speed += v_i;
     }
+    const auto n = static_cast<double>(x.cols());
+    scales.force = model.neighbour_forces(y);
+    scales.torque = scales.force * distance / n;
+    scales.power = scales.force * speed / n;
     return scales;
 }
 
 template Invariants<1> measure_invariants(const Model<1>&, std::span<const double>);
 template Invariants<2> measure_invariants(const Model<2>&, std::span<const double>);
 template Invariants<3> measure_invariants(const Model<3>&, std::span<const double>);
-template InvariantScales<1> measure_scales(const Model<1>&, std::span<const double>);
-template InvariantScales<2> measure_scales(const Model<2>&, std::span<const double>);
-template InvariantScales<3> measure_scales(const Model<3>&, std::span<const double>);
+template InvariantScales measure_scales(const Model<1>&, std::span<const double>);
+template InvariantScales measure_scales(const Model<2>&, std::span<const double>);
+template InvariantScales measure_scales(const Model<3>&, std::span<const double>);
 
 }  // namespace spam

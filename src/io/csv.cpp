@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace spam {
@@ -17,7 +18,10 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
 
 void CsvWriter::add(std::span<const double> row) {
     std::string line;
-    for (const double x : row) line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", x);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        if (k > 0) line += ',';
+        if (std::isfinite(row[k])) line += fmt::format("{:.17g}", row[k]);
+    }
     out_ << line << '\n';
     flush();
 }

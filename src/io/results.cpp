@@ -11,7 +11,7 @@
 namespace spam {
 
 bool Check::holds() const {
-    return !expected || std::abs(value - *expected) <= tolerance;  // NaN does not hold
+    return std::isfinite(value) && (!expected || std::abs(value - *expected) <= tolerance);
 }
 
 void RunStatistics::add(const RunStatistics& other) {
@@ -22,6 +22,7 @@ void RunStatistics::add(const RunStatistics& other) {
     wall_seconds += other.wall_seconds;
     pair_interactions += other.pair_interactions;
     if (stopped.empty()) stopped = other.stopped;
+    invariants.clear();
     for (const Limit& limit : other.limited_by) {
         auto known = std::find_if(limited_by.begin(), limited_by.end(),
                                   [&](const Limit& one) { return one.field == limit.field; });
@@ -47,7 +48,7 @@ void write_results(const RunFolder& folder, const std::vector<Check>& checks) {
     for (const Check& check : checks) {
         nlohmann::ordered_json item;
         item["name"] = check.name;
-        item["value"] = check.value;  // NaN becomes null, which JSON has no other word for
+        item["value"] = check.value;  // NaN and infinity become null: JSON has no other word
         item["expected"] = check.expected ? nlohmann::ordered_json(*check.expected) : nullptr;
         item["tolerance"] = check.expected ? nlohmann::ordered_json(check.tolerance) : nullptr;
         item["holds"] = check.holds();
@@ -56,6 +57,26 @@ void write_results(const RunFolder& folder, const std::vector<Check>& checks) {
     }
     folder.write("result.json", list.dump(2) + "\n");
 }
+
+namespace {
+
+/// Promise, scale, limit, change and whether it was kept, by the invariant's name; what is not promised
+/// has neither limit nor verdict.
+nlohmann::ordered_json json_of(const std::vector<Drift>& drifts) {
+    auto all = nlohmann::ordered_json::object();
+    for (const Drift& drift : drifts) {
+        const bool promised = drift.promise != Promise::not_kept;
+        auto& one = all[drift.name];
+        one["promise"] = to_string(drift.promise);
+        one["scale"] = drift.scale;
+        one["limit"] = promised ? nlohmann::ordered_json(drift.limit) : nullptr;
+        one["change"] = drift.change;
+        one["kept"] = promised ? nlohmann::ordered_json(drift.kept()) : nullptr;
+    }
+    return all;
+}
+
+}  // namespace
 
 void write_statistics(const RunFolder& folder, const RunStatistics& s) {
     nlohmann::ordered_json json;
@@ -72,6 +93,7 @@ void write_statistics(const RunFolder& folder, const RunStatistics& s) {
         auto& limits = json["limited_by"] = nlohmann::ordered_json::object();
         for (const auto& limit : s.limited_by) limits[limit.field] = limit.steps;
     }
+    if (!s.invariants.empty()) json["invariants"] = json_of(s.invariants);
     json["version"] = version();
     if (!s.stopped.empty()) json["stopped"] = s.stopped;
     folder.write("statistics.json", json.dump(2) + "\n");

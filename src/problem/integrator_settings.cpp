@@ -110,6 +110,12 @@ void IntegratorSettings::fill(IntegratorOptions& integrator) {
     if (max_steps_) integrator.max_steps = static_cast<std::size_t>(*max_steps_);
 }
 
+bool IntegratorSettings::prefer_step(double dt, const Options& options) {
+    if (method_ != "rk4" || options.given("dt")) return false;
+    dt_ = dt;
+    return true;
+}
+
 IntegratorOptions IntegratorSettings::resolve(Options& options) {
     const auto adaptive = with("relaxation", adaptive_names());
     options.command_line_wins({"integrator"}, with("dt", adaptive));

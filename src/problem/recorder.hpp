@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace spam {
@@ -39,22 +41,33 @@ class Recorder {
         for (const auto& column : plan_.columns) row.push_back(column.measure(model_, y));
         if (csv_) csv_->add(row);
         history_.add(std::move(row));
-        const auto scales = measure_scales(model_, y);
-        momentum_scale_ = std::max(momentum_scale_, scales.momentum);
-        angular_momentum_scale_ = std::max(angular_momentum_scale_, scales.angular_momentum);
+        scales_.add(t, measure_scales(model_, y));
     }
 
     const History& history() const { return history_; }
 
+    /// Columns of the latest row that hold no finite number, and did before: their cells are empty.
+    std::vector<std::string> newly_empty() {
+        std::vector<std::string> names;
+        const auto& row = history_.rows().back();
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            if (std::isfinite(row[k])) continue;
+            const std::string& name = history_.names()[k];
+            if (std::find(empty_.begin(), empty_.end(), name) != empty_.end()) continue;
+            empty_.push_back(name);
+            names.push_back(name);
+        }
+        return names;
+    }
+
     /// The rows so far; those read are written anew.
     void remember(Archive& archive) {
-        archive(history_, momentum_scale_, angular_momentum_scale_);
+        archive(history_, scales_, empty_);
         if (!archive.reading() || !csv_) return;
         for (const auto& row : history_.rows()) csv_->add(row);
     }
     std::vector<Drift> drifts(double integrator_limit) const {
-        return measure_drifts(history_, model_.promises(), momentum_scale_, angular_momentum_scale_,
-                              integrator_limit);
+        return measure_drifts(history_, model_.promises(), scales_, integrator_limit);
     }
 
     /// Of the latest row against the first.
@@ -62,8 +75,7 @@ class Recorder {
         History both(history_.names());
         both.add(history_.rows().front());
         both.add(history_.rows().back());
-        return measure_drifts(both, model_.promises(), momentum_scale_, angular_momentum_scale_,
-                              integrator_limit);
+        return measure_drifts(both, model_.promises(), scales_, integrator_limit);
     }
 
   private:
@@ -87,7 +99,8 @@ class Recorder {
     std::int32_t bodies_;
     History history_;
     std::optional<CsvWriter> csv_;
-    double momentum_scale_ = 0.0, angular_momentum_scale_ = 0.0;
+    DriftScales scales_;
+    std::vector<std::string> empty_;  ///< columns that have had empty cells
 };
 
 }  // namespace spam

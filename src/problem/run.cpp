@@ -68,14 +68,15 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
     return ode;
 }
 
-double promise_limit(const IntegratorOptions& options) {
-    return options.adaptive() ? std::max(1e-12, 1e3 * std::max(options.rtol, options.atol)) : 1e-6;
+double promise_limit(const IntegratorOptions& options, bool smooth) {
+    if (options.adaptive()) return std::max(1e-12, 1e3 * std::max(options.rtol, options.atol));
+    return smooth ? 1e-6 : 1e-4;
 }
 
 template <int Dim>
 Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
     : one_(one),
-      promise_limit_(promise_limit(options)),
+      promise_limit_(promise_limit(options, one.model.smooth())),
       y_(one.y0.size(), context_),
       recorder_(one.model, one.plan, folder),
       guard_(one.plan.guard),
@@ -185,9 +186,16 @@ void Run<Dim>::watch(double t, const Watchers& watchers) {
     }
 }
 
-/// After a row: has an invariant left its limit?
+/// After a row: is a number missing, has an invariant left its limit?
 template <int Dim>
 void Run<Dim>::guard(double t, const Watchers& watchers) {
+    for (const std::string& name : recorder_.newly_empty()) {
+        remember(t, {name + " is not a number, its cells are left empty", 0.0});
+        if (watchers.warning)
+            watchers.warning(t, fmt::format("{} is no number at t = {:.6g}, its "
+                                            "cells are left empty",
+                                            name, t));
+    }
     if (guard_.action() == DriftAction::off) return;
     for (const auto& beyond : guard_.look(recorder_.latest_drifts(promise_limit_))) {
         remember(t, {beyond.name + " beyond its limit", beyond.change});
@@ -226,7 +234,7 @@ void Run<Dim>::complete() {
     s.limited_by = limits();
     s.wall_seconds = seconds();
     record_.history = recorder_.history();
-    record_.drifts = drifts();
+    record_.drifts = s.invariants = drifts();
     record_.y.assign(y_.span().begin(), y_.span().end());
 }
 

@@ -82,7 +82,8 @@ class Run {
     bool resumed_ = false;
 };
 
-/// The change that 'to integrator error' allows.
-double promise_limit(const IntegratorOptions& options);
+/// The change that 'to integrator error' allows. With fixed steps a method keeps its order only where
+/// rates are `smooth`.
+double promise_limit(const IntegratorOptions& options, bool smooth);
 
 }  // namespace spam

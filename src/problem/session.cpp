@@ -35,6 +35,10 @@ Session::Session(Problem& problem, const IntegratorOptions& integrator, std::str
 
 Session::~Session() = default;
 
+void Session::prefer_step(double dt) {
+    if (problem_.integrator_.prefer_step(dt, problem_.options_)) integrator_.dt = dt;
+}
+
 void Session::leave_out_of_case(const std::vector<std::string>& names) {
     left_out_.insert(left_out_.end(), names.begin(), names.end());
 }
@@ -162,7 +166,19 @@ void Session::save_last(std::size_t number, CaseMemory&& state) {
 void Session::check(Check check) { checks_.push_back(std::move(check)); }
 
 void Session::check_promises(const RunRecord& record, const std::string& prefix) {
-    for (const Drift& drift : record.drifts) {
+    std::erase_if(promised_, [&](const Promised& one) { return one.label == record.label; });
+    check_promises(record.drifts, prefix);
+}
+
+/// So that no problem can forget what its runs have promised.
+void Session::check_promises_left() {
+    for (const auto& [label, drifts] : promised_)
+        check_promises(drifts, label.empty() ? label : label + "_");
+    promised_.clear();
+}
+
+void Session::check_promises(const std::vector<Drift>& drifts, const std::string& prefix) {
+    for (const Drift& drift : drifts) {
         if (drift.promise == Promise::not_kept) continue;
         std::string name = prefix + drift.name + "_drift";
         std::replace(name.begin(), name.end(), ' ', '_');
@@ -187,15 +203,35 @@ void Session::report(const RunRecord& record) {
                                   drift.promise == Promise::not_kept ? "-"
                                   : drift.kept()                     ? "kept"
                                                                      : "BROKEN"));
+    promised_.push_back({record.label, record.drifts});
     const RunStatistics& s = record.statistics;
     terminal_.say(fmt::format("{} steps, {} rejected, {} right-hand sides, {:.2f} s", s.steps,
                               s.rejected_steps, s.rhs_evaluations, s.wall_seconds));
     if (!s.limited_by.empty()) terminal_.say(fmt::format("limited by  {}", s.limits_in_words()));
 }
 
+void Session::print_checks() {
+    if (checks_.empty()) return;
+    terminal_.say("");
+    terminal_.say("checks");
+    for (const Check& check : checks_) {
+        std::string claim;
+        if (check.expected)
+            claim = fmt::format(" (expected {:.6g} +- {:.2g})", *check.expected, check.tolerance);
+        else if (!check.holds())
+            claim = " (no finite number)";
+        terminal_.say(fmt::format("{:<6}{} = {:.6g}{}",
+                                  !check.holds()    ? "FAIL"
+                                  : !check.expected ? "-"
+                                                    : "ok",
+                                  check.name, check.value, claim));
+    }
+}
+
 /// Completes the results and decides the exit status.
 int Session::finish() {
     if (!folder_) return 0;
+    check_promises_left();
     write_results(*folder_, checks_);
     if (analysis_start_)
         statistics_.front().wall_seconds =
@@ -207,23 +243,7 @@ int Session::finish() {
         write_statistics(*folder_, total);
     }
     const int signal = InterruptWatch::received();
-    bool all_hold = true;
-    if (signal == 0 && guard_reason_.empty() && !checks_.empty()) {
-        terminal_.say("");
-        terminal_.say("checks");
-    }
-    for (const Check& check : checks_) {
-        all_hold = all_hold && check.holds();
-        if (signal != 0 || !guard_reason_.empty()) continue;
-        const std::string claim = check.expected ? fmt::format(" (expected {:.6g} +- {:.2g})",
-                                                               *check.expected, check.tolerance)
-                                                 : std::string{};
-        terminal_.say(fmt::format("{:<6}{} = {:.6g}{}",
-                                  !check.expected ? "-"
-                                  : check.holds() ? "ok"
-                                                  : "FAIL",
-                                  check.name, check.value, claim));
-    }
+    if (signal == 0 && guard_reason_.empty()) print_checks();
     terminal_.say(fmt::format("results in {}", folder_->path().string()));
     if (signal != 0) {
         terminal_.warn(fmt::format("{}: interrupted by signal {}; the results so far are complete",
@@ -234,7 +254,9 @@ int Session::finish() {
         terminal_.warn(fmt::format("{}: stopped: {}", problem_.name_, guard_reason_));
         return 3;
     }
-    return all_hold ? 0 : 1;
+    return std::all_of(checks_.begin(), checks_.end(), [](const Check& c) { return c.holds(); })
+               ? 0
+               : 1;
 }
 
 }  // namespace spam

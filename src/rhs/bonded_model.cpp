@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace spam {
 
 template <int Dim>
@@ -68,6 +70,16 @@ double BondedModel<Dim>::internal_energy(std::span<const double> y) const {
 }
 
 template <int Dim>
+double BondedModel<Dim>::neighbour_forces(std::span<const double> y) const {
+    const auto x = ConstState<Dim>(this->layout(), y).position();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < this->particles().size(); ++i)
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+            sum += std::abs(spring_.force(bond(x, i, partner_[k]).norm()));
+    return sum;
+}
+
+template <int Dim>
 std::vector<SymTensor<Dim>> BondedModel<Dim>::stress(std::span<const double> y,
                                                      double volume) const {
     const auto x = ConstState<Dim>(this->layout(), y).position();
@@ -86,7 +98,7 @@ template <int Dim>
 Promises BondedModel<Dim>::promises() const {
     Promises p;
     p.angular_momentum = Promise::integrator_error;
-    return p;
+    return this->in_box(p);
 }
 
 template <int Dim>

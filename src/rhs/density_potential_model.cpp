@@ -294,10 +294,23 @@ double DensityPotentialModel<Dim>::internal_energy(std::span<const double> y) co
 }
 
 template <int Dim>
+double DensityPotentialModel<Dim>::neighbour_forces(std::span<const double> y) const {
+    double sum = std::abs(internal_energy(y));
+    if (potentials_.state) {
+        const auto rho = density(y);
+        std::vector<double> P(rho.size());
+        potentials_.state->pressures(rho, rho, P);
+        for (std::size_t i = 0; i < P.size(); ++i)
+            sum += this->particles().mass[i] * std::abs(P[i]) / rho[i];
+    }
+    return sum / this->particles().spacing;
+}
+
+template <int Dim>
 Promises DensityPotentialModel<Dim>::promises() const {
     Promises p;
-    if (!this->box().periodic()) p.angular_momentum = Promise::integrator_error;
-    return p;
+    p.angular_momentum = Promise::integrator_error;
+    return this->in_box(p);
 }
 
 template <int Dim>

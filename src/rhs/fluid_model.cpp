@@ -272,13 +272,23 @@ double FluidModel<Dim>::internal_energy(std::span<const double> y) const {
     return carried_energy(*this, y);
 }
 
+template <int Dim>
+double FluidModel<Dim>::neighbour_forces(std::span<const double> y) const {
+    const auto rho = density(y);
+    std::vector<double> P(rho.size());
+    fluid_.state.pressures(rho, {ConstState<Dim>(this->layout(), y).energy().data(), P.size()}, P);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < P.size(); ++i)
+        sum += this->particles().mass[i] * std::abs(P[i]) / rho[i];
+    return Model<Dim>::neighbour_forces(y) + sum / this->particles().spacing;
+}
+
 /// Pressures act along r_ij; viscous stresses do not.
 template <int Dim>
 Promises FluidModel<Dim>::promises() const {
     Promises promises;
-    if (!this->box().periodic() && (Dim == 1 || !fluid_.viscosity))
-        promises.angular_momentum = Promise::integrator_error;
-    return promises;
+    if (Dim == 1 || !fluid_.viscosity) promises.angular_momentum = Promise::integrator_error;
+    return this->in_box(promises);
 }
 
 template <int Dim>

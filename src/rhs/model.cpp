@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace spam {
@@ -20,6 +21,31 @@ std::vector<double> Model<Dim>::density(std::span<const double> y) const {
     if (!state.has(Field::density)) return {};
     const auto rho = state.density();
     return {rho.data(), rho.data() + rho.size()};
+}
+
+template <int Dim>
+double Model<Dim>::neighbour_forces(std::span<const double> y) const {
+    const ConstState<Dim> state(layout_, y);
+    const auto& mass = particles_.mass;
+    if (!state.has(Field::energy) && !state.has(Field::stress))
+        return std::abs(internal_energy(y)) / particles_.spacing;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        if (state.has(Field::energy)) sum += mass[i] * std::abs(state.energy()(0, k));
+    }
+    if (state.has(Field::stress)) {
+        const auto rho = density(y);
+        for (std::size_t i = 0; i < mass.size(); ++i)
+            sum += mass[i] / rho[i] * state.stress().col(static_cast<Eigen::Index>(i)).norm();
+    }
+    return sum / particles_.spacing;
+}
+
+template <int Dim>
+Promises Model<Dim>::in_box(Promises promises) const {
+    if (box_.periodic()) promises.angular_momentum = Promise::not_kept;
+    return promises;
 }
 
 template <int Dim>

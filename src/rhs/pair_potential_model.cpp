@@ -85,8 +85,8 @@ double PairPotentialModel<Dim>::internal_energy(std::span<const double> y) const
 template <int Dim>
 Promises PairPotentialModel<Dim>::promises() const {
     Promises p;
-    if (!this->box().periodic()) p.angular_momentum = Promise::integrator_error;
-    return p;
+    p.angular_momentum = Promise::integrator_error;
+    return this->in_box(p);
 }
 
 template <int Dim>

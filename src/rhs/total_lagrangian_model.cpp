@@ -267,8 +267,8 @@ double TotalLagrangianModel<Dim>::internal_energy(std::span<const double> y) con
 template <int Dim>
 Promises TotalLagrangianModel<Dim>::promises() const {
     Promises p;
-    if (!this->box().periodic()) p.angular_momentum = Promise::integrator_error;
-    return p;
+    p.angular_momentum = Promise::integrator_error;
+    return this->in_box(p);
 }
 
 template <int Dim>

@@ -270,8 +270,8 @@ double VariableRangeModel<Dim>::internal_energy(std::span<const double> y) const
 template <int Dim>
 Promises VariableRangeModel<Dim>::promises() const {
     Promises promises;
-    if (!this->box().periodic()) promises.angular_momentum = Promise::integrator_error;
-    return promises;
+    promises.angular_momentum = Promise::integrator_error;
+    return this->in_box(promises);
 }
 
 template <int Dim>

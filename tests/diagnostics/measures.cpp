@@ -105,7 +105,10 @@ BOOST_AUTO_TEST_CASE(drifts_are_judged_by_the_promise) {
                "internal", "energy"});
     h.add({0, 0.1, 10, 0, 0, 5.0, 1.0, 0.0, 1.0});
     h.add({1, 0.1, 10, 0, 1e-9, 4.0, 0.9, 0.1 + 1e-8, 1.0 + 1e-8});
-    const auto drifts = measure_drifts(h, Scheme{}.promises(2), 10.0, 5.0, 1e-6);
+    DriftScales sizes;
+    sizes.momentum = 10.0;
+    sizes.angular_momentum = 5.0;
+    const auto drifts = measure_drifts(h, Scheme{}.promises(2), sizes, 1e-6);
     BOOST_TEST(drifts.size() == 4U);
     BOOST_TEST(drifts[0].kept());
     BOOST_TEST(!drifts[1].kept());  // momentum is promised exactly
@@ -115,7 +118,45 @@ BOOST_AUTO_TEST_CASE(drifts_are_judged_by_the_promise) {
     BOOST_TEST(drifts[3].kept());  // to integrator error
     Promises strict = Scheme{}.promises(2);
     strict.angular_momentum = Promise::integrator_error;
-    BOOST_TEST(!measure_drifts(h, strict, 10.0, 5.0, 1e-6)[2].kept());
+    BOOST_TEST(!measure_drifts(h, strict, sizes, 1e-6)[2].kept());
+}
+
+namespace {
+
+/// Of a run whose energy begins at E0 and changes by 1e-7 while its kinetic energy reaches K.
+Drift energy_drift(double E0, double K, const DriftScales& scales) {
+    History h({"t", "dt", "mass", "momentum_x", "kinetic", "internal", "energy"});
+    h.add({0, 0.1, 10, 0, 0.0, E0, E0});
+    h.add({1, 0.1, 10, 0, K, E0 - K + 1e-7, E0 + 1e-7});
+    return measure_drifts(h, Scheme{}.promises(1), scales, 1e-6).back();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(what_energies_and_small_momenta_are_compared_with) {
+    // The start, the largest kinetic energy where that is larger, or a 1e-15th of the work done.
+    const auto tolerance = boost::test_tools::tolerance(1e-7);
+    BOOST_TEST(energy_drift(-8.0, 2.0, {}).scale == 8.0);
+    BOOST_TEST(energy_drift(-8.0, 2.0, {}).change == 1e-7 / 8.0, tolerance);
+    BOOST_TEST(energy_drift(0.0, 0.5, {}).change == 2e-7, tolerance);
+    BOOST_TEST(energy_drift(0.0, 0.5, {}).kept());
+    BOOST_TEST(!energy_drift(0.0, 0.05, {}).kept());
+    DriftScales worked;
+    worked.work = 1e9;  // of which rounding leaves up to 1e-6
+    BOOST_TEST(energy_drift(0.0, 0.05, worked).change * 1e-15 * 1e9 == 1e-6 * 1e-7, tolerance);
+    BOOST_TEST(energy_drift(0.0, 0.05, worked).kept());
+    worked.work = 0.99e8;
+    BOOST_TEST(!energy_drift(0.0, 0.05, worked).kept());
+
+    DriftScales scales;
+    scales.add(1.0, {.momentum = 3.0, .angular_momentum = 7.0, .force = 2.0, .torque = 4.0});
+    scales.add(3.0, {.momentum = 1.0, .angular_momentum = 8.0, .force = 4.0, .power = 1.0});
+    BOOST_TEST(scales.momentum == 3.0);
+    BOOST_TEST(scales.angular_momentum == 8.0);
+    BOOST_TEST(scales.impulse == 6.0);
+    BOOST_TEST(scales.torque == 4.0);
+    BOOST_TEST(scales.work == 1.0);
+    BOOST_TEST(measure_drifts(History({"t", "mass"}), {}, scales, 1e-6).empty());
 }
 
 BOOST_AUTO_TEST_CASE(fits_recover_lines_and_orders) {

@@ -9,6 +9,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <functional>
+#include <random>
 
 using namespace spam;
 using namespace spam::test;
@@ -143,4 +144,53 @@ BOOST_AUTO_TEST_CASE(the_error_is_of_second_order_in_the_wavelength) {
     };
     for (const int cells : {24, 48, 96})
         BOOST_TEST(std::abs(std::log2(error(cells) / error(2 * cells)) - 2.0) < 0.05);
+}
+
+namespace {
+
+/// The rate at which the fastest of all changes decays: powers of the rates' differences from those at
+/// rest, of temperature (`what` energy) or of motion.
+double fastest_decay(FluidModel<2>& model, Field what) {
+    const auto& x = model.particles().reference_position;
+    const Points<2> rest = Points<2>::Zero(2, x.cols());
+    const auto y0 = model.state(x, rest, 1.0);
+    const auto still = rates_of(model, y0);
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> g;
+    const auto* block = model.layout().find(what);
+    const auto size = block->components * model.particles().size();
+    Eigen::VectorXd change(static_cast<Eigen::Index>(size));
+    for (auto& c : change) c = g(random);
+    double rate = 0.0;
+    for (int n = 0; n < 400; ++n) {
+        change *= 1e-4 / change.norm();
+        auto y = y0;
+        for (std::size_t k = 0; k < size; ++k)
+            y[block->offset + k] += change(static_cast<Eigen::Index>(k));
+        const auto now = rates_of(model, y);
+        Eigen::VectorXd next(change.size());
+        for (std::size_t k = 0; k < size; ++k)
+            next(static_cast<Eigen::Index>(k)) = now[block->offset + k] - still[block->offset + k];
+        rate = -change.dot(next) / change.squaredNorm();
+        change = next;
+    }
+    return rate;
+}
+
+}  // namespace
+
+// What the model announces decides whether rk4 is refused: near the fastest rate there is, and not below
+// it.
+BOOST_AUTO_TEST_CASE(the_fastest_damping_is_announced) {
+    for (const Lattice lattice : {Lattice{12, Kernel::lucy, 3.0}, Lattice{12, Kernel::w5, 3.3}})
+        for (const Field what : {Field::energy, Field::velocity}) {
+            const bool heat = what == Field::energy;
+            auto model = lattice.fluid(heat ? 0.7 : 0.0, heat ? 0.0 : 0.7);
+            const double fastest = fastest_decay(model, what);
+            BOOST_TEST_MESSAGE(model.describe()
+                               << ": " << fastest << ", announced " << model.fastest_damping());
+            BOOST_TEST(fastest > 0.0);
+            BOOST_TEST(model.fastest_damping() > fastest);
+            BOOST_TEST(model.fastest_damping() < 2.0 * fastest);
+        }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/archive.hpp>
 #include <spam/diagnostics/history.hpp>
+#include <spam/diagnostics/invariants.hpp>
 #include <spam/physics/scheme.hpp>
 
 namespace spam {
@@ -10,20 +12,37 @@ namespace spam {
 struct Drift {
     std::string name;
     Promise promise;
-    double change;  ///< largest change over the run, relative to the invariant's natural size
+    double change;  ///< largest change over the run, in parts of `scale`
     double limit;   ///< largest change with which the promise counts as kept
+    double scale = 1.0;
     bool kept() const { return promise == Promise::not_kept || change <= limit; }
 };
 
 /// The change with which a promise counts as kept: `integrator_limit`, exact ones 1e-12.
 double allowed_change(Promise promise, double integrator_limit);
 
-/// Drifts of mass, momentum, angular momentum and energy over a run. Columns are those of
-/// invariants.csv; vectors are compared with `momentum_scale` = sum m |v| and
-/// `angular_momentum_scale` = sum m |x||v| (which do not vanish with the conserved sum), the energy
-/// with its start or the largest kinetic energy. Limits: allowed_change().
+/// Against what changes are judged, gathered row by row.
+struct DriftScales {
+    /// Largest so far: sum m |v|, sum m |x||v|.
+    double momentum = 0.0, angular_momentum = 0.0;
+    /// Time integrals of InvariantScales' force, torque and power, from row to row.
+    double impulse = 0.0, torque = 0.0, work = 0.0;
+
+    void add(double t, const InvariantScales& now);
+    void remember(Archive& archive);
+
+  private:
+    double t_ = 0.0;
+    InvariantScales before_{};
+    bool begun_ = false;
+};
+
+/// Drifts of mass, momentum, angular momentum and energy over a run; none of a run without rows.
+/// Columns are those of invariants.csv; vectors are compared with sum m |v| and sum m |x||v|, the
+/// energy with its start or the largest kinetic energy. Where particles hardly move, what rounding
+/// leaves of the forces between neighbours is more than that: 1e-15 of what they exchange in the time
+/// of the run (momentum, angular momentum, work) is allowed for. Limits: allowed_change().
 std::vector<Drift> measure_drifts(const History& history, const Promises& promises,
-                                  double momentum_scale, double angular_momentum_scale,
-                                  double integrator_limit);
+                                  const DriftScales& scales, double integrator_limit);
 
 }  // namespace spam

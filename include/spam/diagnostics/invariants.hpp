@@ -29,15 +29,15 @@ Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const doub
 /// Angular momentum of each body about the origin (plane problems).
 std::vector<double> angular_momentum_of_bodies(const Model<2>& model, std::span<const double> y);
 
-/// Sizes against which drifts of conserved vectors are judged: sum m |v| and sum m |x||v|, which do
-/// not vanish when the conserved vector does.
-template <int Dim>
+/// Sizes against which changes are judged: sum m |v| and sum m |x||v|, which do not vanish when the
+/// conserved vector does, and what neighbours do to each other before it cancels (of which rounding
+/// leaves a part): sum |f|, its torque and its power, each with the mean |x| and |v| of the particles.
 struct InvariantScales {
-    double momentum;
-    double angular_momentum;
+    double momentum = 0.0, angular_momentum = 0.0;
+    double force = 0.0, torque = 0.0, power = 0.0;
 };
 template <int Dim>
-InvariantScales<Dim> measure_scales(const Model<Dim>& model, std::span<const double> y);
+InvariantScales measure_scales(const Model<Dim>& model, std::span<const double> y);
 
 extern template Invariants<1> measure_invariants(const Model<1>&, std::span<const double>);
 extern template Invariants<2> measure_invariants(const Model<2>&, std::span<const double>);

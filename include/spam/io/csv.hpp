@@ -10,7 +10,7 @@
 namespace spam {
 
 /// A comma-separated table with a header, 17 significant digits, every row on disk as soon as it is
-/// added. Throws OutputError when it cannot be written.
+/// added; a cell without a finite number is left empty. Throws OutputError when it cannot be written.
 class CsvWriter {
   public:
     CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& names);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/diagnostics/drift.hpp>
 #include <spam/io/run_folder.hpp>
 
 #include <optional>
@@ -10,7 +11,8 @@
 namespace spam {
 
 /// One thing a problem measured, as written to result.json. Where `expected` is set, |value -
-/// expected| <= tolerance must hold; otherwise nothing is claimed.
+/// expected| <= tolerance must hold; otherwise nothing is claimed. What is not a finite number never
+/// holds: a problem leaves out what its case does not have.
 struct Check {
     std::string name;
     double value;
@@ -39,7 +41,8 @@ struct RunStatistics {
         double error_share;  ///< its part of their errors' sum of squares, summed over all steps
     };
     std::vector<Limit> limited_by;
-    std::string stopped;  ///< empty for a complete run
+    std::string stopped;            ///< empty for a complete run
+    std::vector<Drift> invariants;  ///< of one run; a sum of runs has none
 
     /// Another run of the same study.
     void add(const RunStatistics& other);

@@ -18,6 +18,8 @@ class IntegratorSettings {
     void add_to(Options& options);
     /// What the options, once parsed, mean; throws InputError where they mean nothing.
     IntegratorOptions resolve(Options& options);
+    /// Another step of rk4 for the case at hand, where none is given. Returns whether it is taken.
+    bool prefer_step(double dt, const Options& options);
 
     /// Names of all of them.
     static const std::vector<std::string>& names();

@@ -30,6 +30,9 @@ class Session {
     const Scheme& scheme() const { return problem_.scheme_; }
     const IntegratorOptions& integrator() const { return integrator_; }
 
+    /// The step of rk4, where none is given, of a case that needs another one than the problem's.
+    void prefer_step(double dt);
+
     /// Keys that case.toml must not hold (because another option settles them).
     void leave_out_of_case(const std::vector<std::string>& names);
 
@@ -59,7 +62,8 @@ class Session {
 
     /// Something measured, for result.json; printed at the end.
     void check(Check check);
-    /// Checks that every invariant drifted no more than promised. `prefix` names the case.
+    /// Checks that every invariant drifted no more than promised, here and under this prefix. Of runs that
+    /// are not given to this the session does so itself at the end, with the label of the case.
     void check_promises(const RunRecord& record, const std::string& prefix = "");
 
     Terminal& terminal() { return terminal_; }
@@ -110,6 +114,9 @@ class Session {
     typename Run<Dim>::Watchers watchers_of(Run<Dim>& run, const Case<Dim>& one,
                                             SnapshotSeries<Dim>& snapshots);
     void report(const RunRecord& record);
+    void check_promises(const std::vector<Drift>& drifts, const std::string& prefix);
+    void check_promises_left();
+    void print_checks();
 
     Problem& problem_;
     IntegratorOptions integrator_;
@@ -120,6 +127,12 @@ class Session {
     std::unique_ptr<SessionMemory> memory_;      ///< of the cases begun
     std::optional<CheckpointPair> checkpoints_;  ///< in the folder
     std::vector<Check> checks_;
+    /// What runs promised and nobody has checked yet.
+    struct Promised {
+        std::string label;
+        std::vector<Drift> drifts;
+    };
+    std::vector<Promised> promised_;
     std::vector<RunStatistics> statistics_;
     std::optional<std::chrono::steady_clock::time_point> analysis_start_;
     std::string guard_reason_;

@@ -24,6 +24,8 @@ class BondedModel final : public Model<Dim> {
     std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const;
     Promises promises() const override;
     std::string describe() const override;
+    /// Of all bonds, from both ends.
+    double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override { return partner_.size() / 2; }
     double reach() const override { return bond_reach_; }
 

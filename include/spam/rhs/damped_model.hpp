@@ -41,6 +41,10 @@ class DampedModel final : public Model<2> {
     std::string inseparable() const override {
         return gamma_ > 0.0 ? "its friction depends on the velocity" : model_->inseparable();
     }
+    double neighbour_forces(std::span<const double> y) const override {
+        return model_->neighbour_forces(y);
+    }
+    bool smooth() const override { return model_->smooth(); }
     std::size_t pairs() const override { return model_->pairs(); }
     double reach() const override { return model_->reach(); }
     double fastest_damping() const override { return gamma_ + model_->fastest_damping(); }

@@ -47,6 +47,7 @@ class DensityPotentialModel final : public Model<Dim> {
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override;
     std::string describe() const override;
+    double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override;
     double reach() const override { return potentials_.range; }
     void remember(Archive& archive) override;

@@ -50,6 +50,7 @@ class FluidModel final : public Model<Dim> {
     std::vector<double> density(std::span<const double> y) const override;
     Promises promises() const override;
     std::string describe() const override;
+    double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
     double fastest_damping() const override { return damping_; }

@@ -76,6 +76,14 @@ class Model {
     /// must be short of a few times its inverse.
     virtual double fastest_damping() const { return 0.0; }
 
+    /// Sum over all particles of the magnitudes of what their neighbours do to them, before it cancels, as
+    /// energies and stresses tell: sum (m |e| + m |sigma|/rho)/spacing, or |internal energy|/spacing. Of
+    /// these forces rounding leaves a part that no promise can be better than.
+    virtual double neighbour_forces(std::span<const double> y) const;
+
+    /// Whether rates are continuous: where they jump, every method is of order one.
+    virtual bool smooth() const { return true; }
+
     /// Pairs (undirected) that the latest right-hand side summed over.
     virtual std::size_t pairs() const = 0;
     /// Distance up to which two particles act on each other.
@@ -90,6 +98,10 @@ class Model {
     const FieldLayout<Dim>& layout() const { return layout_; }
 
   protected:
+    /// What is left of promises in the model's box: in a periodic one turning is no symmetry, and the
+    /// angular momentum is not kept.
+    Promises in_box(Promises promises) const;
+
     /// Ends a right-hand side that has no meaning.
     void fail(std::span<double> y_dot, std::string reason);
 

@@ -42,10 +42,12 @@ class SmoothParticleModel final : public Model<Dim> {
     std::optional<Event> event() const override;
     /// The scheme's; in a periodic box no scheme keeps the angular momentum about the origin, because
     /// forces across the border act at the images of particles.
-    Promises promises() const override {
-        Promises promises = scheme_.promises(Dim);
-        if (this->box().periodic()) promises.angular_momentum = Promise::not_kept;
-        return promises;
+    Promises promises() const override { return this->in_box(scheme_.promises(Dim)); }
+    /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
+    /// sets in and out.
+    bool smooth() const override {
+        return scheme_.angular_momentum != AngularMomentum::torque_particle &&
+               scheme_.angular_momentum != AngularMomentum::gauss;
     }
     std::string describe() const override;
     std::size_t pairs() const override;
