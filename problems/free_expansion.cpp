@@ -160,6 +160,7 @@ int main(int argc, char** argv) {
         refuse_contradictions(session, options, p);
         if (session.common().smoke && !session.given("cells") && !p.particles) p.cells = 16;
         settle_particles(session, p);
+        session.prefer_step(p.dimension == 1 ? step_for<1>(p) : step_for<2>(p));
         if (p.compare || p.cost) session.leave_out_of_case({"cells", "dimension"});
         if (p.cost) return measure_cost(session, p);
         p.dimension == 1 ? run<1>(session, p) : run<2>(session, p);

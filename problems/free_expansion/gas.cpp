@@ -4,6 +4,7 @@
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/entropy.hpp>
 #include <spam/io/image_file.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/rhs/fluid_model.hpp>
@@ -64,6 +65,19 @@ void Scene::look(double now, std::span<const double> state) {
 AnyEquationOfState law_of(int dim) {
     if (dim == 1) return IsentropicGas{1.0 / 3.0, 1.0, 3.0};
     return LucyGas{};
+}
+
+template <int Dim>
+double step_for(const Parameters& p) {
+    const auto steepest = [](Kernel kernel, double range) {
+        return steepest_wave<Dim>(weight_function<Dim>(to_string(kernel), range));
+    };
+    const double longest = Dim == 1 ? 0.125 : 0.25;
+    const double wanted =
+        1.001 * longest * steepest(Kernel::lucy, 6.0) / steepest(p.kernel, p.range);
+    double step = longest;
+    while (step > wanted) step *= 0.5;
+    return step;
 }
 
 template <int Dim>
@@ -139,7 +153,9 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
         fields.density.push_back(rho);
         fields.kinetic.push_back(0.5 * sum(1, k));
         fields.hidden.push_back(
-            rho > 0.0 ? 0.5 * (sum(1, k) / rho - fields.velocity.col(k).squaredNorm()) : 0.0);
+            rho > 0.0  // of one particle alone: nothing but rounding, which may be negative
+                ? 0.5 * std::max(0.0, sum(1, k) / rho - fields.velocity.col(k).squaredNorm())
+                : 0.0);
     }
     return fields;
 }
@@ -152,7 +168,7 @@ void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<co
             Eigen::RowVectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size())));
     };
     const auto name = [](std::size_t k) { return fmt::format("fields_{:04}", k); };
-    write_image(folder, name(gas.field_times.size()), fields.grid,
+    write_image(folder, name(gas.field_times.size()), t, gas.model->box(), fields.grid,
                 {{"density", row(fields.density)},
                  {"velocity", fields.velocity},
                  {"kinetic_energy", row(fields.kinetic)},
@@ -167,6 +183,8 @@ void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<co
     folder.write("fields.pvd", list + "  </Collection>\n</VTKFile>\n");
 }
 
+template double step_for<1>(const Parameters&);
+template double step_for<2>(const Parameters&);
 template Gas<1> make_gas(int, const Parameters&);
 template Gas<2> make_gas(int, const Parameters&);
 template std::vector<Column<1>> entropy_columns(const Gas<1>&);

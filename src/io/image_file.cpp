@@ -17,10 +17,14 @@ std::string for_directions(const Word& word, const std::string& beyond) {
 }  // namespace
 
 template <int Dim>
-void write_image(const RunFolder& folder, std::string_view name, const FieldGrid<Dim>& grid,
-                 const std::vector<ImageField>& fields) {
+void write_image(const RunFolder& folder, std::string_view name, double t, const Box<Dim>& box,
+                 const FieldGrid<Dim>& grid, const std::vector<ImageField>& fields) {
     const std::size_t n = grid.size();
     VtkAppended file;
+    Point<Dim> high = grid.origin;
+    for (int a = 0; a < Dim; ++a)
+        high[a] += grid.spacing[a] * (grid.nodes[static_cast<std::size_t>(a)] - 1);
+    file.about<Dim>(t, box, grid.origin, high);
     file.open("PointData");
     for (const ImageField& field : fields) {
         const auto rows = static_cast<int>(field.values.rows());
@@ -46,11 +50,11 @@ void write_image(const RunFolder& folder, std::string_view name, const FieldGrid
                  file.text("ImageData", attributes, fmt::format("Extent=\"{}\"", extent)));
 }
 
-template void write_image(const RunFolder&, std::string_view, const FieldGrid<1>&,
-                          const std::vector<ImageField>&);
-template void write_image(const RunFolder&, std::string_view, const FieldGrid<2>&,
-                          const std::vector<ImageField>&);
-template void write_image(const RunFolder&, std::string_view, const FieldGrid<3>&,
-                          const std::vector<ImageField>&);
+template void write_image(const RunFolder&, std::string_view, double, const Box<1>&,
+                          const FieldGrid<1>&, const std::vector<ImageField>&);
+template void write_image(const RunFolder&, std::string_view, double, const Box<2>&,
+                          const FieldGrid<2>&, const std::vector<ImageField>&);
+template void write_image(const RunFolder&, std::string_view, double, const Box<3>&,
+                          const FieldGrid<3>&, const std::vector<ImageField>&);
 
 }  // namespace spam

@@ -16,13 +16,14 @@ double in_space(const View& field, std::size_t i, int c) {
 }
 
 template <int Dim>
-std::string snapshot_text(const Model<Dim>& model, std::span<const double> y) {
+std::string snapshot_text(const Model<Dim>& model, double t, std::span<const double> y) {
     const ConstState<Dim> state(model.layout(), y);
     const auto& particles = model.particles();
     const std::size_t n = particles.size();
-    const auto x = state.position();
+    const Points<Dim> x = model.box().wrapped(state.position());
     const auto v = state.velocity();
     VtkAppended file;
+    file.about<Dim>(t, model.box(), x.rowwise().minCoeff(), x.rowwise().maxCoeff());
     file.open("PointData");
     file.integers("id", n, [&](std::size_t i, int) { return particles.id[i]; });
     file.integers("body", n, [&](std::size_t i, int) { return particles.body[i]; });
@@ -81,7 +82,7 @@ std::vector<std::string> SnapshotSeries<Dim>::names() const {
 template <int Dim>
 void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
     const std::string name = snapshot_name(files_.size());
-    folder_.write(name, snapshot_text(model_, y));
+    folder_.write(name, snapshot_text(model_, t, y));
     files_.emplace_back(t, name);
     std::string list =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";

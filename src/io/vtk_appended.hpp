@@ -2,6 +2,8 @@
 // What VTK's XML files with raw appended numbers have in common.
 #pragma once
 
+#include <spam/neighbors/box.hpp>
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -37,6 +39,22 @@ class VtkAppended {
     void integers(std::string_view name, std::size_t tuples, const Get& get) {
         array<std::int64_t>("Int64", name, 1, tuples, get);
     }
+    /// What a reader must know beside the numbers: FieldData TimeValue (ParaView's name for it), box_low,
+    /// box_high and periodic (3 each). Where space is free the box is from `low` to `high`.
+    template <int Dim>
+    void about(double t, const Box<Dim>& box, const Point<Dim>& low, const Point<Dim>& high) {
+        std::string lows, highs, periodic;
+        for (int a = 0; a < 3; ++a) {
+            const bool closed = a < Dim && box.periodic(a), free = a < Dim && !closed;
+            lows += fmt::format(" {:.17g}", free ? low[a] : 0.0);
+            highs += fmt::format(" {:.17g}", free ? high[a] : closed ? box.length(a) : 0.0);
+            periodic += closed ? " 1" : " 0";
+        }
+        about_ = "    <FieldData>\n" +
+                 words("Float64", "TimeValue", 1, fmt::format(" {:.17g}", t)) +
+                 words("Float64", "box_low", 3, lows) + words("Float64", "box_high", 3, highs) +
+                 words("Int32", "periodic", 3, periodic) + "    </FieldData>\n";
+    }
     void open(std::string_view tag) { head_ += fmt::format("      <{}>\n", tag); }
     void close(std::string_view tag) { head_ += fmt::format("      </{}>\n", tag); }
 
@@ -48,22 +66,31 @@ class VtkAppended {
                    "<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" "
                    "header_type=\"UInt64\">\n"
                    "  <{0}{2}>\n"
-                   "    <Piece {3}>\n",
+                   "{3}"
+                   "    <Piece {4}>\n",
                    kind, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-                   attributes, piece) +
+                   attributes, about_, piece) +
                head_ +
                fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n_", kind) +
                tail_ + "\n  </AppendedData>\n</VTKFile>\n";
     }
 
   private:
+    /// One tuple, in the head itself.
+    static std::string words(std::string_view type, std::string_view name, int components,
+                             std::string_view values) {
+        return fmt::format(
+            "      <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+            "NumberOfTuples=\"1\" format=\"ascii\">{} </DataArray>\n",
+            type, name, components, values);
+    }
     template <class Value>
     void append(Value value) {
         char bytes[sizeof(Value)];
         std::memcpy(bytes, &value, sizeof(Value));
         tail_.append(bytes, sizeof(Value));
     }
-    std::string head_, tail_;
+    std::string about_, head_, tail_;
 };
 
 }  // namespace spam

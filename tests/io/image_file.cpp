@@ -16,6 +16,7 @@ struct Vti {
     std::string extent, whole_extent, origin, spacing;
     std::map<std::string, int> components;
     std::map<std::string, std::vector<double>> arrays;
+    std::map<std::string, std::string> about;  ///< field data
 
     explicit Vti(const std::filesystem::path& file) {
         const std::string text = test::contents_of(file),
@@ -30,6 +31,7 @@ struct Vti {
         origin = image.get<std::string>("<xmlattr>.Origin");
         spacing = image.get<std::string>("<xmlattr>.Spacing");
         extent = image.get<std::string>("Piece.<xmlattr>.Extent");
+        about = test::field_data(image);
         const std::string raw = text.substr(cut + opening.size());
         std::size_t end = 0;
         for (const auto& [tag, array] : image.get_child("Piece.PointData"))
@@ -67,13 +69,17 @@ BOOST_AUTO_TEST_CASE(a_plane) {
     const Scratch folder;
     const auto grid = FieldGrid<2>::between({-1.0, 0.1}, {2.0, 0.6}, 0.5);  // 7 x 2
     const Eigen::MatrixXd rho = numbers(1, 14), v = numbers(2, 14), sigma = numbers(3, 14);
-    write_image(RunFolder(folder / "out", false), "field", grid,
+    write_image(RunFolder(folder / "out", false), "field", 1.25, Box<2>({0.0, 2.0}), grid,
                 {{"density", rho}, {"velocity", v}, {"stress", sigma}});
     const Vti vti(folder / "out/field.vti");
     BOOST_TEST(vti.extent == "0 6 0 1 0 0");
     BOOST_TEST(vti.whole_extent == vti.extent);
     BOOST_TEST(vti.origin == "-1 0.10000000000000001 0");
     BOOST_TEST(vti.spacing == "0.5 0.5 1");
+    BOOST_TEST((vti.about == std::map<std::string, std::string>{{"TimeValue", "1.25"},
+                                                                {"box_low", "-1 0 0"},
+                                                                {"box_high", "2 2 0"},
+                                                                {"periodic", "0 1 0"}}));
     BOOST_TEST((vti.components ==
                 std::map<std::string, int>{{"density", 1}, {"velocity", 3}, {"stress", 3}}));
     for (std::size_t p = 0; p < 14; ++p) {
@@ -89,9 +95,10 @@ BOOST_AUTO_TEST_CASE(a_plane) {
 BOOST_AUTO_TEST_CASE(a_line_and_space) {
     const Scratch folder;
     const RunFolder out(folder / "out", false);
-    write_image(out, "line", FieldGrid<1>::over(Box<1>({2.0}), {4}), {{"f", numbers(1, 4)}});
-    write_image(out, "space", FieldGrid<3>::over(Box<3>({2.0, 3.0, 4.0}), {2, 3, 4}),
-                {{"v", numbers(3, 24)}});
+    write_image(out, "line", 0.0, Box<1>({2.0}), FieldGrid<1>::over(Box<1>({2.0}), {4}),
+                {{"f", numbers(1, 4)}});
+    write_image(out, "space", 0.0, Box<3>({2.0, 3.0, 4.0}),
+                FieldGrid<3>::over(Box<3>({2.0, 3.0, 4.0}), {2, 3, 4}), {{"v", numbers(3, 24)}});
     BOOST_TEST(Vti(folder / "out/line.vti").extent == "0 3 0 0 0 0");
     BOOST_TEST(Vti(folder / "out/line.vti").components.at("f") == 1);
     BOOST_TEST(Vti(folder / "out/space.vti").extent == "0 1 0 2 0 3");
@@ -101,8 +108,8 @@ BOOST_AUTO_TEST_CASE(a_line_and_space) {
 BOOST_AUTO_TEST_CASE(a_field_of_another_grid_is_refused) {
     const Scratch folder;
     const RunFolder out(folder / "out", false);
-    BOOST_CHECK_THROW(
-        write_image(out, "line", FieldGrid<1>::over(Box<1>({2.0}), {4}), {{"f", numbers(1, 5)}}),
-        InputError);
+    BOOST_CHECK_THROW(write_image(out, "line", 0.0, Box<1>({2.0}),
+                                  FieldGrid<1>::over(Box<1>({2.0}), {4}), {{"f", numbers(1, 5)}}),
+                      InputError);
     BOOST_TEST(!std::filesystem::exists(folder / "out/line.vti"));
 }

@@ -68,6 +68,22 @@ inline boost::property_tree::ptree xml_of(const std::string& text) {
     return tree;
 }
 
+/// Field data of a VTK data set by name, as words with single blanks between them.
+inline std::map<std::string, std::string> field_data(const boost::property_tree::ptree& set) {
+    std::map<std::string, std::string> all;
+    for (const auto& [tag, array] : set.get_child("FieldData")) {
+        if (tag != "DataArray") continue;
+        require(array.get<std::string>("<xmlattr>.format") == "ascii", "field data not ascii");
+        require(array.get<int>("<xmlattr>.NumberOfTuples") == 1, "more than one tuple");
+        std::istringstream words(array.data());
+        std::string& text = all[array.get<std::string>("<xmlattr>.Name")];
+        int count = 0;
+        for (std::string word; words >> word; ++count) text += (count > 0 ? " " : "") + word;
+        require(array.get<int>("<xmlattr>.NumberOfComponents") == count, "components");
+    }
+    return all;
+}
+
 /// A ParaView collection: time and file of every snapshot.
 inline std::vector<std::pair<double, std::string>> collection(const std::filesystem::path& file) {
     const auto tree = xml_of(contents_of(file));
@@ -85,6 +101,7 @@ struct Vtp {
     std::size_t points = 0, vertices = 0;
     std::map<std::string, std::vector<double>> arrays;
     std::map<std::string, int> components;
+    std::map<std::string, std::string> about;  ///< field data
 
     explicit Vtp(const std::filesystem::path& file) {
         const std::string text = contents_of(file);
@@ -95,6 +112,7 @@ struct Vtp {
         require(tree.get<std::string>("VTKFile.<xmlattr>.type") == "PolyData", "not PolyData");
         require(tree.get<std::string>("VTKFile.<xmlattr>.byte_order") == "LittleEndian", "order");
         require(tree.get<std::string>("VTKFile.<xmlattr>.header_type") == "UInt64", "header type");
+        about = field_data(tree.get_child("VTKFile.PolyData"));
         const auto& piece = tree.get_child("VTKFile.PolyData.Piece");
         points = piece.get<std::size_t>("<xmlattr>.NumberOfPoints");
         vertices = piece.get<std::size_t>("<xmlattr>.NumberOfVerts");

@@ -159,3 +159,59 @@ BOOST_AUTO_TEST_CASE(molecular_dynamics_has_no_density_and_no_stress) {
     }
     check_start(run.snapshot(0));
 }
+
+namespace {
+
+std::vector<double> numbers_of(const std::string& words) {
+    std::vector<double> all;
+    for (const auto& word : split(words, ' ')) all.push_back(Csv::number(word));
+    return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(time_and_extent_in_free_space) {
+    const Run run({"--transport", "monaghan"});
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vtp vtp = run.snapshot(k);
+        BOOST_TEST(numbers_of(vtp.about.at("TimeValue")).at(0) == 5.0 * static_cast<double>(k));
+        BOOST_TEST(vtp.about.at("periodic") == "0 0 0");
+        const auto low = numbers_of(vtp.about.at("box_low")),
+                   high = numbers_of(vtp.about.at("box_high"));
+        const auto& x = vtp.arrays.at("Points");
+        for (std::size_t a = 0; a < 3; ++a) {
+            double least = x[a], most = x[a];
+            for (std::size_t i = a; i < x.size(); i += 3) {
+                least = std::min(least, x[i]);
+                most = std::max(most, x[i]);
+            }
+            BOOST_TEST(low.at(a) == least);
+            BOOST_TEST(high.at(a) == most);
+        }
+    }
+}
+
+/// Gas that leaves its box on all sides.
+BOOST_AUTO_TEST_CASE(inside_the_box_where_it_is_periodic) {
+    const Scratch folder;
+    const Outcome outcome =
+        run(problem("free_expansion", {"--cells", "8", "--range", "3", "--t-end", "12",
+                                       "--snapshot-every", "4", "--no-plots", "--out", "out"}),
+            {folder.path()});
+    BOOST_REQUIRE_MESSAGE(outcome.status <= 1, outcome.out << outcome.err);
+    const auto listed = collection(folder / "out/snapshots.pvd");
+    BOOST_TEST(listed.size() == 4u);
+    for (const auto& [t, name] : listed) {
+        const Vtp vtp(folder / ("out/" + name));
+        BOOST_TEST(numbers_of(vtp.about.at("TimeValue")).at(0) == t);
+        BOOST_TEST(vtp.about.at("box_low") == "0 0 0");
+        BOOST_TEST(vtp.about.at("box_high") == "16 16 0");
+        BOOST_TEST(vtp.about.at("periodic") == "1 1 0");
+        const auto& x = vtp.arrays.at("Points");
+        for (std::size_t i = 0; i < x.size(); ++i)
+            BOOST_TEST((x[i] >= 0.0 && (i % 3 == 2 ? x[i] == 0.0 : x[i] < 16.0)));
+        auto ids = vtp.arrays.at("id");
+        std::sort(ids.begin(), ids.end());
+        for (std::size_t i = 0; i < ids.size(); ++i) BOOST_TEST(ids[i] == static_cast<double>(i));
+    }
+}

@@ -37,3 +37,13 @@ target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxat
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/walled_model.cpp
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/quality.cpp)
 target_include_directories(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems)
+
+# What ParaView would read, read by VTK itself where it is installed.
+find_program(SPAM_PYTHON NAMES python3 HINTS /usr/bin)  # whose packages the system's are
+if(SPAM_PYTHON)
+  add_test(NAME io.read_by_vtk COMMAND ${SPAM_PYTHON}
+    ${CMAKE_CURRENT_SOURCE_DIR}/io/read_by_vtk.py $<TARGET_FILE:free_expansion>
+    ${CMAKE_CURRENT_BINARY_DIR}/read_by_vtk)
+  set_tests_properties(io.read_by_vtk PROPERTIES LABELS problem TIMEOUT ${timeout}
+    SKIP_RETURN_CODE 77)
+endif()

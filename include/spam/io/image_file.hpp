@@ -17,18 +17,19 @@ struct ImageField {
     Eigen::MatrixXd values;
 };
 
-/// Fields on a regular grid for ParaView: <name>.vti, image data with point arrays (raw appended, in
-/// the byte order of the machine). A plane is one node thick. Throws InputError when a field has not
+/// Fields on a regular grid at time t for ParaView: <name>.vti, image data with point arrays (raw
+/// appended, in the byte order of the machine) and field data TimeValue, box_low, box_high, periodic
+/// (3 each), the box being as large as the grid where it is free. A plane is one node thick. Throws InputError when a field has not
 /// one column a node, OutputError when it cannot be written.
 template <int Dim>
-void write_image(const RunFolder& folder, std::string_view name, const FieldGrid<Dim>& grid,
-                 const std::vector<ImageField>& fields);
+void write_image(const RunFolder& folder, std::string_view name, double t, const Box<Dim>& box,
+                 const FieldGrid<Dim>& grid, const std::vector<ImageField>& fields);
 
-extern template void write_image(const RunFolder&, std::string_view, const FieldGrid<1>&,
-                                 const std::vector<ImageField>&);
-extern template void write_image(const RunFolder&, std::string_view, const FieldGrid<2>&,
-                                 const std::vector<ImageField>&);
-extern template void write_image(const RunFolder&, std::string_view, const FieldGrid<3>&,
-                                 const std::vector<ImageField>&);
+extern template void write_image(const RunFolder&, std::string_view, double, const Box<1>&,
+                                 const FieldGrid<1>&, const std::vector<ImageField>&);
+extern template void write_image(const RunFolder&, std::string_view, double, const Box<2>&,
+                                 const FieldGrid<2>&, const std::vector<ImageField>&);
+extern template void write_image(const RunFolder&, std::string_view, double, const Box<3>&,
+                                 const FieldGrid<3>&, const std::vector<ImageField>&);
 
 }  // namespace spam

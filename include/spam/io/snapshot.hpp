@@ -13,8 +13,10 @@ namespace spam {
 
 /// Configurations for ParaView: one PolyData file per time, snapshot_0000.vtp, ... (raw appended
 /// data, little endian) and snapshots.pvd, the list of them with their times, complete after every
-/// snapshot. Point arrays: id, body, mass, particle_spacing, velocity (3), and where the model has
-/// them density, stress (3 x 3 tensor) and energy.
+/// snapshot. Points are inside the box where it is periodic (those of y are not). Point arrays: id (no two
+/// alike), body, mass, particle_spacing, velocity (3), and where the model has them density, stress
+/// (3 x 3 tensor) and energy. Field data: TimeValue, box_low, box_high, periodic (3 each); where space
+/// is free the box is as large as the particles take.
 template <int Dim>
 class SnapshotSeries {
   public:
