@@ -67,6 +67,21 @@ struct Body {
     double R, rim;
 };
 
+/// Stresses are measured in the mean over the rim and over what is inside of it.
+void refuse_empty(const Parameters& p, const Scheme& scheme, const Points<2>& x, double rim) {
+    const auto r = x.colwise().norm();
+    if (!(r.minCoeff() < rim))
+        throw InputError(fmt::format(
+            "range: no particle of a {} of radius {:g} is farther than h = {:g} from the rim, and "
+            "nothing is inside; choose a shorter --range or a larger --radius",
+            to_string(p.shape), p.radius, scheme.range));
+    if (!(r.maxCoeff() >= rim))
+        throw InputError(fmt::format(
+            "range: no particle of a {} of radius {:g} is within h = {:g} of the rim; choose a "
+            "longer --range",
+            to_string(p.shape), p.radius, scheme.range));
+}
+
 Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
     auto particles =
         make_particles<2>(p.shape == Shape::disk ? triangular_disk(p.radius)
@@ -79,8 +94,10 @@ Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
     else
         model = std::make_unique<SmoothParticleModel<2>>(
             std::move(particles), ElasticSolid::triangular_lattice(), scheme);
+    const double rim = R - scheme.range;
+    refuse_empty(p, scheme, model->particles().reference_position, rim);
     return {md ? "md" : "spam", md ? "molecular dynamics" : "SPAM",
-            std::make_unique<DampedModel>(std::move(model), *p.damping), R, R - scheme.range};
+            std::make_unique<DampedModel>(std::move(model), *p.damping), R, rim};
 }
 
 /// From the centre; any direction at the centre itself.

@@ -124,12 +124,21 @@ double largest_speed(const History& h) {
     return std::sqrt(2.0 * h.largest("kinetic") / h.first("mass"));
 }
 
-/// Friction takes energy, all that there is: by how much a row lies above the one before, at most.
-double largest_rise(const std::vector<double>& energy) {
+/// Friction takes energy, all that there is: by how much a row lies above the one before, at most. Where
+/// it takes less than a millionth of the motion's from row to row in the mean, in a short run or at a
+/// rate next to none, rises are errors of the steps, and nothing is claimed of them.
+Check energy_rise(const Sample& sample, const History& h, double n) {
+    const auto energy = h.column("energy");
     double rise = 0.0;
     for (std::size_t k = 1; k < energy.size(); ++k)
         rise = std::max(rise, energy[k] - energy[k - 1]);
-    return rise;
+    Check check{sample.prefix + "energy_rise_per_particle", rise / n, {}, 1e-9, "measured"};
+    const double change = h.largest("energy") - h.smallest("energy");
+    if (!(change < 1e-6 * h.largest("kinetic") * static_cast<double>(energy.size()))) {
+        check.expected = 0.0;
+        check.source = "friction takes energy and never gives it back";
+    }
+    return check;
 }
 
 void report(Session& session, const Parameters& p, const Sample& sample, const RunRecord& run) {
@@ -148,11 +157,12 @@ void report(Session& session, const Parameters& p, const Sample& sample, const R
                    std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
                    0.0, 1e-12 * std::max(1.0, largest_speed(h)),
                    "pairwise forces, and a friction that stops what does not move"});
-    session.check({sample.prefix + "energy_rise_per_particle", largest_rise(h.column("energy")) / n,
-                   0.0, 1e-9, "friction takes energy and never gives it back"});
+    session.check(energy_rise(sample, h, n));
     session.check(
         {sample.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
-    session.check({sample.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
+    // Of a few particles in a wide box, none is nearer than half of it.
+    if (std::isfinite(h.last("closest_pair")))
+        session.check({sample.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
     session.check_promises(run, sample.prefix);
 }
 

@@ -117,6 +117,8 @@ BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) 
         {"rotating_disk", {"--shape", "hexagon", "--radius", "7.5"}, {"radius", "7.5", "whole"}},
         {"rotating_disk", {"--radius", "2"}, {"radius", "2", "between 6 and"}},
         {"rotating_disk", {"--damping", "-1"}, {"damping", "-1"}},
+        {"rotating_disk", {"--range", "13"}, {"range", "farther than h = 13 from the rim"}},
+        {"rotating_disk", {"--model", "spam", "--range", "12.5"}, {"range", "nothing is inside"}},
         {"rotating_disk", {"--shape", "ring"}, {"shape", "ring", "disk"}},
         {"rotating_disk", {"--model", "md", "--transport", "plain"}, {"transport", "--model md"}},
         {"kernels", {"--family", "9"}, {"family", "9", "between 2 and 8"}},
