@@ -224,6 +224,8 @@ BOOST_AUTO_TEST_CASE(what_other_problems_cannot_do) {
         in("fragmenting_bar", {"--speed", "10"}, {"speed: at 10", "--output-every below 0.3"}),
         in("rotating_disk", {"--model", "md", "--kernel", "lucy"}, {"kernel", "--model md"}),
         in("rotating_disk", {"--damping", "100"}, {"dt: damping (--damping)", "rk4"}),
+        in("rotating_disk", {"--closest-approach", "0.5", "--integrator", "cvode:adams"},
+           {"integrator", "cvode:adams", "closest approach"}),
         in("rotating_disk", {"--balance", "global"}, {"balance", "for one"}),
         in("stability", {"--mean-density", "geometric"}, {"mean-density", "first order"}),
         in("stability", {"--guard", "stop"}, {"guard", "integrates nothing"}),
