@@ -276,7 +276,8 @@ BOOST_AUTO_TEST_CASE(a_gas_is_reflected_under_friction_too) {
             BOOST_TEST(run.times.size() > 100U);
             BOOST_TEST(run.times.size() == run.integrator->statistics().events);
             BOOST_TEST(run.closest > 0.5 - 1e-12);
-            run.check_jumps(1e-12);
+            BOOST_TEST(run.jump.energy < 1e-12);
+            BOOST_TEST(run.jump.momentum.norm() < 1e-12);  // L has no meaning across images
         }
     }
     Gas gas;
