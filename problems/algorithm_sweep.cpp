@@ -187,7 +187,7 @@ int main(int argc, char** argv) {
     Parameters p;
     auto& options = problem.options();
     options.integer("size", p.size, "of the hexagon: 1 + 3n + 3n^2 particles", between(1, 200));
-    options.number("speed", p.speed, "speed of its corners", positive());
+    options.number("speed", p.speed, "speed of its corners", between(1e-6, 1e3));
     options.number("turns", p.turns, "nominal turns at most", at_least(1.0));
     options.number("range", p.range, "of Lucy's weight function", positive());
     options.number("viscosity", p.viscosity, "alpha, where there is viscosity", positive());
@@ -211,6 +211,7 @@ int main(int argc, char** argv) {
                                  return turn_hexagon(p, scheme, session.integrator());
                              }});
         }
+        refuse_endless(session.integrator(), p.turns * p.turn());
         StudyTable table = session.begin_study(
             "sweep", columns,
             {fmt::format(

@@ -41,6 +41,7 @@ namespace {
 
 using namespace spam;
 
+constexpr double longest_range = 1000.0;   // rho0 is a sum over its square sites
 constexpr double tension_of_figure = 0.1;  // where both are run
 
 struct Parameters {
@@ -78,8 +79,9 @@ Drop make_drop(const Parameters& p, double tension) {
     if (p.core > 0.0) potentials.core = {p.core, p.core_range};
     potentials.kernel = p.kernel;
     potentials.range = p.range;
-    auto model =
-        std::make_unique<DensityPotentialModel<2>>(make_particles<2>(places(p), 1.0), potentials);
+    auto particles = make_particles<2>(places(p), 1.0);
+    particles.body.assign(particles.size(), 0);  // one drop, also where places are disordered
+    auto model = std::make_unique<DensityPotentialModel<2>>(std::move(particles), potentials);
     return {
         "", "", tension > 0.0 ? fmt::format("surface tension {:g}", tension) : "no surface tension",
         tension, std::make_unique<DampedModel>(std::move(model), p.damping, Friction::all_motion)};
@@ -191,6 +193,11 @@ void draw(Session& session, const std::vector<Drop>& drops, const std::vector<do
 }
 
 void refuse_contradictions(const Session& session, const Parameters& p) {
+    if (!(p.range > 1.0) || !(p.range <= longest_range))
+        throw InputError(
+            fmt::format("range: {:g} must lie above the particle spacing 1 (else no particle has a "
+                        "neighbour) and not above {:g}; 2 to 4 spacings are usual",
+                        p.range, longest_range));
     if (p.core == 0.0 && session.given("core-range"))
         throw InputError(
             "core-range: has no meaning without a core; give --core 0.1, or leave it out");

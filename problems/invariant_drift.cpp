@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     for (const auto& system : systems(p)) names.push_back(system.name);
     add_system_option(options, names, p.problem);
     options.integer("size", p.size, "of hexagons: 1 + 3n + 3n^2 particles", between(2, 50));
-    options.number("speed", p.speed, "of their corners", positive());
+    options.number("speed", p.speed, "of their corners", between(1e-6, 1e3));
     options.number("turns", p.turns, "nominal turns of hexagons", positive());
     options.integer("cells", p.cells, "cells x cells particles of the wave (an even number)",
                     between(8, 200));

@@ -206,6 +206,7 @@ int main(int argc, char** argv) {
                                                ? random_places(region, p.particles, p.seed)
                                                : lattice_places(region, p.particles, p.seed),
                                            1.0);
+        particles.body.assign(particles.size(), 0);  // random places make no bodies
         const Points<2> x_0 = particles.reference_position;
         const Ruler ruler(region);
 

@@ -214,6 +214,12 @@ void check(Session& session, const Body& body, const RunRecord& run, double omeg
             }
             session.check(found);
         }
+    const auto measured = [&](const char* name, double value) {
+        session.check({fmt::format("{}_{}", body.label, name), value, {}, 0.0, "measured"});
+    };
+    measured("closest_pair", run.history.smallest("closest_pair"));
+    if (session.scheme().closest_approach > 0.0 && !md)
+        measured("reflections", static_cast<double>(run.statistics.events));
     if (!md && run.complete)
         session.check({"spam_shear_rim_per_radian",
                        run.history.last("shear_rim") / (omega * run.statistics.t_end),
@@ -340,6 +346,7 @@ int main(int argc, char** argv) {
             Plan<2> plan;
             plan.t_end = 2.0 * p.traversal();
             plan.columns = deviation_columns(body);
+            plan.columns.push_back(closest_pair_column<2>());
             cases.push_back({*body.model, std::move(y0), std::move(plan), body.label});
         }
         const auto runs = session.run_all(std::move(cases));

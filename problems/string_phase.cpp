@@ -36,6 +36,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace {
@@ -44,6 +45,8 @@ using namespace spam;
 
 constexpr double near = 0.4;         // clumped: another particle nearer than this
 constexpr double core_energy = 0.1;  // where both are run
+constexpr double most_pairs = 2e9;   // what a sum over pairs can take
+constexpr double widest = 1000.0;    // side of the box, in ranges
 
 struct Parameters {
     int particles = 320;
@@ -78,8 +81,9 @@ Sample make_sample(const Parameters& p, double e_c) {
     if (e_c > 0.0) potentials.core = {e_c, p.core_range};
     potentials.kernel = p.kernel;
     potentials.range = p.range;
-    auto model = std::make_unique<DensityPotentialModel<2>>(
-        make_particles<2>(random_places(p), 1.0, 1.0, box), potentials, box);
+    auto particles = make_particles<2>(random_places(p), 1.0, 1.0, box);
+    particles.body.assign(particles.size(), 0);  // random places make no bodies
+    auto model = std::make_unique<DensityPotentialModel<2>>(std::move(particles), potentials, box);
     return {"", "",
             e_c > 0.0 ? fmt::format("core {:g} of range {:g}", e_c, p.core_range) : "no core",
             e_c > 0.0,
@@ -219,6 +223,18 @@ void refuse_contradictions(const Session& session, const Parameters& p) {
             fmt::format("side: {:g} is too short for --range {:g}: no pair may interact twice "
                         "through the periodic border; give more than {:g}, or a shorter --range",
                         p.side, p.range, 2.0 * p.range));
+    const double neighbours = p.particles * std::numbers::pi * std::pow(p.range / p.side, 2.0);
+    if (0.5 * p.particles * neighbours > most_pairs)
+        throw InputError(
+            fmt::format("side: {} particles in a box of side {:g} have some {:.0e} neighbours "
+                        "each, too many to "
+                        "sum over; give a longer --side, fewer --particles or a shorter --range",
+                        p.particles, p.side, neighbours));
+    if (!(p.side <= widest * p.range))
+        throw InputError(fmt::format(
+            "side: {:g} is so long that particles of range {:g} never meet; give {:g} or "
+            "less, or a longer --range",
+            p.side, p.range, widest * p.range));
 }
 
 }  // namespace

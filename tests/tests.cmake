@@ -63,6 +63,8 @@ spam_test(io/checkpoint_pair property)
 spam_test(io/checkpoint_faults property)
 spam_test(style/house_rules style)
 target_compile_definitions(test.style.house_rules PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
+spam_test(style/model_wrappers style)
+target_compile_definitions(test.style.model_wrappers PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 
 # What depends on the instruction set, with each that this build has and the processor can do.
 if(NOT SPAM_LEVELS STREQUAL "generic")

@@ -33,12 +33,21 @@ class FrozenModel final : public Model<2> {
     std::vector<double> density(std::span<const double> y) const override {
         return fluid_->density(y);
     }
+    // Not forwarded: event(). Particles that do not move never meet.
     Promises promises() const override { return fluid_->promises(); }
     std::string describe() const override { return fluid_->describe() + "; particles nailed down"; }
     double neighbour_forces(std::span<const double> y) const override {
         return fluid_->neighbour_forces(y);
     }
     bool smooth() const override { return fluid_->smooth(); }
+    std::vector<Remark> watch(double t, std::span<const double> y) override {
+        return fluid_->watch(t, y);
+    }
+    void set_bodies(std::vector<std::int32_t> bodies) override {
+        fluid_->set_bodies(bodies);
+        Model<2>::set_bodies(std::move(bodies));
+    }
+    std::string inseparable() const override { return fluid_->inseparable(); }
     std::size_t pairs() const override { return fluid_->pairs(); }
     double reach() const override { return fluid_->reach(); }
     double fastest_damping() const override { return fluid_->fastest_damping(); }

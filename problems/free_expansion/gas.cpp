@@ -88,6 +88,13 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
                         "twice --range {2:g}; "
                         "use at least --cells {3}, or a shorter range",
                         2 * cells, cells, p.range, static_cast<int>(std::floor(p.range)) + 1));
+    // The one at a corner has few neighbours: about half of the density on a line, a quarter in the plane.
+    if (p.ranges == Ranges::density && !(cells > 2.0 * p.range))
+        throw InputError(fmt::format(
+            "cells: with --ranges density particles at corners reach twice as far as "
+            "--range {0:g}, and the periodic box of {1} (twice --cells {2}) is not wider "
+            "than twice that; use at least --cells {3}, or a shorter range",
+            p.range, 2 * cells, cells, static_cast<int>(std::floor(2.0 * p.range)) + 1));
     const Box<Dim> box(all_along<double, Dim>(2.0 * cells));
     Points<Dim> sites = square_lattice<Dim>(all_along<int, Dim>(cells));
     sites.array() += 0.5 * (cells + 1.0);

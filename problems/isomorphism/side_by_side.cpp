@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 
 namespace isomorphism {
 namespace {
@@ -41,6 +41,7 @@ SideBySide::SideBySide(std::vector<std::unique_ptr<Model<2>>> parts)
     : Model<2>(together(parts), parts.front()->box(), fields_of(parts)),
       parts_(std::move(parts)) {
     for (const auto& part : parts_) {
+        if (part->event()) throw std::invalid_argument("models side by side have no events");
         y_.emplace_back(part->layout().size());
         y_dot_.emplace_back(part->layout().size());
         for (const auto& block : part->layout().blocks())
@@ -137,7 +138,31 @@ std::size_t SideBySide::pairs() const {
     return sum;
 }
 
-double SideBySide::reach() const { return parts_.front()->reach(); }
+double SideBySide::reach() const {
+    double farthest = 0.0;
+    for (const auto& part : parts_) farthest = std::max(farthest, part->reach());
+    return farthest;
+}
+
+std::vector<Remark> SideBySide::watch(double t, std::span<const double> y) {
+    std::vector<Remark> all;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+        for (Remark& remark : parts_[k]->watch(t, part(k, y))) all.push_back(std::move(remark));
+    return all;
+}
+
+/// Why one of them is.
+std::string SideBySide::inseparable() const {
+    for (const auto& part : parts_)
+        if (auto why = part->inseparable(); !why.empty()) return why;
+    return {};
+}
+
+double SideBySide::fastest_damping() const {
+    double fastest = 0.0;
+    for (const auto& part : parts_) fastest = std::max(fastest, part->fastest_damping());
+    return fastest;
+}
 
 void SideBySide::remember(Archive& archive) {
     Model<2>::remember(archive);

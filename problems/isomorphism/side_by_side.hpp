@@ -14,7 +14,8 @@ using namespace spam;
 /// their states one behind the other, block by block. They do not act on each other.
 class SideBySide final : public Model<2> {
   public:
-    /// As many particles in every part, in the same box.
+    /// As many particles in every part, in the same box. Throws std::invalid_argument for a part with
+    /// an event.
     explicit SideBySide(std::vector<std::unique_ptr<Model<2>>> parts);
 
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
@@ -24,6 +25,12 @@ class SideBySide final : public Model<2> {
     std::string describe() const override;
     double neighbour_forces(std::span<const double> y) const override;
     bool smooth() const override;
+    // Not forwarded: event(). It would change the state of a part, not this one; parts that have one are
+    // refused.
+    // Not forwarded: set_bodies(). Every part stays as many bodies as it was made of.
+    std::vector<Remark> watch(double t, std::span<const double> y) override;
+    std::string inseparable() const override;
+    double fastest_damping() const override;
     std::size_t pairs() const override;
     double reach() const override;
     void remember(Archive& archive) override;

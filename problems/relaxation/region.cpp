@@ -2,6 +2,7 @@
 #include "region.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
 #include <spam/setup/drawn.hpp>
 
 #include <fmt/format.h>
@@ -21,6 +22,9 @@
 #include <vector>
 
 namespace relaxation {
+
+using spam::number_in;
+
 namespace {
 
 double cross(const Point<2>& a, const Point<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -56,24 +60,12 @@ bool cross_each_other(const Points<2>& polygon, Eigen::Index j, Eigen::Index k) 
 /// A thinner shape leaves random_places() next to no chance, and a wall around it no end.
 constexpr double least_part = 1e-3;
 
-/// Even between 0 and 1, the same numbers with every library.
-
 /// Between blanks, or the first comma: "x,y", "x y". A second comma stays in its word, which then is no
 /// number.
 std::vector<std::string> words_of(std::string line) {
     if (const auto comma = line.find(','); comma != std::string::npos) line[comma] = ' ';
     std::istringstream in(line);
     return {std::istream_iterator<std::string>(in), {}};
-}
-
-/// A word that is a finite number from its begin to its end.
-std::optional<double> number_of(const std::string& word) {
-    double value = 0.0;
-    const char* last = word.data() + word.size();
-    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
 }
 
 /// Names of columns: all words begin with a letter and none is what some write for a number.
@@ -187,8 +179,8 @@ Region region_from_file(const std::string& path) {
         const auto words = words_of(line);
         if (words.empty() || words[0].front() == '#') continue;
         if (std::exchange(first, false) && is_header(words)) continue;
-        const auto x = number_of(words[0]);
-        const auto y = words.size() == 2 ? number_of(words[1]) : std::nullopt;
+        const auto x = number_in(words[0]);
+        const auto y = words.size() == 2 ? number_in(words[1]) : std::nullopt;
         if (!x || !y)
             throw InputError(fmt::format(
                 "outline: line {} of '{}' is no corner; write two numbers, x,y", number, path));

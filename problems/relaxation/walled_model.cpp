@@ -163,6 +163,11 @@ std::string WalledModel::describe() const {
     return inside_.describe() + "; inside a wall of the same density";
 }
 
+void WalledModel::set_bodies(std::vector<std::int32_t> bodies) {
+    inside_.set_bodies(bodies);
+    Model<2>::set_bodies(std::move(bodies));
+}
+
 void WalledModel::remember(Archive& archive) {
     Model<2>::remember(archive);
     inside_.remember(archive);

@@ -62,12 +62,19 @@ class WalledModel final : public Model<2> {
     double internal_energy(std::span<const double> y) const override;
     /// What the wall stands for included.
     std::vector<double> density(std::span<const double> y) const override;
+    std::optional<Event> event() const override { return inside_.event(); }
     Promises promises() const override;
     double neighbour_forces(std::span<const double> y) const override {
         return inside_.neighbour_forces(y);
     }
     bool smooth() const override { return inside_.smooth(); }
     std::string describe() const override;
+    std::vector<Remark> watch(double t, std::span<const double> y) override {
+        return inside_.watch(t, y);
+    }
+    void set_bodies(std::vector<std::int32_t> bodies) override;
+    std::string inseparable() const override { return inside_.inseparable(); }
+    double fastest_damping() const override { return inside_.fastest_damping(); }
     std::size_t pairs() const override { return inside_.pairs(); }
     double reach() const override { return inside_.reach(); }
     void remember(Archive& archive) override;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -28,7 +30,23 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+template <class Number>
+std::optional<Number> read_whole_word(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(word.substr(1).starts_with('-') ? 0 : 1);
+    Number value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+    return value;
+}
+
 }  // namespace
+
+std::optional<double> number_in(std::string_view word) {
+    const auto value = read_whole_word<double>(word);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<int> whole_number_in(std::string_view word) { return read_whole_word<int>(word); }
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
     // A candidate that contains the word is what was meant, however much longer it is.

@@ -6,11 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace spam {
 
@@ -33,23 +28,12 @@ Allowed between(double least, double most) {
 
 namespace {
 
-double parse_number(const std::string& name, const std::string& text, const Allowed& allowed) {
-    double value = 0.0;
-    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc{} || end != last || !std::isfinite(value) || !allowed.holds(value))
+template <class Number>
+Number accepted(const std::string& name, const std::string& text, std::optional<Number> value,
+                const Allowed& allowed) {
+    if (!value || !allowed.holds(*value))
         throw InputError(fmt::format("{}: '{}' must be {}", name, text, allowed.words));
-    return value;
-}
-
-int parse_integer(const std::string& name, const std::string& text, const Allowed& allowed) {
-    int value = 0;
-    const char* last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, value);
-    if (error != std::errc{} || end != last || !allowed.holds(value))
-        throw InputError(fmt::format("{}: '{}' must be {}", name, text, allowed.words));
-    return value;
+    return *value;
 }
 
 }  // namespace
@@ -83,9 +67,9 @@ void Options::number(std::string name, Target& target, std::string help, Allowed
     entry.allowed = allowed.words;
     entry.set = [&entry, &target, allowed](const std::string& text) {
         if constexpr (whole)
-            target = parse_integer(entry.name, text, allowed);
+            target = accepted(entry.name, text, whole_number_in(text), allowed);
         else
-            target = parse_number(entry.name, text, allowed);
+            target = accepted(entry.name, text, number_in(text), allowed);
     };
     if constexpr (std::is_arithmetic_v<Target>) {
         entry.get = [&target] { return fmt::format("{}", target); };

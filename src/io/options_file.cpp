@@ -8,13 +8,15 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace spam {
 namespace {
+
+constexpr std::size_t largest_file = 16 << 20;  // no list of options is longer
 
 /// The whole of a file of options; throws InputError when there is nothing to read.
 std::string text_of(const std::string& path) {
@@ -23,7 +25,26 @@ std::string text_of(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in || std::filesystem::is_directory(path, error))
         throw InputError(fmt::format("config: '{}' is not a file that can be read", path));
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::string text;
+    for (std::array<char, 4096> part; in;) {
+        in.read(part.data(), part.size());
+        text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+        if (text.size() > largest_file)
+            throw InputError(fmt::format(
+                "config: '{}' is longer than 16 MiB; give a TOML file of options", path));
+    }
+    if (in.bad()) throw InputError(fmt::format("config: '{}' cannot be read to its end", path));
+    return text;
+}
+
+toml::table table_of(const std::string& text, const std::string& path) {
+    try {
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& error) {
+        const auto& where = error.source().begin;
+        throw InputError(fmt::format("config: {} line {}: {}", path, where.line,
+                                     std::string(error.description())));
+    }
 }
 
 }  // namespace
@@ -45,17 +66,30 @@ void Options::case_from(std::string option, std::function<std::string(const std:
     earlier_ = {std::move(option), std::move(read), std::move(may_change)};
 }
 
-/// Reads the case that an option brings, if it was given. `raw`: what the command line holds, by entry.
+/// Reads the case that an option brings, if it was given on the command line or in the file of --config.
+/// `raw`: what the command line holds, by entry.
 bool Options::read_earlier_case(const std::vector<std::string>& raw, bool has_config) {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
         if (entries_[k]->name != earlier_.option || raw[k].empty()) continue;
         if (has_config)
             throw InputError(fmt::format("config: --{} brings a case of its own; leave one out",
                                          earlier_.option));
-        read_case(earlier_.read(raw[k]), raw[k]);
+        read_case(earlier_.read(raw[k]), raw[k], false);
         return true;
     }
-    return false;
+    if (!has_config) return false;
+    const std::string text = text_of(config_);
+    const auto table = table_of(text, config_);
+    const toml::node* named = earlier_.option.empty() ? nullptr : table.get(earlier_.option);
+    const auto* name = named == nullptr ? nullptr : named->as_string();
+    if (name != nullptr && !name->get().empty()) try {
+            read_case(earlier_.read(name->get()), name->get(), false);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("config: {} line {}: {}", config_,
+                                         named->source().begin.line, error.what()));
+        }
+    read_case(text, config_, name != nullptr);
+    return name != nullptr;
 }
 
 /// `before`: the value in the earlier case.
@@ -72,17 +106,10 @@ void Options::refuse_change(const Entry& entry, const std::string& before) const
                     fmt::join(free, ", ")));
 }
 
-void Options::read_config(const std::string& path) { read_case(text_of(path), path); }
-
-void Options::read_case(const std::string& text_of_case, const std::string& path) {
-    toml::table table;
-    try {
-        table = toml::parse(text_of_case, path);
-    } catch (const toml::parse_error& error) {
-        const auto& where = error.source().begin;
-        throw InputError(fmt::format("config: {} line {}: {}", path, where.line,
-                                     std::string(error.description())));
-    }
+/// `beside_earlier`: what it says stands beside the case of an earlier run, as the command line does.
+void Options::read_case(const std::string& text_of_case, const std::string& path,
+                        bool beside_earlier) {
+    const toml::table table = table_of(text_of_case, path);
     for (const auto& [key, node] : table) {
         const std::string name(key.str());
         const auto line = node.source().begin.line;
@@ -115,11 +142,14 @@ void Options::read_case(const std::string& text_of_case, const std::string& path
                                          value.str(), entry.allowed));
         }
         try {
+            const std::string before = entry.get();
             entry.set(text);
+            if (beside_earlier) refuse_change(entry, before);
         } catch (const InputError& error) {
             throw InputError(fmt::format("config: {} line {}: {}", path, line, error.what()));
         }
         entry.in_file = true;
+        entry.on_command = beside_earlier;
     }
 }
 

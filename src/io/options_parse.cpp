@@ -20,6 +20,16 @@ std::string without_value(const std::string& complaint) {
                        name.substr(std::min(name.find_first_not_of('-'), name.size())), name);
 }
 
+/// The parser takes "--quiet=", without the value announced, for "--quiet".
+void refuse_missing_value(const std::string& flag, int argc, const char* const* argv) {
+    const std::string announced = "--" + flag + "=";
+    if (std::any_of(argv + std::min(1, argc), argv + argc,
+                    [&](const char* word) { return word == announced; }))
+        throw InputError(
+            fmt::format("{}: the value of --{}= is missing; write --{}, --{}=true or --{}=false",
+                        flag, flag, flag, flag, flag));
+}
+
 /// A word of the command line that is nothing.
 std::string stray_word(const std::string& word, std::vector<std::string> known) {
     if (!word.starts_with('-'))
@@ -85,13 +95,16 @@ bool Options::parse(int argc, const char* const* argv) {
                             name, value, name));
     };
     refuse_option_as_value("config", config_);
-    if (config->count() > 0) read_config(config_);
     const bool earlier = read_earlier_case(raw, config->count() > 0);
     for (std::size_t k = 0; k < entries_.size(); ++k) {
+        if (entries_[k]->is_flag) refuse_missing_value(entries_[k]->name, argc, argv);
         if (registered[k]->count() == 0) continue;
         refuse_option_as_value(entries_[k]->name, raw[k]);
         const std::string before = entries_[k]->get();
-        entries_[k]->set(entries_[k]->is_flag ? registered[k]->results().back() : raw[k]);
+        if (entries_[k]->is_flag)
+            for (const auto& value : registered[k]->results()) entries_[k]->set(value);
+        else
+            entries_[k]->set(raw[k]);
         if (earlier) refuse_change(*entries_[k], before);
         entries_[k]->on_command = true;
     }

@@ -7,12 +7,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <fstream>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace spam {
@@ -51,6 +54,45 @@ std::vector<std::string> csv_cells(std::string_view line) {
     return cells;
 }
 
+namespace {
+
+const std::string check_column = "check";
+
+/// Four hexadecimal digits of a cell (FNV-1a, folded): enough to find where a line was changed.
+std::string seal_of(std::string_view cell) {
+    std::uint32_t hash = 2166136261U;
+    for (const char c : cell) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+    return fmt::format("{:04x}", (hash >> 16 ^ hash) & 0xffffU);
+}
+
+/// A row and the seals of its cells.
+std::vector<std::string> sealed(std::vector<std::string> row) {
+    std::string seals;
+    for (std::string& cell : row) {
+        for (char& c : cell)
+            if (c == '\n' || c == '\r') c = ' ';
+        seals += seal_of(cell);
+    }
+    row.push_back(seals);
+    return row;
+}
+
+/// What is wrong with a line; empty where nothing is.
+std::string damage(const std::vector<std::string>& cells, const std::vector<std::string>& columns) {
+    const std::string& seals = cells.back();
+    if (seals.size() != 4 * columns.size())
+        return fmt::format("has no seals of {} cells at its end", columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        if (k + 1 >= cells.size() || seal_of(cells[k]) != seals.substr(4 * k, 4))
+            return fmt::format("column '{}' is not what was written{}", columns[k],
+                               k + 1 < cells.size() ? ": '" + cells[k] + "'" : "");
+    if (cells.size() != columns.size() + 1)
+        return fmt::format("has {} cells in place of {}", cells.size(), columns.size() + 1);
+    return {};
+}
+
+}  // namespace
+
 bool StudyTable::unfinished(const std::filesystem::path& folder, std::string_view name) {
     std::error_code error;
     return std::filesystem::exists(folder / fmt::format("{}.part.csv", name), error);
@@ -61,33 +103,61 @@ StudyTable::StudyTable(const RunFolder& folder, std::string name, std::vector<st
       name_(std::move(name)),
       columns_(std::move(columns)) {
     std::ifstream in(part(), std::ios::binary);
-    if (!in) {
-        folder_.write(name_ + ".part.csv", csv_line(columns_));
-        return;
-    }
-    std::string line;
     std::streamoff whole = 0;
-    bool first = true;
-    while (std::getline(in, line) && !in.eof()) {  // at the end of the file the line has no end
-        Row row = csv_cells(line);
-        if (first && row != columns_)
-            throw InputError(fmt::format(
-                "out: '{}' has other columns; choose another --out, or --force to begin anew",
-                part().string()));
-        if (row.size() != columns_.size()) break;
-        if (!first) rows_[row.front()] = row;
-        first = false;
+    std::string line;
+    for (int number = 1; std::getline(in, line) && !in.eof();
+         ++number) {  // the last: without an end
+        const bool torn = line.empty() || line.find('\0') != std::string::npos;
+        if (torn && in.peek() == std::ifstream::traits_type::eof()) break;  // the power failed
+        read(line, number);
         whole = in.tellg();
     }
+    if (in.bad()) refuse(0, "cannot be read to its end");
     in.close();
+    if (whole == 0) {
+        folder_.write(name_ + ".part.csv", csv_line(header()));
+        return;
+    }
     std::error_code error;
     std::filesystem::resize_file(part(), static_cast<std::uintmax_t>(whole), error);
-    if (error || first) folder_.write(name_ + ".part.csv", csv_line(columns_));
+    if (error)
+        throw OutputError(fmt::format("cannot write '{}': {}", part().string(), error.message()));
+}
+
+StudyTable::Row StudyTable::header() const {
+    Row all = columns_;
+    all.push_back(check_column);
+    return all;
+}
+
+void StudyTable::read(const std::string& line, int number) {
+    Row row = csv_cells(line);
+    if (number == 1) {
+        const Row expected = header();
+        if (row == expected) return;
+        const auto at = static_cast<std::size_t>(
+            std::mismatch(row.begin(), row.end(), expected.begin(), expected.end()).first -
+            row.begin());
+        refuse(1, fmt::format("has other columns ('{}' in place of '{}')",
+                              at < row.size() ? row[at] : "nothing",
+                              at < expected.size() ? expected[at] : "nothing"));
+    }
+    if (const auto wrong = damage(row, columns_); !wrong.empty()) refuse(number, wrong);
+    row.pop_back();
+    if (!rows_.emplace(row.front(), row).second)
+        refuse(number, fmt::format("holds '{}' a second time", row.front()));
+}
+
+/// The file stays as it is. `line`: 0 for all of it.
+void StudyTable::refuse(int line, const std::string& why) const {
+    throw InputError(fmt::format("out: '{}'{}: {}; choose another --out, or --force to begin anew",
+                                 part().string(),
+                                 line > 0 ? fmt::format(" line {}", line) : std::string{}, why));
 }
 
 /// One write of the whole line: a kill leaves it there or not, the power failing may tear it.
 void StudyTable::append(const Row& row) {
-    const std::string line = csv_line(row);
+    const std::string line = csv_line(sealed(row));
     const int file = open(part().c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     const bool written =
         file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
@@ -134,7 +204,18 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
         news.notify_one();
     };
     std::vector<std::thread> workers;
-    for (std::size_t k = 0, n = working; k < n; ++k) workers.emplace_back(work);
+    for (std::size_t n = working; workers.size() < n;) try {
+            workers.emplace_back(work);
+        } catch (const std::system_error& refusal) {  // fewer do it as well
+            const std::lock_guard lock(mutex);
+            working -= n - workers.size();
+            if (workers.empty())
+                throw InputError(
+                    fmt::format("jobs: no thread can be started ({}); raise the limits "
+                                "on processes and memory (ulimit -u, -v)",
+                                refusal.code().message()));
+            break;
+        }
     {
         std::unique_lock lock(mutex);
         while (working > 0) {

@@ -12,10 +12,10 @@ std::string_view to_string(DriftAction action) {
 }
 
 std::optional<double> DriftLimits::limit_of(const Drift& drift) const {
-    const std::optional<double>& own = drift.name == "mass"       ? mass
-                                       : drift.name == "momentum" ? momentum
-                                       : drift.name == "energy"   ? energy
-                                                                  : angular_momentum;
+    const std::optional<double> own = drift.name == "mass"       ? std::nullopt
+                                      : drift.name == "momentum" ? momentum
+                                      : drift.name == "energy"   ? energy
+                                                                 : angular_momentum;
     if (own) return own;
     return drift.promise == Promise::not_kept ? std::nullopt : std::optional(drift.limit);
 }

@@ -75,6 +75,11 @@ void DriftStudy::run(Session& session, const std::vector<Trial<Dim>>& trials) {
     std::vector<LongRun> runs;
     for (std::size_t t = 0; t < trials.size(); ++t) {
         const Trial<Dim>& trial = trials[t];
+        if (!(calls_per_time_ * trial.t_end <= 1e10))
+            throw InputError(fmt::format(
+                "calls-per-time: {:g} would be {:.0e} right-hand sides to the end of {}, t = {:g}; "
+                "choose fewer, or a shorter run",
+                calls_per_time_, calls_per_time_ * trial.t_end, trial.name, trial.t_end));
         const Start<Dim> start = trial.start();
         words.push_back(
             {trial.name, trial.title, trial.t_end, start.model->promises(), trial.rough.empty()});

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 
@@ -75,12 +76,25 @@ Drifts read_drifts(const std::filesystem::path& file) {
     std::string line;
     std::getline(in, line);
     Drifts drifts;
-    while (std::getline(in, line)) {
+    for (int number = 2; std::getline(in, line); ++number) {
         const auto cells = csv_cells(line);
-        if (cells.size() != 1 + invariants.size()) break;
-        drifts.t.push_back(std::stod(cells[0]));
-        for (std::size_t k = 0; k < invariants.size(); ++k)
-            drifts.change[k].push_back(std::stod(cells[k + 1]));
+        const auto refuse = [&](const std::string& why) {
+            throw InputError(
+                fmt::format("out: '{}' line {} {}; begin anew with --force, or another "
+                            "--out",
+                            file.string(), number, why));
+        };
+        if (cells.size() != 1 + invariants.size())
+            refuse(fmt::format("has {} cells in place of {}", cells.size(), 1 + invariants.size()));
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            double value = 0.0;  // infinite, or none, where a run was stopped
+            const char* last = cells[k].data() + cells[k].size();
+            const auto [end, error] = std::from_chars(cells[k].data(), last, value);
+            if (error != std::errc{} || end != last)
+                refuse(fmt::format("column '{}': '{}' is no number",
+                                   k == 0 ? "t" : invariants[k - 1], cells[k]));
+            (k == 0 ? drifts.t : drifts.change[k - 1]).push_back(value);
+        }
     }
     if (drifts.t.size() < 3) throw OutputError(fmt::format("cannot read '{}' back", file.string()));
     return drifts;

@@ -123,6 +123,13 @@ bool IntegratorSettings::prefer_step(double dt, const Options& options) {
     return true;
 }
 
+void refuse_endless(const IntegratorOptions& integrator, double t_end) {
+    if (integrator.dt && !(t_end / *integrator.dt <= 1e9))
+        throw InputError(
+            fmt::format("dt: {} would take {:.0e} steps to t = {:g}; choose a larger one",
+                        *integrator.dt, t_end / *integrator.dt, t_end));
+}
+
 IntegratorOptions IntegratorSettings::resolve(Options& options) {
     const auto adaptive = with("relaxation", adaptive_names());
     options.command_line_wins({"integrator"}, with("dt", adaptive));

@@ -3,8 +3,8 @@
 #include "dry_run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
-#include <spam/core/parallel.hpp>
 #include <spam/core/text.hpp>
+#include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
 
@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <stdexcept>
+#include <system_error>
 
 namespace spam {
 namespace {
@@ -21,6 +23,12 @@ namespace {
 void keep_standard_descriptors() {
     for (int fd = 0; fd <= 2; ++fd)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDWR) < 0) std::abort();
+}
+
+InputError too_large() {
+    return InputError(
+        "not enough memory for this case; give fewer particles, or a shorter range of their weight "
+        "function");
 }
 
 }  // namespace
@@ -77,15 +85,14 @@ void Problem::add_guard_options() {
             "largest relative change before the guard reacts (default: the scheme's bound)",
             positive());
     };
-    limit("mass", guard.mass);
     limit("momentum", guard.momentum);
     limit("angular-momentum", guard.angular_momentum);
     limit("energy", guard.energy);
 }
 
 const std::vector<std::string>& Problem::guard_option_names() {
-    static const std::vector<std::string> names{"guard", "limit-mass", "limit-momentum",
-                                                "limit-angular-momentum", "limit-energy"};
+    static const std::vector<std::string> names{"guard", "limit-momentum", "limit-angular-momentum",
+                                                "limit-energy"};
     return names;
 }
 
@@ -179,7 +186,7 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         const auto idle = idle_scheme_options();
         refuse_idle_limits();
         const IntegratorOptions integrator = integrator_.resolve(options_);
-        set_threads(common_.threads);
+        start_threads(common_.threads);
         Session session(*this, integrator, command);
         session.leave_out_of_case(idle);
         try {
@@ -195,9 +202,17 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     } catch (const OutputError& error) {
         return complain(error, 4);
     } catch (const std::bad_alloc&) {
-        return complain(InputError("not enough memory for this many particles"), 2);
-    } catch (const std::exception& error) {
+        return complain(too_large(), 2);
+    } catch (const std::length_error&) {
+        return complain(too_large(), 2);
+    } catch (const std::system_error& error) {  // files: std::filesystem and streams
         return complain(error, 4);
+    } catch (const std::exception& error) {
+        return complain(std::runtime_error(fmt::format(
+                            "a defect of this program, not of its input or its results: {}; "
+                            "please report it with the command",
+                            error.what())),
+                        4);
     }
 }
 

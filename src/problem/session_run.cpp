@@ -80,7 +80,7 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
                 fmt::format("{}: {} would take {:.0e} {} to t = {:g}; choose a larger one", name,
                             *interval, plan.t_end / *interval, what, plan.t_end));
     };
-    limit("dt", integrator_.dt, "steps");
+    refuse_endless(integrator_, plan.t_end);
     limit("output-every", common.output_every, "rows");
     limit("snapshot-every", common.snapshot_every, "files");
     limit("checkpoint-every", common.checkpoint_every, "files");

@@ -36,8 +36,8 @@ void check_core(const DensityPotentials& p) {
 }
 
 template <int Dim>
-DensityPotentials validated(const DensityPotentials& p, double spacing) {
-    valid_range(p.range, spacing);
+DensityPotentials validated(const DensityPotentials& p, const Particles<Dim>& particles) {
+    valid_range<Dim>(p.range, particles.spacing, particles.size());
     check_strength("surface-tension", p.surface_tension);
     check_strength("strength", p.strength);
     check_core(p);
@@ -199,7 +199,7 @@ DensityPotentialModel<Dim>::DensityPotentialModel(Particles<Dim> particles,
                                                   const DensityPotentials& potentials,
                                                   const Box<Dim>& box)
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
-      potentials_(validated<Dim>(potentials, this->particles().spacing)),
+      potentials_(validated(potentials, this->particles())),
       parts_(std::make_unique<Parts>(potentials_)) {
     parts_->packed = packed_with(ListUse::again_and_again);
 }

@@ -82,7 +82,7 @@ FluidModel<Dim>::FluidModel(Particles<Dim> particles, const Fluid& fluid, const 
       density_(this->particles().size()),
       pressure_(density_.size()),
       temperature_(density_.size()) {
-    valid_range(scheme.range, this->particles().spacing);
+    valid_range<Dim>(scheme.range, this->particles().spacing, this->particles().size());
     check(fluid, scheme, Dim);
     packed_ = packed_with(ListUse::again_and_again);
     if (has_gradients(fluid)) damping_ = estimate_damping();

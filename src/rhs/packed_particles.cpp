@@ -6,9 +6,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace spam {
+namespace {
+
+/// Of a list that no machine's memory holds, or a sum that takes minutes.
+constexpr double most_pairs = 2e9;
+
+}  // namespace
 
 /// Returns how many particles have moved too far for the list.
 template <int Dim>
@@ -61,12 +69,21 @@ void PackedParticles<Dim>::load_density(const PackedFields& fields) {
     pack(fields, true);
 }
 
-double valid_range(double range, double spacing) {
+template <int Dim>
+double valid_range(double range, double spacing, std::size_t particles) {
     if (!(range > spacing) || !(range < 1e6 * spacing))
         throw InputError(fmt::format(
             "range: {} must lie above the particle spacing {} (else no particle has a neighbour) "
             "and below 1e6 spacings; 2 to 4 spacings are usual",
             range, spacing));
+    constexpr double ball[] = {2.0, std::numbers::pi, 4.0 / 3.0 * std::numbers::pi};
+    const auto n = static_cast<double>(particles);
+    const double pairs = 0.5 * n * std::min(n, ball[Dim - 1] * std::pow(range / spacing, Dim));
+    if (pairs > most_pairs)
+        throw InputError(fmt::format(
+            "range: {} makes some {:.0e} pairs of {} particles, and more than {:.0e} cannot be "
+            "summed over; give a shorter range (2 to 4 spacings are usual) or fewer particles",
+            range, pairs, particles, most_pairs));
     return range;
 }
 
@@ -89,6 +106,9 @@ void PackedParticles<Dim>::choose_skin() {
     served_ = 0;
 }
 
+template double valid_range<1>(double, double, std::size_t);
+template double valid_range<2>(double, double, std::size_t);
+template double valid_range<3>(double, double, std::size_t);
 template class PackedParticles<1>;
 template class PackedParticles<2>;
 template class PackedParticles<3>;

@@ -68,7 +68,8 @@ class PackedParticles {
     std::size_t served_ = 0;  ///< right-hand sides by this list
 };
 
-/// The range, if it makes sense for this spacing; else throws InputError.
-double valid_range(double range, double spacing);
+/// The range, if it makes sense for so many particles of this spacing; else throws InputError.
+template <int Dim>
+double valid_range(double range, double spacing, std::size_t particles);
 
 }  // namespace spam

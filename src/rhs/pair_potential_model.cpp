@@ -29,7 +29,7 @@ template <int Dim>
 PairPotentialModel<Dim>::PairPotentialModel(Particles<Dim> particles, double range,
                                             const Box<Dim>& box)
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
-      range_(valid_range(range, this->particles().spacing)),
+      range_(valid_range<Dim>(range, this->particles().spacing, this->particles().size())),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>())),
       packed_(packed_with(ListUse::again_and_again)) {}
 

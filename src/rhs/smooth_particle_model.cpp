@@ -71,7 +71,7 @@ SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
       scheme_(scheme),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
       packed_(packed_with(ListUse::again_and_again)) {
-    valid_range(scheme.range, this->particles().spacing);
+    valid_range<Dim>(scheme.range, this->particles().spacing, this->particles().size());
     if (scheme.closest_approach > 0.0 && scheme.closest_approach < 1e-3 * this->particles().spacing)
         throw InputError(
             fmt::format("closest-approach: {} must be 0 (none) or at least a thousandth of the "

@@ -41,9 +41,10 @@ LagrangianSweeps<Dim> best_sweeps() {
     return at_level(instruction_set(), [](auto level) { return lagrangian_sweeps<Dim, level>(); });
 }
 
-TotalLagrangianScheme validated(const TotalLagrangianScheme& scheme, double spacing,
-                                double stiffness) {
-    valid_range(scheme.range, spacing);
+template <int Dim>
+TotalLagrangianScheme validated(const TotalLagrangianScheme& scheme,
+                                const Particles<Dim>& particles, double stiffness) {
+    valid_range<Dim>(scheme.range, particles.spacing, particles.size());
     if (!(scheme.density > 0.0) || !std::isfinite(scheme.density))
         throw InputError(
             fmt::format("density: {} of the reference configuration must be positive; sqrt(4/3) m "
@@ -102,7 +103,7 @@ TotalLagrangianModel<Dim>::TotalLagrangianModel(Particles<Dim> particles,
                                                 const Box<Dim>& box)
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       material_(material),
-      scheme_(validated(scheme, this->particles().spacing, material.stiffness())),
+      scheme_(validated(scheme, this->particles(), material.stiffness())),
       sweeps_(std::make_unique<const LagrangianSweeps<Dim>>(best_sweeps<Dim>())),
       list_(scheme.range, 0.0, box, sweeps_->width, stride<Dim>) {
     if (!this->particles().reference_position.allFinite())

@@ -96,6 +96,7 @@ VariableRangeModel<Dim>::VariableRangeModel(Particles<Dim> particles, const Flui
                         "would have the density that "
                         "its range asks for; 2 to 4 are usual",
                         scheme.range, least, to_string(scheme.kernel)));
+    valid_range<Dim>(scheme.range, 1.0, this->particles().size());  // in spacings
     if (fluid.viscosity || fluid.conduction)
         throw InputError(
             "range: ranges that follow the density are for fluids without friction and conduction; "

@@ -32,6 +32,11 @@ PeriodicSolid triangular_solid(int columns, int rows, const Material<2>& materia
 
 PeriodicSolid smallest_triangular_solid(const Material<2>& material, const Scheme& scheme,
                                         double density, double stress) {
+    if (!(scheme.range <= 30.0))
+        throw InputError(
+            fmt::format("range: {} must not be above 30 spacings: the lattice analysed is as wide "
+                        "as all that a particle feels; 2 to 4 are usual",
+                        scheme.range));
     const int cells = static_cast<int>(2.0 * coupling_reach(scheme) / std::sqrt(0.75)) + 1;
     const int even = std::max(4, cells + cells % 2);
     return triangular_solid(even, even, material, scheme, density, stress);

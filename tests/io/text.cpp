@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
 #include <spam/io/options.hpp>
 #include <spam/io/results.hpp>
 #include <spam/io/terminal.hpp>
@@ -52,6 +53,32 @@ struct Target {
 };
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(numbers_have_one_sign_and_nothing_else) {
+    BOOST_TEST(number_in("+2.5e1").value() == 25.0);
+    BOOST_TEST(number_in("-.5").value() == -0.5);
+    BOOST_TEST(whole_number_in("+7").value() == 7);
+    for (const char* word : {"", "+", "-", "+-5", "-+5", "++5", "--5", "5 ", " 5", "5x", "nan",
+                             "inf", "-inf", "1e999", "1e-999", "0x10", "1,5"}) {
+        BOOST_TEST(!number_in(word), word);
+        BOOST_TEST(!whole_number_in(word), word);
+    }
+    for (const char* word : {"2.0", "1e3", "99999999999"}) BOOST_TEST(!whole_number_in(word), word);
+}
+
+BOOST_AUTO_TEST_CASE(flags_have_all_their_values_looked_at) {
+    for (const std::vector<const char*>& words :
+         {std::vector{"--on="}, {"--on=x", "--on"}, {"--on", "--on="}, {"--on=1"}}) {
+        Target t;
+        BOOST_CHECK_THROW(t.parse(words), InputError);
+    }
+    Target t;
+    BOOST_TEST(t.parse({"--on=true"}));
+    BOOST_TEST(t.on);
+    Target other;
+    BOOST_TEST(other.parse({"--on=false"}));
+    BOOST_TEST(!other.on);
+}
 
 BOOST_AUTO_TEST_CASE(options_reach_their_targets) {
     Target t;

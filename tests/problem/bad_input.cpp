@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--balance", "global", "--angular-momentum", "torque_pair"}, {"balance", "for one"}},
         {{"--viscosity", "100"}, {"dt: damping (--viscosity)", "rk4", "below"}},
         {{"--guard", "off", "--limit-energy", "1e-3"}, {"limit-energy", "--guard"}},
-        {{"--limit-mass", "0"}, {"limit-mass", "above 0"}},
+        {{"--limit-momentum", "0"}, {"limit-momentum", "above 0"}},
         {{"--guard", "on"}, {"guard", "on", "off, warn, stop"}},
         {{"--gauss-singular", "stop", "--angular-momentum", "torque_pair"},
          {"gauss-singular", "torque_pair", "gauss"}},
@@ -150,6 +150,10 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--atol-energy", "-1", "--integrator", dormand}, {"atol-energy", "-1", "above 0"}},
         {{"--max-steps", "0"}, {"max-steps", "0", "between 1"}},
         {{"--quiet=maybe"}, {"quiet", "maybe", "true or false"}},
+        {{"--quiet="}, {"quiet", "missing", "--quiet=true"}},
+        {{"--dry-run=x", "--dry-run"}, {"dry-run", "x", "true or false"}},
+        {{"--speed", "+-5"}, {"speed", "+-5"}},
+        {{"--size", "200", "--range", "1e5"}, {"range", "120601 particles", "shorter range"}},
     });
 }
 
@@ -224,10 +228,33 @@ BOOST_AUTO_TEST_CASE(what_other_problems_cannot_do) {
         in("fragmenting_bar", {"--speed", "10"}, {"speed: at 10", "--output-every below 0.3"}),
         in("rotating_disk", {"--model", "md", "--kernel", "lucy"}, {"kernel", "--model md"}),
         in("rotating_disk", {"--damping", "100"}, {"dt: damping (--damping)", "rk4"}),
+        in("rotating_disk", {"--closest-approach", "0.5", "--integrator", "cvode:adams"},
+           {"integrator", "cvode:adams", "closest approach"}),
         in("rotating_disk", {"--balance", "global"}, {"balance", "for one"}),
         in("stability", {"--mean-density", "geometric"}, {"mean-density", "first order"}),
         in("stability", {"--guard", "stop"}, {"guard", "integrates nothing"}),
         in("turns_survived", {"--limit-energy", "1"}, {"limit-energy", "many runs"}),
+    });
+}
+
+/// What would compute for ever before the first step.
+BOOST_AUTO_TEST_CASE(cases_that_would_never_start) {
+    check_all({
+        in("drop", {"--range", "1e6"}, {"range", "spacing", "1000"}),
+        in("drop", {"--range", "1e9"}, {"range", "spacing", "1000"}),
+        in("drop", {"--cells", "1000", "--range", "900"}, {"range", "pairs", "1000000 particles"}),
+        in("string_phase", {"--side", "1e300"}, {"side", "never meet"}),
+        in("string_phase", {"--particles", "1000000", "--side", "8"}, {"side", "neighbours"}),
+        in("stability", {"--range", "1e6"}, {"range", "30 spacings"}),
+        in("sheared_square", {"--cells", "600", "--range", "9e5"}, {"range", "pairs"}),
+        in("rotating_disk", {"--radius", "300", "--range", "9e5"}, {"range", "pairs"}),
+        in("free_expansion", {"--cells", "12", "--ranges", "density"},
+           {"cells", "--ranges density", "at least --cells 13"}),
+        in("free_expansion", {"--cells", "400", "--range", "399"}, {"range", "pairs"}),
+        in("turns_survived", {"--turns", "1e12"}, {"dt", "steps"}),
+        in("turns_survived", {"--speed", "1e300"}, {"speed", "between"}),
+        in("algorithm_sweep", {"--turns", "1e12"}, {"dt", "steps"}),
+        in("invariant_drift", {"--periods", "1e12"}, {"calls-per-time", "right-hand sides"}),
     });
 }
 
@@ -251,6 +278,8 @@ BOOST_AUTO_TEST_CASE(files_of_options) {
     check_all({
         {{"--config", "nosuch.toml"}, {"config", "nosuch.toml"}},
         {{"--config", "full"}, {"config", "full"}},
+        {{"--config", "/proc/self/mem"}, {"config", "/proc/self/mem", "cannot be read to its end"}},
+        {{"--config", "/dev/zero"}, {"config", "/dev/zero", "longer than 16 MiB"}},
         {{"--config", "binary"}, {"config", "binary"}},
         {{"--config"}, {"config"}},
         file("rnge = 3\n", {"case.toml line 1", "rnge", "mean range?"}),

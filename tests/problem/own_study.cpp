@@ -8,8 +8,13 @@
 #include <spam/spam.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <typeinfo>
 
 using namespace spam;
 using spam::test::Csv;
@@ -162,4 +167,37 @@ BOOST_AUTO_TEST_CASE(methods_that_do_not_exist_are_refused) {
     WorkPrecision another;  // steps are what is studied
     BOOST_TEST(run(another, folder, {"--dt", "0.1"}) == 2);
     BOOST_TEST(folder.listing().empty());
+}
+
+/// Status 4 says that results could not be written: what is neither that nor bad input says so.
+BOOST_AUTO_TEST_CASE(an_unexpected_exception_is_called_a_defect) {
+    const auto told = [](const std::function<void(Session&)>& body) {
+        const Scratch folder;
+        const std::string file = folder / "err";
+        std::fflush(stderr);
+        const int own = dup(2), to = open(file.c_str(), O_CREAT | O_WRONLY, 0600);
+        dup2(to, 2);
+        Problem problem("mine", "a problem");
+        char name[] = "mine";
+        char* words[] = {name};
+        const int status = problem.main(1, words, body);
+        dup2(own, 2);
+        close(own);
+        close(to);
+        return std::pair(status, spam::test::contents_of(file));
+    };
+    const auto [status, text] = told([](Session&) { throw std::bad_cast(); });
+    BOOST_TEST(status == 4);
+    BOOST_TEST(text.starts_with("mine: a defect of this program"), text);
+    BOOST_TEST(text.find("std::bad_cast") != std::string::npos, text);
+    BOOST_TEST(std::count(text.begin(), text.end(), '\n') == 1);
+    const auto [file_status, file_text] =
+        told([](Session&) { std::filesystem::rename("/nonexistent/a", "/nonexistent/b"); });
+    BOOST_TEST(file_status == 4);
+    BOOST_TEST(file_text.find("defect") == std::string::npos, file_text);
+    BOOST_TEST(file_text.find("No such file") != std::string::npos, file_text);
+    const auto [memory_status, memory_text] =
+        told([](Session&) { std::vector<double>().reserve(std::size_t(1) << 62); });
+    BOOST_TEST(memory_status == 2);
+    BOOST_TEST(memory_text.find("not enough memory") != std::string::npos, memory_text);
 }

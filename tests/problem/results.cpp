@@ -218,3 +218,33 @@ BOOST_AUTO_TEST_CASE(case_toml_runs_the_same_case_again) {
         }
     }
 }
+
+/// Bodies are of solids: what random places happen to connect is none.
+BOOST_AUTO_TEST_CASE(random_starts_have_no_columns_of_bodies) {
+    const Scratch folder;
+    for (const auto& [name, more] :
+         {std::pair{std::string("relaxation"), Words{"--particles", "300", "--t-end", "1"}},
+          {"string_phase", {"--core", "0", "--t-end", "1"}},
+          {"drop", {"--surface-tension", "0", "--disorder", "0.5", "--t-end", "1"}}}) {
+        Words words{"--smoke", "--no-plots", "--out", name};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run(problem(name, words), {folder.path()});
+        BOOST_TEST(outcome.status == 0, outcome.out << outcome.err);
+        BOOST_TEST(header(Csv(folder / (name + "/invariants.csv"))).find("_body_") ==
+                   std::string::npos);
+    }
+}
+
+/// Turns of more digits than six are asked for and survived; what L may drift grows with the turns.
+BOOST_AUTO_TEST_CASE(any_number_of_turns_is_survived) {
+    const Scratch folder;
+    for (const std::string turns : {"0.20000001", "3"}) {
+        const Outcome outcome = run(
+            problem("turns_survived", {"--smoke", "--no-plots", "--turns", turns, "--out", turns}),
+            {folder.path()});
+        BOOST_TEST(outcome.status == 0, outcome.out << outcome.err);
+        for (const auto& check : json_of(folder / (turns + "/result.json")))
+            if (check["name"] == "molecular_dynamics_survives")
+                BOOST_TEST(check["value"].get<double>() == std::stod(turns));
+    }
+}

@@ -105,6 +105,27 @@ BOOST_AUTO_TEST_CASE(files_of_options_from_elsewhere) {
     }
 }
 
+/// OpenMP would end the program, with the status of a check that fails.
+BOOST_AUTO_TEST_CASE(too_many_threads_for_the_limits) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return;  // the sanitizer needs terabytes of addresses
+#else
+    const Scratch folder;
+    Launch launch{folder.path()};
+    launch.before_exec = [] {
+        const rlimit addresses{600u << 20, 600u << 20}, stack{8u << 20, 8u << 20};
+        setrlimit(RLIMIT_STACK, &stack);
+        setrlimit(RLIMIT_AS, &addresses);
+    };
+    const Words many{"--size", "20", "--threads", "1000"};
+    const Outcome outcome = run(problem("rotating_hexagon", many), launch);
+    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(outcome.err.starts_with("rotating_hexagon: threads: 1000 cannot be started, only "));
+    BOOST_TEST(lines(outcome.err) == 1u);
+    BOOST_TEST(folder.listing().empty());
+#endif
+}
+
 BOOST_AUTO_TEST_CASE(too_many_particles_for_the_memory) {
 #if defined(__SANITIZE_ADDRESS__)
     return;  // the sanitizer needs terabytes of addresses

@@ -72,6 +72,19 @@ BOOST_AUTO_TEST_CASE(an_unfinished_sweep_is_not_continued_with_another_case) {
     BOOST_TEST(interrupted.err.find("the results so far are complete") != std::string::npos);
     const std::string before = contents_of(folder / "out/sweep.part.csv");
 
+    const auto digit = before.rfind(",whole") - 1;  // of the last row that survived
+    for (const char* damage : {"9x", "", ","}) {
+        std::string text = before;
+        text.replace(digit, 1, damage);
+        folder.write("out/sweep.part.csv", text);
+        const Outcome damaged = run_in(folder, with(sweep, {"--out", "out"}));
+        BOOST_TEST(damaged.status == 2);
+        for (const char* word : {"sweep.part.csv' line ", "column 'turns_survived'", "--force"})
+            BOOST_TEST(damaged.err.find(word) != std::string::npos, damaged.err);
+        BOOST_TEST(contents_of(folder / "out/sweep.part.csv") == text);
+    }
+    folder.write("out/sweep.part.csv", before);
+
     const Outcome other = run_in(folder, with(sweep, {"--out", "out", "--viscosity", "2"}));
     BOOST_TEST(other.status == 2);
     BOOST_TEST(other.err.find("another case") != std::string::npos);

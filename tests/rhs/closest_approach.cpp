@@ -7,6 +7,7 @@
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/physics/closest_approach.hpp>
+#include <spam/rhs/damped_model.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -263,6 +264,25 @@ BOOST_AUTO_TEST_CASE(a_gas_keeps_energy_and_momentum_through_hundreds_of_events)
             BOOST_TEST(run.closest > 0.5 - 1e-12);  // no pair slips through
         }
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_gas_is_reflected_under_friction_too) {
+    for (const auto& options : methods) {
+        BOOST_TEST_CONTEXT(options.describe()) {
+            Gas gas;
+            DampedModel damped(std::move(gas.model), 0.05, Friction::all_motion);
+            Collisions run(damped, gas.y0, options);
+            run.run(5.0);
+            BOOST_TEST(run.times.size() > 100U);
+            BOOST_TEST(run.times.size() == run.integrator->statistics().events);
+            BOOST_TEST(run.closest > 0.5 - 1e-12);
+            BOOST_TEST(run.jump.energy < 1e-12);
+            BOOST_TEST(run.jump.momentum.norm() < 1e-12);  // L has no meaning across images
+        }
+    }
+    Gas gas;
+    DampedModel damped(std::move(gas.model), 0.05);
+    BOOST_CHECK_THROW(Collisions(damped, gas.y0, with("cvode:adams", std::nullopt)), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(integrators_agree_on_the_events_of_a_gas) {

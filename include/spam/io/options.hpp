@@ -68,8 +68,8 @@ class Options {
     void exclude_from_case(const std::vector<std::string>& names);
 
     /// `option`, a text already added, brings the case of an earlier run: `read` makes its TOML from the
-    /// option's value. On the command line only `may_change` may then differ from it, and options that
-    /// are no part of a case.
+    /// option's value. On the command line, or in the file of --config that names it, only `may_change`
+    /// may then differ from it, and options that are no part of a case.
     void case_from(std::string option, std::function<std::string(const std::string&)> read,
                    std::vector<std::string> may_change);
 
@@ -95,8 +95,7 @@ class Options {
   private:
     struct Entry;
     Entry& add(std::string name, std::string help);
-    void read_config(const std::string& path);
-    void read_case(const std::string& text_of_case, const std::string& path);
+    void read_case(const std::string& text_of_case, const std::string& path, bool beside_earlier);
     bool read_earlier_case(const std::vector<std::string>& raw, bool has_config);
     void refuse_change(const Entry& entry, const std::string& before) const;
     std::vector<std::string> names() const;

@@ -19,14 +19,15 @@ struct StudyTask {
 };
 
 /// A table computed row by row over the cores. Each row is on disk (flushed to the device) as soon as
-/// it is known, in <name>.part.csv, so that a study that was killed goes on where it was; complete, it
-/// becomes <name>.csv with the rows in the order of the tasks.
+/// it is known, in <name>.part.csv, so that a study that was killed goes on where it was; there every line
+/// ends with seals of its cells, so that one that was changed is found. Complete, the table becomes <name>.csv with the rows in the order of the tasks.
 class StudyTable {
   public:
     using Row = std::vector<std::string>;
 
     /// Reads what an earlier, unfinished study left there; a last line that is torn does not count.
-    /// Throws InputError where its columns are others.
+    /// Throws InputError, and leaves the file as it is, where its columns are others or a line is not what
+    /// was written.
     StudyTable(const RunFolder& folder, std::string name, std::vector<std::string> columns);
 
     /// Whether a study of that name was begun in the folder and not finished.
@@ -46,6 +47,9 @@ class StudyTable {
 
   private:
     void append(const Row& row);
+    Row header() const;
+    void read(const std::string& line, int number);
+    [[noreturn]] void refuse(int line, const std::string& why) const;
     std::filesystem::path part() const { return folder_ / (name_ + ".part.csv"); }
 
     RunFolder folder_;

@@ -16,10 +16,11 @@ enum class DriftAction { off, warn, stop };
 std::string_view to_string(DriftAction action);
 
 /// Limits of relative changes, on the scales of measure_drifts(). Unset: what the scheme promises;
-/// what it does not promise is watched only where a limit is set.
+/// what it does not promise is watched only where a limit is set. Particles keep their masses: there is
+/// no limit to choose.
 struct DriftLimits {
     DriftAction action = DriftAction::off;
-    std::optional<double> mass, momentum, angular_momentum, energy;
+    std::optional<double> momentum, angular_momentum, energy;
 
     std::optional<double> limit_of(const Drift& drift) const;
     /// "warns beyond mass 1e-12, momentum 1e-12, energy 1e-06", for the banner.

@@ -36,4 +36,7 @@ class IntegratorSettings {
     std::array<std::optional<double>, 5> field_atol_;  ///< by Field
 };
 
+/// Throws InputError where fixed steps would take more than 1e9 of them to `t_end`.
+void refuse_endless(const IntegratorOptions& integrator, double t_end);
+
 }  // namespace spam

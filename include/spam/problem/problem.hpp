@@ -24,7 +24,7 @@ struct CommonOptions {
     int threads = 1;
     std::optional<double> t_end, output_every, snapshot_every, checkpoint_every;
     std::string restart;
-    DriftLimits guard{DriftAction::warn, {}, {}, {}, {}};
+    DriftLimits guard{DriftAction::warn, {}, {}, {}};
 };
 
 /// A problem executable: its options, and the exit status contract around its body.

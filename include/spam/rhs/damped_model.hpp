@@ -31,6 +31,8 @@ class DampedModel final : public Model<2> {
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
     double internal_energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
+    /// Of the model itself: y is the same for both.
+    std::optional<Event> event() const override { return model_->event(); }
     Promises promises() const override;
     std::string describe() const override;
     std::vector<Remark> watch(double t, std::span<const double> y) override {
