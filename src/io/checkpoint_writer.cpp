@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_descriptor.hpp"
-#include "hdf5_handle.hpp"
+#include "hdf5_image.hpp"
 #include "sealed_file.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/checkpoint_file.hpp>
@@ -16,9 +16,9 @@ namespace {
 
 using namespace hdf5;
 
-File empty_file() {
+File empty_file(const Properties& access) {
     const Silence silence;
-    File file(H5Fcreate(no_file().c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), in_memory()));
+    File file(H5Fcreate(no_file().c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), access));
     if (!file) throw std::bad_alloc();
     return file;
 }
@@ -76,11 +76,23 @@ void store(hid_t file, std::string_view path, hid_t type, hid_t stored, const vo
 }  // namespace
 
 struct CheckpointWriter::Image {
-    Image() : file(empty_file()) {}
+    explicit Image(std::size_t reserve) : bytes(reserve), file(empty_file(bytes.access())) {}
+
+    /// What HDF5 would have left on a disk.
+    std::span<const std::byte> contents() const {
+        const Silence silence;
+        const bool flushed = H5Fflush(file, H5F_SCOPE_LOCAL) >= 0;
+        const ssize_t size = flushed ? H5Fget_file_image(file, nullptr, 0) : -1;
+        return bytes.first(size > 0 ? static_cast<std::size_t>(size) : 0);
+    }
+
+    GrowingImage bytes;
     File file;
 };
 
-CheckpointWriter::CheckpointWriter() : image_(std::make_unique<Image>()) {}
+/// Groups and the heads of arrays take a few KB, checksums and chunks that are not full a little.
+CheckpointWriter::CheckpointWriter(std::size_t expected)
+    : image_(std::make_unique<Image>(expected == 0 ? 0 : expected + expected / 64 + (1 << 20))) {}
 CheckpointWriter::~CheckpointWriter() {
     const Silence silence;
     image_.reset();
@@ -129,19 +141,12 @@ void CheckpointWriter::bytes(std::string_view path, std::span<const std::byte> v
 }
 
 void CheckpointWriter::save(const std::filesystem::path& target) const {
-    std::vector<std::byte> contents;
-    {
-        const Silence silence;
-        const File& file = image_->file;
-        const bool flushed = H5Fflush(file, H5F_SCOPE_LOCAL) >= 0;
-        const ssize_t size = flushed ? H5Fget_file_image(file, nullptr, 0) : -1;
-        if (size > 0) contents.resize(static_cast<std::size_t>(size));
-        if (size <= 0 || H5Fget_file_image(file, contents.data(), contents.size()) != size)
-            throw OutputError(fmt::format("cannot write '{}': HDF5 gives no image (no memory?)",
-                                          target.string()));
-    }
-    seal(contents);
-    replace_file(target, contents);
+    const std::span<const std::byte> contents = image_->contents();
+    if (contents.empty())
+        throw OutputError(
+            fmt::format("cannot write '{}': HDF5 gives no image (no memory?)", target.string()));
+    const Seal seal = seal_of(contents);
+    replace_file(target, {contents, seal});
 }
 
 }  // namespace spam

@@ -20,7 +20,8 @@ namespace spam {
 /// readers may be used at a time, by any threads; one of them by one thread at a time.
 class CheckpointWriter {
   public:
-    CheckpointWriter();
+    /// `expected`: bytes it will hold, roughly; where it is right, nothing is copied as the file grows.
+    explicit CheckpointWriter(std::size_t expected = 0);
     ~CheckpointWriter();
     CheckpointWriter(CheckpointWriter&&) noexcept;
     CheckpointWriter& operator=(CheckpointWriter&&) noexcept;
