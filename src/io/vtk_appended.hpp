@@ -4,30 +4,39 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <ostream>
 #include <string>
 #include <string_view>
 
 namespace spam {
 
-/// The XML head and the raw tail of a VTK file with appended data, built side by side.
+/// A VTK file with appended data: an XML head, which says where each array begins, and a raw tail. The
+/// arrays are gone through twice, first for the head and then for the numbers, so that these are
+/// written one after the other and never gathered.
 class VtkAppended {
   public:
     /// get(i, c): component c of tuple i
     template <class Value, class Get>
     void array(std::string_view type, std::string_view name, int components, std::size_t tuples,
                const Get& get) {
-        head_ += fmt::format(
-            "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-            "format=\"appended\" offset=\"{}\"/>\n",
-            type, name, components, tail_.size());
         const auto bytes = static_cast<std::uint64_t>(tuples) *
                            static_cast<std::uint64_t>(components) * sizeof(Value);
+        if (tail_ == nullptr) {
+            head_ += fmt::format(
+                "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+                "format=\"appended\" offset=\"{}\"/>\n",
+                type, name, components, offset_);
+            offset_ += sizeof bytes + bytes;
+            return;
+        }
         append(bytes);
         for (std::size_t i = 0; i < tuples; ++i)
             for (int c = 0; c < components; ++c) append(static_cast<Value>(get(i, c)));
+        flush();
     }
     template <class Get>
     void reals(std::string_view name, int components, std::size_t tuples, const Get& get) {
@@ -41,29 +50,47 @@ class VtkAppended {
     void close(std::string_view tag) { head_ += fmt::format("      </{}>\n", tag); }
 
     /// The file of a data set of this kind: what its element and its piece are given beside.
-    std::string text(std::string_view kind, std::string_view attributes,
-                     std::string_view piece) const {
-        return fmt::format(
+    /// `arrays(file)` opens, adds arrays and closes; it is called twice and must add the same.
+    template <class Arrays>
+    static void write(std::ostream& out, std::string_view kind, std::string_view attributes,
+                      std::string_view piece, const Arrays& arrays) {
+        VtkAppended head;
+        arrays(head);
+        out << fmt::format(
                    "<?xml version=\"1.0\"?>\n"
                    "<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" "
                    "header_type=\"UInt64\">\n"
                    "  <{0}{2}>\n"
                    "    <Piece {3}>\n",
                    kind, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-                   attributes, piece) +
-               head_ +
-               fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n_", kind) +
-               tail_ + "\n  </AppendedData>\n</VTKFile>\n";
+                   attributes, piece)
+            << head.head_
+            << fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n_", kind);
+        VtkAppended tail;
+        tail.tail_ = &out;
+        arrays(tail);
+        out << "\n  </AppendedData>\n</VTKFile>\n";
     }
 
   private:
+    VtkAppended() = default;
+
     template <class Value>
     void append(Value value) {
-        char bytes[sizeof(Value)];
-        std::memcpy(bytes, &value, sizeof(Value));
-        tail_.append(bytes, sizeof(Value));
+        if (used_ + sizeof(Value) > buffer_.size()) flush();
+        std::memcpy(&buffer_[used_], &value, sizeof(Value));
+        used_ += sizeof(Value);
     }
-    std::string head_, tail_;
+    void flush() {
+        tail_->write(buffer_.data(), static_cast<std::streamsize>(used_));
+        used_ = 0;
+    }
+
+    std::string head_;
+    std::uint64_t offset_ = 0;
+    std::ostream* tail_ = nullptr;  ///< null while the head is made
+    std::array<char, 1 << 16> buffer_;
+    std::size_t used_ = 0;
 };
 
 }  // namespace spam

@@ -27,7 +27,7 @@ class Run {
     struct Watchers {
         std::function<void(double t)> snapshot, step;
         /// Writes what going on from here later needs; where empty the run makes no barriers.
-        std::function<void(const CaseMemory&)> checkpoint;
+        std::function<void(CaseMemory)> checkpoint;
         std::function<void(double t, const Remark&)> remark;
         std::function<void(double t, const std::string& text)> warning;
     };

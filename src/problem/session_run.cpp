@@ -223,8 +223,8 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
     const std::size_t number = memory_->cases.size() - 1;
     typename Run<Dim>::Watchers watchers;
     watchers.snapshot = [&run, &snapshots](double t) { snapshots.add(t, run.y()); };
-    watchers.checkpoint = [this, number](const CaseMemory& written) {
-        memory_->cases[number] = written;
+    watchers.checkpoint = [this, number](CaseMemory written) {
+        memory_->cases[number] = std::move(written);
         save_checkpoint();
     };
     watchers.step = [this, &run, t_end = one.plan.t_end](double t) {
@@ -260,7 +260,10 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     Run<Dim> run(one, integrator_, &folder);
     run.record().statistics.problem = problem_.name_;
     SnapshotSeries<Dim> snapshots(folder, one.model);
-    if (earlier != nullptr) resume(run, *earlier, folder, snapshots);
+    if (earlier != nullptr) {
+        resume(run, *earlier, folder, snapshots);
+        problem_.earlier_->cases[memory_->cases.size() - 1] = {};  // needed once
+    }
     const auto watchers = watchers_of(run, one, snapshots);
     terminal_.begin_progress();
     RunRecord& record = run.record();
@@ -268,6 +271,7 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
         const std::string reason = run.drive(watchers);
         if (guard_reason_.empty()) guard_reason_ = reason;
         memory_->cases.back().stopped = reason;
+        memory_->cases.back().keep();
     } catch (const OutputError&) {
         try {  // there may be room for this much
             write_statistics(folder, record.statistics);

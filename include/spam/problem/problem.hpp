@@ -60,7 +60,7 @@ class Problem {
     Options options_;
     CommonOptions common_;
     Scheme scheme_;
-    std::unique_ptr<const SessionMemory> earlier_;  ///< of --restart
+    std::unique_ptr<SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;
     bool in_place_ = false;  ///< its results are those of the checkpoint
 };
