@@ -164,11 +164,10 @@ void Run<Dim>::recall(const CaseMemory& memory) {
 /// way as one that was restarted.
 template <int Dim>
 void Run<Dim>::checkpoint(const Watchers& watchers) {
-    CaseMemory now = memory();
-    const auto motion = now.motion;
-    watchers.checkpoint(std::move(now));
-    Archive back(motion);
+    CaseMemory written = memory();
+    Archive back(written.motion);
     remember_motion(back);
+    watchers.checkpoint(std::move(written));
 }
 
 template <int Dim>
