@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <random>
 
 namespace free_expansion {
@@ -125,9 +127,11 @@ std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
     };
     using Measure = std::function<double(const GasEntropy<Dim>&)>;
     const auto column = [&](const char* name, const Measure& entropy) {
-        const double start = entropy(particles_now(*gas.model, gas.y0));
-        return Column<Dim>{name, [=](const Model<Dim>& model, std::span<const double> y) {
-                               return (entropy(particles_now(model, y)) - start) /
+        // Of the start only when the first row is due: a dry run has no use for it.
+        auto start = std::make_shared<std::optional<double>>();
+        return Column<Dim>{name, [=, &gas](const Model<Dim>& model, std::span<const double> y) {
+                               if (!*start) *start = entropy(particles_now(*gas.model, gas.y0));
+                               return (entropy(particles_now(model, y)) - **start) /
                                       (Dim * std::log(2.0));
                            }};
     };
@@ -154,6 +158,8 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
                                                 state.position(), gas.model->box());
     const Eigen::MatrixXd sum = interpolation.sum(carried, fields.grid.points());
     fields.velocity.setZero(Dim, sum.cols());
+    for (auto* values : {&fields.density, &fields.kinetic, &fields.hidden})
+        values->reserve(static_cast<std::size_t>(sum.cols()));
     for (Eigen::Index k = 0; k < sum.cols(); ++k) {
         const double rho = sum(0, k);
         if (rho > 0.0) fields.velocity.col(k) = sum.col(k).template tail<Dim>() / rho;
@@ -169,17 +175,20 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
 
 template <int Dim>
 void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<const double> y) {
-    const Fields<Dim> fields = fields_of(gas, y);
-    const auto row = [](const std::vector<double>& values) {
-        return Eigen::MatrixXd(
-            Eigen::RowVectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size())));
+    Fields<Dim> fields = fields_of(gas, y);
+    // There may be four nodes a particle: nothing of them is held twice.
+    std::vector<ImageField> images;
+    const auto add = [&](const char* name, std::vector<double>& values) {
+        images.push_back({name, Eigen::RowVectorXd::Map(values.data(),
+                                                        static_cast<Eigen::Index>(values.size()))});
+        values = {};
     };
+    add("density", fields.density);
+    images.push_back({"velocity", std::move(fields.velocity)});
+    add("kinetic_energy", fields.kinetic);
+    add("velocity_fluctuation", fields.hidden);
     const auto name = [](std::size_t k) { return fmt::format("fields_{:04}", k); };
-    write_image(folder, name(gas.field_times.size()), t, gas.model->box(), fields.grid,
-                {{"density", row(fields.density)},
-                 {"velocity", fields.velocity},
-                 {"kinetic_energy", row(fields.kinetic)},
-                 {"velocity_fluctuation", row(fields.hidden)}});
+    write_image(folder, name(gas.field_times.size()), t, gas.model->box(), fields.grid, images);
     gas.field_times.push_back(t);
     std::string list =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";

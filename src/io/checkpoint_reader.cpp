@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hdf5_handle.hpp"
+#include "hdf5_image.hpp"
 #include "sealed_file.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/checkpoint_file.hpp>
@@ -11,13 +11,10 @@ namespace {
 
 using namespace hdf5;
 
-File open_image(const std::filesystem::path& path) {
-    std::vector<std::byte> contents = read_sealed(path);
+File open_image(FixedImage& bytes, const std::filesystem::path& path) {
     const Silence silence;
-    const Properties access = in_memory();
-    const bool taken = H5Pset_file_image(access, contents.data(), contents.size()) >= 0;
-    contents = {};  // HDF5 has its own
-    File file(taken ? H5Fopen(no_file().c_str(), H5F_ACC_RDONLY, access) : -1);
+    const Properties access = bytes.access();
+    File file(access ? H5Fopen(no_file().c_str(), H5F_ACC_RDONLY, access) : -1);
     if (!file)
         throw InputError(fmt::format(
             "checkpoint '{}' is whole, but HDF5 cannot open it (a newer HDF5's, or no memory)",
@@ -30,7 +27,8 @@ File open_image(const std::filesystem::path& path) {
 struct CheckpointReader::Image {
     explicit Image(const std::filesystem::path& path)
         : name(path.string()),
-          file(open_image(path)) {}
+          bytes(read_sealed(path)),
+          file(open_image(bytes, path)) {}
 
     /// What is at `path`, of that class, size of elements (0: any) and rank.
     Dataset find(std::string_view path, const char* kind, H5T_class_t type_class, std::size_t size,
@@ -67,6 +65,7 @@ struct CheckpointReader::Image {
     }
 
     std::string name;
+    FixedImage bytes;
     File file;
 };
 

@@ -68,7 +68,8 @@ bool FileDescriptor::close() {
     return ::close(fd) == 0 || errno == EINTR;
 }
 
-void replace_file(const std::filesystem::path& target, std::span<const std::byte> contents) {
+void replace_file(const std::filesystem::path& target,
+                  std::initializer_list<std::span<const std::byte>> contents) {
     std::filesystem::path temporary = target;
     temporary += ".tmp";
     const auto fail = [&](const char* what) {
@@ -88,7 +89,9 @@ void replace_file(const std::filesystem::path& target, std::span<const std::byte
     ::unlink(temporary.c_str());  // of a run that was killed
     FileDescriptor file = FileDescriptor::create(temporary);
     if (!file.is_open()) fail("write");
-    if (!file.write(contents) || !file.sync() || !file.close()) give_up();
+    for (const auto piece : contents)
+        if (!file.write(piece)) give_up();
+    if (!file.sync() || !file.close()) give_up();
     if (std::rename(temporary.c_str(), target.c_str()) != 0) give_up();
     // EINVAL: a file system without such a thing for folders.
     if (!folder.sync() && errno != EINVAL) fail("be sure to keep");

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <system_error>
@@ -45,9 +46,10 @@ class FileDescriptor {
     int fd_;
 };
 
-/// Puts `contents` in place of `target`: at once or not at all, and on the disk when this returns.
+/// Puts `contents`, one after the other, in place of `target`: at once or not at all, and on the disk when this returns.
 /// Uses a temporary <target>.tmp. Throws OutputError (file and the system's reason); the earlier
 /// file is then as it was, unless it was only the folder that could not be brought to the disk.
-void replace_file(const std::filesystem::path& target, std::span<const std::byte> contents);
+void replace_file(const std::filesystem::path& target,
+                  std::initializer_list<std::span<const std::byte>> contents);
 
 }  // namespace spam

@@ -118,11 +118,18 @@ RunFolder RunFolder::inside(std::string_view name) const {
 }
 
 void RunFolder::write(std::string_view name, std::string_view contents) const {
+    write(name, [contents](std::ostream& out) {
+        out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+    });
+}
+
+void RunFolder::write(std::string_view name,
+                      const std::function<void(std::ostream&)>& contents) const {
     const fs::path target = path_ / name;
     fs::path temporary = target;
     temporary += ".tmp";
     std::ofstream out(temporary, std::ios::binary);
-    out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+    contents(out);
     out.close();
     std::error_code error;
     if (out) fs::rename(temporary, target, error);

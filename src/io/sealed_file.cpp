@@ -8,11 +8,12 @@
 #include <openssl/evp.h>
 #include <sys/stat.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
-#include <span>
+#include <initializer_list>
+#include <memory>
 #include <string_view>
+#include <tuple>
 
 namespace spam {
 namespace {
@@ -20,23 +21,32 @@ namespace {
 constexpr std::string_view magic = "SPAMckpt";
 constexpr std::uint64_t format = 1;
 constexpr std::size_t digest_size = 32;
-constexpr std::size_t seal_size = magic.size() + 8 + 8 + digest_size;
+constexpr std::size_t seal_size = std::tuple_size_v<Seal>;
+static_assert(seal_size == magic.size() + 8 + 8 + digest_size);
 
 constexpr const char* advice = "a run keeps two checkpoints, try the other";
 
 using Digest = std::array<std::byte, digest_size>;
 
-/// OpenSSL, because HDF5's package brings it along, and for the processor's SHA instructions.
-Digest sha256(std::span<const std::byte> bytes) {
+/// Of one after the other. OpenSSL, because HDF5's package brings it along, and for the processor's SHA
+/// instructions.
+Digest sha256(std::initializer_list<std::span<const std::byte>> pieces) {
+    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                          &EVP_MD_CTX_free);
+    bool done = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+    for (const auto piece : pieces)
+        done = done && EVP_DigestUpdate(context.get(), piece.data(), piece.size()) == 1;
     Digest digest;
-    if (EVP_Digest(bytes.data(), bytes.size(), reinterpret_cast<unsigned char*>(digest.data()),
-                   nullptr, EVP_sha256(), nullptr) != 1)
+    done =
+        done && EVP_DigestFinal_ex(context.get(), reinterpret_cast<unsigned char*>(digest.data()),
+                                   nullptr) == 1;
+    if (!done)
         throw OutputError("OpenSSL cannot compute SHA-256 (its configuration, or no memory)");
     return digest;
 }
 
-void append_number(std::vector<std::byte>& bytes, std::uint64_t number) {
-    for (int k = 0; k < 8; ++k) bytes.push_back(static_cast<std::byte>(number >> (8 * k)));
+void put_number(std::byte* bytes, std::uint64_t number) {
+    for (int k = 0; k < 8; ++k) bytes[k] = static_cast<std::byte>(number >> (8 * k));
 }
 
 std::uint64_t number_at(const std::byte* bytes) {
@@ -87,14 +97,14 @@ void check_form(std::span<const std::byte> seal, std::uint64_t length, const std
 
 }  // namespace
 
-void seal(std::vector<std::byte>& contents) {
-    const std::uint64_t length = contents.size();
-    contents.reserve(contents.size() + seal_size);
-    for (const char c : magic) contents.push_back(static_cast<std::byte>(c));
-    append_number(contents, format);
-    append_number(contents, length);
-    const Digest digest = sha256(contents);
-    contents.insert(contents.end(), digest.begin(), digest.end());
+Seal seal_of(std::span<const std::byte> contents) {
+    Seal seal{};
+    std::memcpy(seal.data(), magic.data(), magic.size());
+    put_number(&seal[magic.size()], format);
+    put_number(&seal[magic.size() + 8], contents.size());
+    const Digest digest = sha256({contents, std::span(seal).first<seal_size - digest_size>()});
+    std::memcpy(&seal[seal_size - digest_size], digest.data(), digest_size);
+    return seal;
 }
 
 std::vector<std::byte> read_sealed(const std::filesystem::path& path) {
@@ -116,7 +126,7 @@ std::vector<std::byte> read_sealed(const std::filesystem::path& path) {
     read_at(file, 0, contents, name);
     const std::span all(contents);
     check_form(all.last(seal_size), size - seal_size, name);
-    const Digest digest = sha256(all.first(size - digest_size));
+    const Digest digest = sha256({all.first(size - digest_size)});
     if (std::memcmp(digest.data(), all.last(digest_size).data(), digest_size) != 0)
         throw InputError(
             fmt::format("checkpoint '{}' is damaged: its SHA-256 is not the one of its seal; {}",

@@ -16,21 +16,18 @@ double in_space(const View& field, std::size_t i, int c) {
 }
 
 template <int Dim>
-std::string snapshot_text(const Model<Dim>& model, double t, std::span<const double> y) {
+void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const double> y,
+                const Points<Dim>& x, const std::vector<double>& density) {
     const ConstState<Dim> state(model.layout(), y);
     const auto& particles = model.particles();
     const std::size_t n = particles.size();
-    const Points<Dim> x = model.box().wrapped(state.position());
     const auto v = state.velocity();
-    VtkAppended file;
-    file.about<Dim>(t, model.box(), x.rowwise().minCoeff(), x.rowwise().maxCoeff());
     file.open("PointData");
     file.integers("id", n, [&](std::size_t i, int) { return particles.id[i]; });
     file.integers("body", n, [&](std::size_t i, int) { return particles.body[i]; });
     file.reals("mass", 1, n, [&](std::size_t i, int) { return particles.mass[i]; });
     file.reals("particle_spacing", 1, n, [&](std::size_t, int) { return particles.spacing; });
     file.reals("velocity", 3, n, [&](std::size_t i, int c) { return in_space(v, i, c); });
-    const auto density = model.density(y);
     if (!density.empty())
         file.reals("density", 1, n, [&](std::size_t i, int) { return density[i]; });
     if (state.has(Field::stress)) {
@@ -54,10 +51,21 @@ std::string snapshot_text(const Model<Dim>& model, double t, std::span<const dou
     file.integers("connectivity", n, [](std::size_t i, int) { return i; });
     file.integers("offsets", n, [](std::size_t i, int) { return i + 1; });
     file.close("Verts");
-    return file.text("PolyData", "",
-                     fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
-                                 "NumberOfStrips=\"0\" NumberOfPolys=\"0\"",
-                                 n));
+}
+
+template <int Dim>
+void write_snapshot(std::ostream& out, const Model<Dim>& model, double t,
+                    std::span<const double> y) {
+    const auto density = model.density(y);
+    const Points<Dim> x = model.box().wrapped(ConstState<Dim>(model.layout(), y).position());
+    VtkAppended::write(
+        out, "PolyData", "",
+        VtkAppended::field_data<Dim>(t, model.box(), x.rowwise().minCoeff(),
+                                     x.rowwise().maxCoeff()),
+        fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\"",
+                    model.particles().size()),
+        [&](VtkAppended& file) { add_arrays(file, model, y, x, density); });
 }
 
 }  // namespace
@@ -82,7 +90,7 @@ std::vector<std::string> SnapshotSeries<Dim>::names() const {
 template <int Dim>
 void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
     const std::string name = snapshot_name(files_.size());
-    folder_.write(name, snapshot_text(model_, t, y));
+    folder_.write(name, [&](std::ostream& out) { write_snapshot(out, model_, t, y); });
     files_.emplace_back(t, name);
     std::string list =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";

@@ -6,30 +6,39 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <ostream>
 #include <string>
 #include <string_view>
 
 namespace spam {
 
-/// The XML head and the raw tail of a VTK file with appended data, built side by side.
+/// A VTK file with appended data: an XML head, which says where each array begins, and a raw tail. The
+/// arrays are gone through twice, first for the head and then for the numbers, so that these are
+/// written one after the other and never gathered.
 class VtkAppended {
   public:
     /// get(i, c): component c of tuple i
     template <class Value, class Get>
     void array(std::string_view type, std::string_view name, int components, std::size_t tuples,
                const Get& get) {
-        head_ += fmt::format(
-            "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-            "format=\"appended\" offset=\"{}\"/>\n",
-            type, name, components, tail_.size());
         const auto bytes = static_cast<std::uint64_t>(tuples) *
                            static_cast<std::uint64_t>(components) * sizeof(Value);
+        if (tail_ == nullptr) {
+            head_ += fmt::format(
+                "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+                "format=\"appended\" offset=\"{}\"/>\n",
+                type, name, components, offset_);
+            offset_ += sizeof bytes + bytes;
+            return;
+        }
         append(bytes);
         for (std::size_t i = 0; i < tuples; ++i)
             for (int c = 0; c < components; ++c) append(static_cast<Value>(get(i, c)));
+        flush();
     }
     template <class Get>
     void reals(std::string_view name, int components, std::size_t tuples, const Get& get) {
@@ -42,7 +51,8 @@ class VtkAppended {
     /// What a reader must know beside the numbers: FieldData TimeValue (ParaView's name for it), box_low,
     /// box_high and periodic (3 each). Where space is free the box is from `low` to `high`.
     template <int Dim>
-    void about(double t, const Box<Dim>& box, const Point<Dim>& low, const Point<Dim>& high) {
+    static std::string field_data(double t, const Box<Dim>& box, const Point<Dim>& low,
+                                  const Point<Dim>& high) {
         std::string lows, highs, periodic;
         for (int a = 0; a < 3; ++a) {
             const bool closed = a < Dim && box.periodic(a), free = a < Dim && !closed;
@@ -50,18 +60,21 @@ class VtkAppended {
             highs += fmt::format(" {:.17g}", free ? high[a] : closed ? box.length(a) : 0.0);
             periodic += closed ? " 1" : " 0";
         }
-        about_ = "    <FieldData>\n" +
-                 words("Float64", "TimeValue", 1, fmt::format(" {:.17g}", t)) +
-                 words("Float64", "box_low", 3, lows) + words("Float64", "box_high", 3, highs) +
-                 words("Int32", "periodic", 3, periodic) + "    </FieldData>\n";
+        return "    <FieldData>\n" + words("Float64", "TimeValue", 1, fmt::format(" {:.17g}", t)) +
+               words("Float64", "box_low", 3, lows) + words("Float64", "box_high", 3, highs) +
+               words("Int32", "periodic", 3, periodic) + "    </FieldData>\n";
     }
     void open(std::string_view tag) { head_ += fmt::format("      <{}>\n", tag); }
     void close(std::string_view tag) { head_ += fmt::format("      </{}>\n", tag); }
 
     /// The file of a data set of this kind: what its element and its piece are given beside.
-    std::string text(std::string_view kind, std::string_view attributes,
-                     std::string_view piece) const {
-        return fmt::format(
+    /// `about`: its field data. `arrays(file)` opens, adds arrays and closes; it is called twice and must add the same.
+    template <class Arrays>
+    static void write(std::ostream& out, std::string_view kind, std::string_view attributes,
+                      std::string_view about, std::string_view piece, const Arrays& arrays) {
+        VtkAppended head;
+        arrays(head);
+        out << fmt::format(
                    "<?xml version=\"1.0\"?>\n"
                    "<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" "
                    "header_type=\"UInt64\">\n"
@@ -69,13 +82,18 @@ class VtkAppended {
                    "{3}"
                    "    <Piece {4}>\n",
                    kind, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-                   attributes, about_, piece) +
-               head_ +
-               fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n_", kind) +
-               tail_ + "\n  </AppendedData>\n</VTKFile>\n";
+                   attributes, about, piece)
+            << head.head_
+            << fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n_", kind);
+        VtkAppended tail;
+        tail.tail_ = &out;
+        arrays(tail);
+        out << "\n  </AppendedData>\n</VTKFile>\n";
     }
 
   private:
+    VtkAppended() = default;
+
     /// One tuple, in the head itself.
     static std::string words(std::string_view type, std::string_view name, int components,
                              std::string_view values) {
@@ -86,11 +104,20 @@ class VtkAppended {
     }
     template <class Value>
     void append(Value value) {
-        char bytes[sizeof(Value)];
-        std::memcpy(bytes, &value, sizeof(Value));
-        tail_.append(bytes, sizeof(Value));
+        if (used_ + sizeof(Value) > buffer_.size()) flush();
+        std::memcpy(&buffer_[used_], &value, sizeof(Value));
+        used_ += sizeof(Value);
     }
-    std::string about_, head_, tail_;
+    void flush() {
+        tail_->write(buffer_.data(), static_cast<std::streamsize>(used_));
+        used_ = 0;
+    }
+
+    std::string head_;
+    std::uint64_t offset_ = 0;
+    std::ostream* tail_ = nullptr;  ///< null while the head is made
+    std::array<char, 1 << 16> buffer_;
+    std::size_t used_ = 0;
 };
 
 }  // namespace spam

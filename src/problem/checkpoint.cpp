@@ -12,10 +12,6 @@
 namespace spam {
 namespace {
 
-std::vector<double> as_numbers(std::span<const double> block) {
-    return {block.begin(), block.end()};
-}
-
 std::string case_path(std::size_t number) { return fmt::format("/cases/{}", number); }
 
 void write_case(CheckpointWriter& file, const std::string& path, const CaseMemory& one) {
@@ -23,12 +19,12 @@ void write_case(CheckpointWriter& file, const std::string& path, const CaseMemor
     file.text(path + "/model", one.model);
     if (!one.has_state()) return;
     file.numbers(path + "/t", std::span(&one.t, 1), 1);
-    for (const auto& [name, columns, values] : one.state)
-        file.numbers(path + "/state/" + name, values, columns);
-    for (const auto& [name, columns, values] : one.particles)
-        file.numbers(path + "/particles/" + name, values, columns);
-    file.integers(path + "/particles/id", one.id);
-    file.integers(path + "/particles/body", one.body);
+    for (const auto& block : one.state)
+        file.numbers(path + "/state/" + block.name, block.values.all(), block.columns);
+    for (const auto& block : one.particles)
+        file.numbers(path + "/particles/" + block.name, block.values.all(), block.columns);
+    file.integers(path + "/particles/id", one.id.all());
+    file.integers32(path + "/particles/body", one.body);
     file.bytes(path + "/motion", one.motion);
     file.bytes(path + "/records", one.records);
 }
@@ -39,13 +35,15 @@ CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     one.model = file.text(path + "/model");
     if (!file.has(path + "/t")) return one;
     one.t = file.numbers(path + "/t").at(0);
-    one.id = file.integers(path + "/particles/id");
-    one.body = file.integers(path + "/particles/body");
+    one.id.kept = file.integers(path + "/particles/id");
+    const auto body = file.integers(path + "/particles/body");
+    one.body.assign(body.begin(), body.end());
     const auto read = [&](const std::string& group, const std::string& name,
                           std::vector<CaseMemory::Values>& into) {
         if (!file.has(path + group + name)) return;
         auto values = file.numbers(path + group + name);
-        into.push_back({name, values.size() / std::max<std::size_t>(1, one.id.size()), values});
+        const std::size_t columns = values.size() / std::max<std::size_t>(1, one.id.kept.size());
+        into.push_back({name, columns, {{}, std::move(values)}});
     };
     for (const Field field :
          {Field::position, Field::velocity, Field::density, Field::stress, Field::energy})
@@ -57,6 +55,14 @@ CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     return one;
 }
 
+/// Bytes that it fills in a file.
+std::size_t size_of(const CaseMemory& one) {
+    std::size_t bytes = one.motion.size() + one.records.size() + 16 * one.body.size();
+    for (const auto* blocks : {&one.state, &one.particles})
+        for (const auto& block : *blocks) bytes += block.values.all().size_bytes();
+    return bytes;
+}
+
 /// "0.1.0" of "0.1.0 (commit ...)": what remembers, and how.
 std::string release(const std::string& version) {
     return version.substr(0, version.find_first_not_of("0123456789."));
@@ -64,52 +70,71 @@ std::string release(const std::string& version) {
 
 }  // namespace
 
+void CaseMemory::keep() {
+    for (Values& block : particles) block.values.keep();
+    id.keep();
+}
+
+namespace {
+
+template <int Dim>
+CaseMemory memory_of(const Particles<Dim>& particles) {
+    CaseMemory one;
+    const auto& x = particles.reference_position;
+    one.particles = {{"mass", 1, {particles.mass}},
+                     {"reference_position", Dim, {{x.data(), static_cast<std::size_t>(x.size())}}}};
+    one.id = {particles.id};
+    one.body = particles.body;
+    return one;
+}
+
+}  // namespace
+
 template <int Dim>
 CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, double t) {
-    CaseMemory one;
+    CaseMemory one = memory_of(model.particles());
     one.t = t;
     one.model = model.describe();
-    const auto& particles = model.particles();
-    for (const auto& block : model.layout().blocks())
-        one.state.push_back(
-            {std::string(field_name(block.field)), block.components,
-             as_numbers(y.subspan(block.offset, block.components * particles.size()))});
-    const auto& x = particles.reference_position;
-    one.particles = {{"mass", 1, particles.mass},
-                     {"reference_position", Dim, {x.data(), x.data() + x.size()}}};
-    one.id.assign(particles.id.begin(), particles.id.end());
-    one.body.assign(particles.body.begin(), particles.body.end());
+    for (const auto& block : model.layout().blocks()) {
+        const auto values = y.subspan(block.offset, block.components * one.body.size());
+        one.state.push_back({std::string(field_name(block.field)), block.components, {values}});
+        one.state.back().values.keep();
+    }
     return one;
 }
 
 template <int Dim>
 std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model) {
-    const CaseMemory expected = case_memory(model, std::vector<double>(model.layout().size()), 0.0);
+    const CaseMemory expected = memory_of(model.particles());
     const auto refuse = [](const char* what) {
         throw InputError(
             fmt::format("restart: the checkpoint holds other {} than this case", what));
     };
-    if (memory.id != expected.id) refuse("particles");
+    if (!std::ranges::equal(memory.id.all(), expected.id.all())) refuse("particles");
     const auto same = [](const auto& a, const auto& b) {
-        return a.name == b.name && a.values == b.values;
+        return a.name == b.name && std::ranges::equal(a.values.all(), b.values.all());
     };
     if (!std::equal(memory.particles.begin(), memory.particles.end(), expected.particles.begin(),
                     expected.particles.end(), same))
         refuse("masses or reference positions");
-    const auto alike = [](const auto& a, const auto& b) {
-        return a.name == b.name && a.values.size() == b.values.size();
+    const auto& blocks = model.layout().blocks();
+    const auto alike = [&](const auto& a, const auto& b) {
+        return a.name == field_name(b.field) &&
+               a.values.all().size() == b.components * expected.body.size();
     };
-    if (!std::equal(memory.state.begin(), memory.state.end(), expected.state.begin(),
-                    expected.state.end(), alike))
+    if (!std::equal(memory.state.begin(), memory.state.end(), blocks.begin(), blocks.end(), alike))
         refuse("fields");
     std::vector<double> y;
+    y.reserve(model.layout().size());
     for (const auto& field : memory.state)
-        y.insert(y.end(), field.values.begin(), field.values.end());
+        y.insert(y.end(), field.values.all().begin(), field.values.all().end());
     return y;
 }
 
 CheckpointWriter checkpoint_file(const SessionMemory& memory) {
-    CheckpointWriter file;
+    std::size_t expected = 0;
+    for (const CaseMemory& one : memory.cases) expected += size_of(one);
+    CheckpointWriter file(expected);
     file.text("/version", memory.version);
     file.text("/instruction_set", memory.instruction_set);
     file.text("/problem", memory.problem);

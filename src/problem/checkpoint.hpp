@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,20 +16,35 @@ namespace spam {
 /// One case of a session, as a checkpoint holds it: what others may want to look at by name, and the
 /// rest as bytes.
 struct CaseMemory {
+    /// What never changes is looked at where it is, in the model, until keep() makes a copy of it.
+    template <class T>
+    struct Block {
+        std::span<const T> elsewhere{};
+        std::vector<T> kept{};
+
+        std::span<const T> all() const { return kept.empty() ? elsewhere : kept; }
+        void keep() {
+            if (kept.empty()) kept.assign(elsewhere.begin(), elsewhere.end());
+        }
+    };
     /// rows x columns, by rows.
     struct Values {
         std::string name;
         std::size_t columns;
-        std::vector<double> values;
+        Block<double> values;
     };
     std::string label;
     std::string model;  ///< in words, with its scheme
     double t = 0.0;
     std::vector<Values> state;      ///< y by field, one row a particle
     std::vector<Values> particles;  ///< mass, reference position
-    std::vector<std::int64_t> id, body;
+    Block<std::int64_t> id;
+    std::vector<std::int32_t> body;
     std::vector<std::byte> motion;   ///< model and integrator
     std::vector<std::byte> records;  ///< rows, remarks, what the problem gathered
+
+    /// From now on without the model.
+    void keep();
     /// False where the case has not come to its first checkpoint: it is begun from its start.
     bool has_state() const { return !state.empty(); }
 };
@@ -50,7 +66,7 @@ struct SessionMemory {
     std::vector<CaseMemory> cases;  ///< those begun, in order
 };
 
-/// y and particles of a case at t.
+/// y and particles of a case at t. Until keep() the model must live on.
 template <int Dim>
 CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, double t);
 

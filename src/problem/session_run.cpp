@@ -172,10 +172,13 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     refuse_idle_balance(cases);
     for (const auto& one : cases) refuse_unstable(one);
     for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
+        // Vectors as long as y show that there is room for them; a dry run does without.
+        const std::size_t numbers = problem_.common_.dry_run ? 1 : one.y0.size();
         const SundialsContext context;
-        Vector y(one.y0.size(), context);
+        Vector y(numbers, context);
         std::size_t unused = 0;
-        const Ode ode = as_ode(one.model, integrator_, unused);
+        Ode ode = as_ode(one.model, integrator_, unused);
+        ode.absolute_tolerance.resize(std::min(numbers, ode.absolute_tolerance.size()));
         make_integrator(integrator_, ode, y, 0.0, context);
     }
     check_restart(cases);
@@ -294,6 +297,7 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     try {
         const std::string reason = run.drive(watchers);
         if (guard_reason_.empty()) guard_reason_ = reason;
+        memory_->cases.back().keep();
     } catch (const OutputError&) {
         try {  // there may be room for this much
             write_statistics(folder, record.statistics);

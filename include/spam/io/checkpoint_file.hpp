@@ -20,7 +20,8 @@ namespace spam {
 /// readers may be used at a time, by any threads; one of them by one thread at a time.
 class CheckpointWriter {
   public:
-    CheckpointWriter();
+    /// `expected`: bytes it will hold, roughly; where it is right, nothing is copied as the file grows.
+    explicit CheckpointWriter(std::size_t expected = 0);
     ~CheckpointWriter();
     CheckpointWriter(CheckpointWriter&&) noexcept;
     CheckpointWriter& operator=(CheckpointWriter&&) noexcept;
@@ -31,11 +32,14 @@ class CheckpointWriter {
     /// every bit is kept, those of a NaN too. Throws std::logic_error when rows are not whole.
     void numbers(std::string_view path, std::span<const double> values, std::size_t columns);
     void integers(std::string_view path, std::span<const std::int64_t> values);
+    /// As integers of 64 bits.
+    void integers32(std::string_view path, std::span<const std::int32_t> values);
     void bytes(std::string_view path, std::span<const std::byte> values);
 
     /// Puts the checkpoint, sealed by a digest of all its bytes, in place of `target`: at once or
     /// not at all, and on the disk when this returns. A temporary <target>.tmp is used. Throws
-    /// OutputError (file and the system's reason); the earlier file is then as it was.
+    /// OutputError (file and the system's reason); the earlier file is then as it was. May be
+    /// called again; nothing can be added then (std::logic_error).
     void save(const std::filesystem::path& target) const;
 
   private:

@@ -4,6 +4,8 @@
 #include <spam/io/folder_lock.hpp>
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +33,8 @@ class RunFolder {
     /// Writes a whole file: to a temporary name, then renamed, so that a reader never sees half of
     /// it. Throws OutputError.
     void write(std::string_view name, std::string_view contents) const;
+    /// Likewise, what `contents` puts into the stream, piece by piece.
+    void write(std::string_view name, const std::function<void(std::ostream&)>& contents) const;
 
   private:
     explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
