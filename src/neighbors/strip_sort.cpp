@@ -67,10 +67,8 @@ void StripSort<Dim>::choose_bins(const Points<Dim>& position, const Box<Dim>& bo
     for (std::size_t a = 0; a < Dim; ++a) {
         const auto row = position.row(static_cast<Eigen::Index>(a));
         periodic_[a] = box.periodic(static_cast<int>(a));
-        origin_[a] = periodic_[a] || row.size() == 0 ? 0.0 : row.minCoeff();
-        extent_[a] = periodic_[a]     ? box.length(static_cast<int>(a))
-                     : row.size() > 0 ? row.maxCoeff() - origin_[a]
-                                      : 0.0;
+        origin_[a] = periodic_[a] ? 0.0 : row.minCoeff();
+        extent_[a] = periodic_[a] ? box.length(static_cast<int>(a)) : row.maxCoeff() - origin_[a];
         longest = std::max(longest, extent_[a]);
     }
     // A few builds old will do: it decides about the shape of strips only.
@@ -96,6 +94,11 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
     const auto n = static_cast<std::size_t>(position.cols());
     order_.resize(n);
     bin_of_.resize(n);
+    if (n == 0) {  // one empty bin: there are no coordinates to look at, no space to share
+        periodic_.fill(false), origin_.fill(0.0), per_edge_.fill(0.0), count_.fill(1);
+        start_.assign(3, 0);
+        return;
+    }
     choose_bins(position, box);
     std::size_t bins = 1;
     for (const Int c : count_) bins *= static_cast<std::size_t>(c);
@@ -118,7 +121,7 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
 
     const auto last = position.row(Dim - 1);
     const auto rows = static_cast<std::size_t>(count_[Dim - 1]);
-    parallel_for(n > 0 ? bins : 0, [&](std::size_t b) {
+    parallel_for(bins, [&](std::size_t b) {
         const double sign = (b / rows) % 2 != 0 ? -1.0 : 1.0;
         if (start_[b + 1] - start_[b] > 64) {  // flung far apart
             std::sort(order_.begin() + start_[b], order_.begin() + start_[b + 1],

@@ -114,6 +114,10 @@ BOOST_AUTO_TEST_CASE(odd_sets_of_particles) {
             BOOST_TEST(list.size() == static_cast<std::size_t>(n));
             BOOST_TEST(wrong_clusters(list, random_points<2>(n, 2.0, 1), 1.1, {}) == 0U);
         }
+        ClusterList<2> nobody(1.0, 0.1, Box<2>({5.0, 5.0}), width);
+        nobody.build(Points<2>(2, 0));
+        BOOST_TEST(nobody.size() == 0U);
+        BOOST_TEST(nobody.pairs() == 0U);
         Points<2> same = Points<2>::Constant(2, 20, 3.0);  // all in one place
         ClusterList<2> list(1.0, 0.1, {}, width);
         list.build(same);
