@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "arkode_tables.hpp"
 
-#include <spam/core/nvector.hpp>
-
 #include <arkode/arkode_butcher_erk.h>
-#include <fmt/format.h>
 #include <sundials/sundials_config.h>
 
 #include <new>
@@ -39,24 +36,11 @@ Table load(const std::string& name) {
     return table;
 }
 
-/// Measured with SUNDIALS 7.1.1 on the hexagon of tests/integrate/orders: errors stop to fall. The simple
-/// order conditions hold.
-bool loses_its_order(const std::string& name) {
-    return version == 701 && name == "ARKODE_VERNER_9_5_6";
-}
-
 }  // namespace
-
-std::string why_unsound(const std::string& name) {
-    if (!loses_its_order(prefix + name)) return {};
-    return fmt::format("{} of SUNDIALS {} does not have the order it claims", name,
-                       sundials_version());
-}
 
 std::vector<IntegrationMethod> arkode_methods() {
     std::vector<IntegrationMethod> methods;
     for (const std::string& name : table_names()) {
-        if (loses_its_order(name)) continue;
         const Table table = load(name);
         methods.push_back(
             {"arkode:" + name.substr(prefix.size()), table->q, table->d != nullptr, true});

@@ -15,13 +15,8 @@ struct FreeTable {
 };
 using Table = std::unique_ptr<std::remove_pointer_t<ARKodeButcherTable>, FreeTable>;
 
-/// The explicit tables of the SUNDIALS in use, as arkode:<name without ARKODE_>; without those
-/// that were measured not to have the order they claim.
+/// The explicit tables of the SUNDIALS in use, as arkode:<name without ARKODE_>.
 std::vector<IntegrationMethod> arkode_methods();
-
-/// Why a table that SUNDIALS has, by its name without ARKODE_, is not among them; empty where it is, or
-/// where there is none.
-std::string why_unsound(const std::string& name);
 
 /// Precondition: `method` is the name of one of arkode_methods().
 Table load_table(const std::string& method);

@@ -51,9 +51,6 @@ std::string why_not(std::string_view name) {
                            prefix, fmt::join(known, ", " + prefix));
     };
     if (prefix == "arkode:")
-        if (const std::string reason = why_unsound(word); !reason.empty())
-            return reason + "; use another table, e.g. arkode:DORMAND_PRINCE_7_4_5";
-    if (prefix == "arkode:")
         return fmt::format("SUNDIALS has no explicit table '{}'{} The tables: {}", word,
                            suggestion(word, known, prefix), fmt::join(known, ", "));
     if (prefix == "sprk:" && known.empty())

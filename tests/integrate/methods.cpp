@@ -101,7 +101,8 @@ BOOST_AUTO_TEST_CASE(every_table_has_its_order) {
          integration_methods()) {
         if (!name.starts_with("arkode:") || order > 8) continue;
         ++tables;
-        const double step = order >= 7 ? 0.8 : order >= 5 ? 0.2 : 0.1;
+        // Long enough for errors that are not rounding errors.
+        const double step = order >= 6 ? 0.8 : order == 5 ? 0.2 : 0.1;
         const double observed = order_of(name, step);
         // Not below nominal; a problem may be kind to a method.
         BOOST_TEST(observed > order - 0.15, name << " has observed order " << observed);

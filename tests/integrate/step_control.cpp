@@ -71,6 +71,22 @@ std::vector<IntegratorOptions> adaptive_methods() {
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
+/// The latest time of a step at which the method asks for rates, as a share of the step: 1/2 for the midpoint
+/// method, which accepts steps whose end it has not seen.
+double looks_ahead(IntegratorOptions options) {
+    Ode ode = oscillators();
+    double latest = 0.0;
+    ode.rates = [&latest, rates = ode.rates](double t, std::span<const double> y,
+                                             std::span<double> y_dot) {
+        latest = std::max(latest, t);
+        rates(t, y, y_dot);
+    };
+    if (!options.dt) options.initial_step = 1e-4;  // none that is tried before
+    Run run(options, ode);
+    run.integrator->step(1.0);
+    return std::min(1.0, latest / run.integrator->t());
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_field_that_limits_steps_is_known) {
@@ -90,7 +106,10 @@ BOOST_AUTO_TEST_CASE(the_field_that_limits_steps_is_known) {
             // Allow the fast one much more: the slow one limits, and steps are longer. Small weights
             // do not make fast oscillations of explicit methods stable, so not for ever.
             ode.absolute_tolerance[2] = ode.absolute_tolerance[3] = 1e6;
-            const auto slow = Run(options, ode).to(1.0);
+            // Not from the first, tiny step, whose errors are rounding errors.
+            IntegratorOptions from_there = options;
+            from_there.initial_step = 0.05;
+            const auto slow = Run(from_there, ode).to(1.0);
             BOOST_TEST(slow.limited_by[0] + 2 >= slow.steps);
         }
     }
@@ -195,8 +214,9 @@ BOOST_AUTO_TEST_CASE(a_reason_of_the_model_is_what_users_are_told) {
             Run run(options, ode);
             const std::string reason = run.reason(10.0);
             BOOST_TEST(has(reason, "density of particle 3 became negative at t = 0.4"), reason);
-            const double t = run.integrator->t();
-            BOOST_TEST(t <= 0.45 + 1e-9);
+            const double t = run.integrator->t(), unseen = 1.0 - looks_ahead(options);
+            BOOST_TEST(t <= 0.45 + 1e-9 + unseen * run.integrator->statistics().last_step);
+            BOOST_TEST(unseen <= 0.5);
             BOOST_TEST(t > 0.3);
             BOOST_TEST(std::abs(run.y.span()[0] - std::cos(t)) < 1e-3);
         }
