@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The front door ./spam in a tree of its own, with a stub in place of cmake: one signal ends a build at
+// once and leaves nothing behind, a wrong option is refused before a build, and a program that is up to
+// date runs for users who may not write.
+#include "support/process.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <sys/stat.h>
+
+using namespace spam::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A tree with one problem.
+class Tree : public Scratch {
+  public:
+    explicit Tree(const std::string& seconds) {
+        fs::permissions(path(), fs::perms(0755));
+        fs::copy(SPAM_SOURCE "/spam", *this / "spam");
+        fs::create_directory(*this / "stubs");
+        fs::copy(SPAM_SOURCE "/tests/front_door/cmake_stub", *this / "stubs/cmake");
+        for (const char* file : {"CMakeLists.txt", "CMakePresets.json", "include/a.hpp",
+                                 "src/a.cpp", "problems/CMakeLists.txt", "problems/drop.cpp"})
+            write(file, "");
+        write("takes", seconds);
+    }
+    std::vector<std::string> call(const std::vector<std::string>& words) const {
+        std::vector<std::string> all{(*this / "spam").string()};
+        all.insert(all.end(), words.begin(), words.end());
+        return all;
+    }
+    Launch launch(bool stranger = false) const {
+        const std::string tools = (*this / "stubs").string() + ":" + std::getenv("PATH");
+        return {.folder = path(), .before_exec = [tools, stranger] {
+                    setenv("PATH", tools.c_str(), 1);
+                    unsetenv("CI");
+                    if (stranger && geteuid() == 0 && setuid(65534) != 0) _exit(126);
+                }};
+    }
+};
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(one_signal_ends_a_build) {
+    for (const auto& [signal, status] : {std::pair{SIGTERM, 143}, {SIGINT, 130}, {SIGHUP, 129}}) {
+        const Tree tree("100");
+        Child child(tree.call({"run", "--no-install", "drop"}), tree.launch());
+        BOOST_TEST_REQUIRE(child.wait_for([&](const Outcome& seen) {
+            return has(seen.err, "building") && fs::exists(tree / "compiler") &&
+                   !contents_of(tree / "compiler").empty();
+        }));
+        child.send(signal);
+        const Outcome outcome = child.finish(Child::Seconds(30));
+        BOOST_TEST(outcome.status == status, outcome.err);
+        // A compiler left behind would hold the lock for its 100 seconds.
+        tree.write("takes", "0");
+        const Outcome again = run(tree.call({"run", "--no-install", "drop"}), tree.launch());
+        BOOST_TEST(again.status == 0, again.err);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_failing_build_is_told) {
+    const Tree tree("nonsense");
+    const Outcome outcome = run(tree.call({"run", "--no-install", "drop"}), tree.launch());
+    BOOST_TEST(outcome.status == 5);
+    BOOST_TEST(has(outcome.err, "no luck"), outcome.err);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_options_are_refused_before_a_build) {
+    const Tree tree("0");
+    for (const char* option : {"--typo", "rhs", "-x"}) {
+        const Outcome outcome = run(tree.call({"bench", "--no-install", option}), tree.launch());
+        BOOST_TEST(outcome.status == 2);
+        BOOST_TEST(has(outcome.err, option), outcome.err);
+        BOOST_TEST(!fs::exists(tree / "build"));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_program_that_is_up_to_date_runs_without_leave_to_write) {
+    const Tree tree("0");
+    BOOST_TEST(run(tree.call({"run", "--no-install", "drop"}), tree.launch()).status == 0);
+    for (const char* folder : {"build/release/problems", "build/release"})
+        fs::permissions(tree / folder, fs::perms(0555));
+    const auto as_stranger = [&] {
+        return run(tree.call({"run", "--no-install", "drop", "--smoke"}), tree.launch(true));
+    };
+    const Outcome outcome = as_stranger();
+    BOOST_TEST(outcome.status == 0, outcome.err);
+    BOOST_TEST(outcome.out == "ran --smoke\n");
+    for (const char* source : {"src/a.cpp", "problems/drop.cpp", "include/a.hpp"}) {
+        const auto built = fs::last_write_time(tree / "build/release/problems/drop");
+        fs::last_write_time(tree / source, built + std::chrono::seconds(5));
+        const Outcome refused = as_stranger();
+        BOOST_TEST(refused.status == 5, source);
+        BOOST_TEST(has(refused.err, "cannot write to"), refused.err);
+        fs::last_write_time(tree / source, built - std::chrono::seconds(5));
+    }
+    fs::permissions(tree / "build/release", fs::perms(0755));
+}
