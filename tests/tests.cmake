@@ -63,6 +63,21 @@ spam_test(io/checkpoint_pair property)
 spam_test(io/checkpoint_faults property)
 spam_test(front_door/front_door problem)
 target_compile_definitions(test.front_door.front_door PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
+# All of libspam as a shared object, from what was compiled for the static library: what
+# -DBUILD_SHARED_LIBS=ON links, and what a module of an interpreter holds.
+add_library(spam_module MODULE builds/module.cpp)
+target_include_directories(spam_module PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(spam_module PRIVATE $<LINK_LIBRARY:WHOLE_ARCHIVE,spam> spam_flags)
+if(NOT SPAM_SANITIZE)  # the sanitizers' functions are in the program
+  target_link_options(spam_module PRIVATE LINKER:--no-undefined)
+endif()
+add_executable(test.builds.load_module builds/load_module.cpp)
+target_link_libraries(test.builds.load_module PRIVATE spam_test_main spam_flags ${CMAKE_DL_LIBS})
+target_compile_definitions(test.builds.load_module PRIVATE
+                           SPAM_MODULE="$<TARGET_FILE:spam_module>")
+add_dependencies(test.builds.load_module spam_module)
+add_test(NAME builds.load_module COMMAND test.builds.load_module)
+set_tests_properties(builds.load_module PROPERTIES LABELS unit TIMEOUT ${timeout})
 spam_test(style/house_rules style)
 target_compile_definitions(test.style.house_rules PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 
@@ -126,6 +141,25 @@ add_test(NAME style.format COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DI
 set_tests_properties(style.format PROPERTIES LABELS style)
 if(NOT CLANG_FORMAT)
   set_tests_properties(style.format PROPERTIES DISABLED TRUE)
+endif()
+
+# Nothing of this is run: it is the same in every build, and one will do.
+if(NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
+  separate_arguments(flags UNIX_COMMAND "${CMAKE_CXX_FLAGS} -std=c++20 -fopenmp")
+  # /usr/include in the wrong place hides the C library from the C++ library.
+  set(includes $<TARGET_PROPERTY:test.style.house_rules,INCLUDE_DIRECTORIES>)
+  set(includes $<FILTER:${includes},EXCLUDE,^/usr/include$>)
+  # spam_headers_test(<name> <folder>)
+  function(spam_headers_test name folder)
+    add_test(NAME ${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/style/headers.sh ${folder}
+      ${CMAKE_CURRENT_BINARY_DIR}/${name} ${CMAKE_CXX_COMPILER} ${flags}
+      "-isystem;$<JOIN:${includes},;-isystem;>" COMMAND_EXPAND_LISTS)
+    set_tests_properties(${name} PROPERTIES LABELS style TIMEOUT ${timeout} PROCESSORS 2)
+  endfunction()
+  spam_headers_test(style.headers ${PROJECT_SOURCE_DIR}/include)
+  spam_headers_test(style.headers_gate ${CMAKE_CURRENT_SOURCE_DIR}/style/not_alone)
+  set_tests_properties(style.headers_gate PROPERTIES
+    PASS_REGULAR_EXPRESSION "needs_vector.hpp does not compile by itself")
 endif()
 
 set(readme_flags "${CMAKE_CXX_FLAGS}")
