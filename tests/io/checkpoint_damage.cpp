@@ -10,6 +10,11 @@
 using namespace spam;
 using namespace spam::test;
 
+/// Asked for by the leak sanitizer. A forged file can keep HDF5 from closing when a program ends ("infinite
+/// loop closing library"): what it then has not freed is its own, out of our reach.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
+
 namespace {
 
 constexpr std::size_t seal_size = 56, digest_size = 32;
@@ -64,7 +69,8 @@ class Vandal {
     std::mt19937 random_;
 };
 
-enum Verdict { refused, accepted_equal, accepted_changed };
+/// As statuses of children nothing else ends with: sanitizers, say, do with 1 or 23.
+enum Verdict { refused = 40, accepted_equal, accepted_changed };
 
 Verdict verdict(const std::filesystem::path& path, const Sample& sample) {
     try {
@@ -102,7 +108,7 @@ BOOST_AUTO_TEST_CASE(without_the_digest_damage_is_read) {
     sample.writer().save(folder / "whole.h5");
     const std::string whole = contents_of(folder / "whole.h5");
     Vandal vandal(7);
-    int read_wrong = 0, read_right = 0, crashed = 0;
+    int read_wrong = 0, read_right = 0, refusals = 0, crashed = 0;
     constexpr int all = 200;
     for (int k = 0; k < all; ++k) {
         folder.write("damaged.h5", vandal.damage_and_seal(whole));
@@ -110,8 +116,10 @@ BOOST_AUTO_TEST_CASE(without_the_digest_damage_is_read) {
             in_a_child([&] { return static_cast<int>(verdict(folder / "damaged.h5", sample)); });
         read_right += status == accepted_equal;
         read_wrong += status == accepted_changed;
+        refusals += status == refused;
         crashed += status < 0;
     }
+    BOOST_TEST(read_right + read_wrong + refusals + crashed == all);
     BOOST_TEST_MESSAGE("of " << all << " read with other contents: " << read_wrong
                              << ", unharmed: " << read_right << ", crashed: " << crashed);
     BOOST_TEST(read_right + read_wrong > 0);
