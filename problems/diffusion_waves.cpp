@@ -77,7 +77,8 @@ struct Experiment {
     std::vector<double> y0;
 };
 
-Experiment prepare(const Parameters& p, Wave wave) {
+/// `only_described`: in a dry run, which computes no state.
+Experiment prepare(const Parameters& p, Wave wave, bool only_described) {
     const double side = p.cells;
     const Box<2> box({side, side});
     Fluid gas{p.state()};
@@ -91,13 +92,15 @@ Experiment prepare(const Parameters& p, Wave wave) {
     const Points<2> x = model->particles().reference_position;
     Points<2> v = Points<2>::Zero(2, x.cols());
     if (wave == Wave::shear) v.row(0) = p.amplitude * (p.k() * x.row(1).array()).sin();
-    Experiment e{wave, nullptr, model->state(x, v, p.temperature)};
+    Experiment e{wave, nullptr, {}};
+    if (!only_described) e.y0 = model->state(x, v, p.temperature);
     if (wave == Wave::shear) {
         e.model = std::move(model);
         return e;
     }
-    State<2>(model->layout(), e.y0).energy().array() +=
-        p.amplitude * (p.k() * x.row(0).array()).sin();  // c_v = 1
+    if (!only_described)
+        State<2>(model->layout(), e.y0).energy().array() +=
+            p.amplitude * (p.k() * x.row(0).array()).sin();  // c_v = 1
     e.model = std::make_unique<FrozenModel>(std::move(model));
     return e;
 }
@@ -249,7 +252,8 @@ int main(int argc, char** argv) {
         if (p.wave == Wave::shear) session.leave_out_of_case({"conductivity"});
         std::vector<Experiment> experiments;
         for (const Wave wave : {Wave::thermal, Wave::shear})
-            if (p.wave == wave || p.wave == Wave::both) experiments.push_back(prepare(p, wave));
+            if (p.wave == wave || p.wave == Wave::both)
+                experiments.push_back(prepare(p, wave, session.common().dry_run));
         const bool single = experiments.size() == 1;
         std::vector<Case<2>> cases;
         for (auto& e : experiments) {

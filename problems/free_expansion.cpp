@@ -163,6 +163,7 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_contradictions(session, options, p);
+        p.only_described = session.common().dry_run;
         if (session.common().smoke && !session.given("cells") && !p.particles) p.cells = 16;
         settle_particles(session, p);
         session.prefer_step(p.dimension == 1 ? step_for<1>(p) : step_for<2>(p));

@@ -36,7 +36,7 @@ FieldGrid<Dim> grid_of(const Gas<Dim>& gas, double spacing) {
     return FieldGrid<Dim>::over(gas.model->box(), all_along<int, Dim>(nodes));
 }
 
-/// The model and its state at rest at `x`.
+/// The model and its state at rest at `x`; no state where the case is only described.
 template <int Dim>
 std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>> begun(Particles<Dim> particles,
                                                                   const Points<Dim>& x,
@@ -45,7 +45,7 @@ std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>> begun(Particles<Dim>
     const Points<Dim> at_rest = Points<Dim>::Zero(Dim, x.cols());
     const Fluid matter{law_of(Dim)};
     const auto started = [&](auto model) {
-        auto y0 = model->state(x, at_rest);
+        auto y0 = p.only_described ? std::vector<double>{} : model->state(x, at_rest);
         return std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>>(std::move(model),
                                                                            std::move(y0));
     };
@@ -156,19 +156,25 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
     Fields<Dim> fields{grid_of(gas, std::min(1.0, gas.side() / 96.0)), {}, {}, {}, {}};
     const FieldInterpolation<Dim> interpolation(gas.weight, gas.model->particles().mass,
                                                 state.position(), gas.model->box());
-    const Eigen::MatrixXd sum = interpolation.sum(carried, fields.grid.points());
-    fields.velocity.setZero(Dim, sum.cols());
-    for (auto* values : {&fields.density, &fields.kinetic, &fields.hidden})
-        values->reserve(static_cast<std::size_t>(sum.cols()));
-    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
-        const double rho = sum(0, k);
-        if (rho > 0.0) fields.velocity.col(k) = sum.col(k).template tail<Dim>() / rho;
-        fields.density.push_back(rho);
-        fields.kinetic.push_back(0.5 * sum(1, k));
-        fields.hidden.push_back(
-            rho > 0.0  // of one particle alone: nothing but rounding, which may be negative
-                ? 0.5 * std::max(0.0, sum(1, k) / rho - fields.velocity.col(k).squaredNorm())
-                : 0.0);
+    const std::size_t nodes = fields.grid.size();
+    fields.velocity.setZero(Dim, static_cast<Eigen::Index>(nodes));
+    for (auto* values : {&fields.density, &fields.kinetic, &fields.hidden}) values->reserve(nodes);
+    // In pieces: of all nodes at once, places and sums would take more room than the fields.
+    constexpr std::size_t piece = 65536;
+    for (std::size_t first = 0; first < nodes; first += piece) {
+        const Eigen::MatrixXd sum =
+            interpolation.sum(carried, fields.grid.points(first, std::min(piece, nodes - first)));
+        for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+            const double rho = sum(0, k);
+            auto velocity = fields.velocity.col(static_cast<Eigen::Index>(first) + k);
+            if (rho > 0.0) velocity = sum.col(k).template tail<Dim>() / rho;
+            fields.density.push_back(rho);
+            fields.kinetic.push_back(0.5 * sum(1, k));
+            fields.hidden.push_back(
+                rho > 0.0  // of one particle alone: nothing but rounding, which may be negative
+                    ? 0.5 * std::max(0.0, sum(1, k) / rho - velocity.squaredNorm())
+                    : 0.0);
+        }
     }
     return fields;
 }

@@ -28,6 +28,7 @@ struct Parameters {
     Ranges ranges = Ranges::fixed;
     int seed = 4;
     bool compare = false, cost = false, movie = false;
+    bool only_described = false;  // a dry run: no state is computed
 };
 
 /// A configuration worth drawing, of the snapshots the nearest to a wanted time.

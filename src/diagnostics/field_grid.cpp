@@ -57,10 +57,10 @@ std::size_t FieldGrid<Dim>::size() const {
 }
 
 template <int Dim>
-Points<Dim> FieldGrid<Dim>::points() const {
-    Points<Dim> at(Dim, static_cast<Eigen::Index>(size()));
+Points<Dim> FieldGrid<Dim>::points(std::size_t first, std::size_t count) const {
+    Points<Dim> at(Dim, static_cast<Eigen::Index>(count));
     for (Eigen::Index p = 0; p < at.cols(); ++p) {
-        Eigen::Index rest = p;
+        Eigen::Index rest = static_cast<Eigen::Index>(first) + p;
         for (int a = 0; a < Dim; ++a) {
             const int n = nodes[static_cast<std::size_t>(a)];
             at(a, p) = origin(a) + spacing(a) * static_cast<double>(rest % n);

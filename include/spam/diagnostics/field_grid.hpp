@@ -24,8 +24,10 @@ struct FieldGrid {
     static FieldGrid between(const Point<Dim>& low, const Point<Dim>& high, double d);
 
     std::size_t size() const;
+    /// Dim x `count`: nodes first, first + 1, ...
+    Points<Dim> points(std::size_t first, std::size_t count) const;
     /// Dim x size()
-    Points<Dim> points() const;
+    Points<Dim> points() const { return points(0, size()); }
 };
 
 /// The mean square of a field, wave number by wave number.
