@@ -23,6 +23,7 @@
 // Smooth particles come near it in two sound traversals, and never to rest: at the rim, where half of
 // the neighbours are missing, the sums take part of the rotation for a strain, which winds up a shear
 // sigma_rt in proportion to the angle turned.
+#include "rotating_disk/polar_stress.hpp"
 #include <spam/diagnostics/rotating_disk.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
@@ -100,15 +101,6 @@ Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
             std::make_unique<DampedModel>(std::move(model), *p.damping), R, rim};
 }
 
-/// From the centre; any direction at the centre itself.
-Point<2> direction(const Point<2>& r) {
-    return r.norm() > 0.0 ? Point<2>(r.normalized()) : Point<2>::UnitX();
-}
-
-/// Stress in the directions along and across the radius, at the particles' undeformed distances.
-struct PolarStress {
-    std::vector<double> r, radial, hoop, shear;
-};
 /// Elasticity of a body that turns as fast as this one does by now.
 RotatingDisk elasticity(const Body& body, std::span<const double> y) {
     const ConstState<2> state(body.model->layout(), y);
@@ -129,38 +121,11 @@ constexpr Component components[] = {{"radial", &PolarStress::radial, &RotatingDi
                                     {"hoop", &PolarStress::hoop, &RotatingDisk::hoop_stress},
                                     {"shear", &PolarStress::shear, &RotatingDisk::shear_stress}};
 
-/// 3 x N: xx, yy, xy.
-Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y) {
-    const auto* bonded = dynamic_cast<const BondedModel<2>*>(&model);
-    if (bonded == nullptr) return ConstState<2>(model.layout(), y).stress();
-    const auto virial = bonded->stress(y, 1.0 / rho);
-    Points<3> all(3, static_cast<Eigen::Index>(virial.size()));
-    for (Eigen::Index i = 0; i < all.cols(); ++i)
-        all.col(i) = Point<3>::Map(virial[static_cast<std::size_t>(i)].c.data());
-    return all;
-}
-
-PolarStress polar_stress(const DampedModel& model, std::span<const double> y) {
-    const Points<3> stress = cartesian_stress(model.undamped(), y);
-    const Points<2> x = ConstState<2>(model.layout(), y).position();
-    const Point<2> centre = x.rowwise().mean();
-    PolarStress all;
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const Point<2> n = direction(x.col(i) - centre);
-        const double xx = stress(0, i), yy = stress(1, i), xy = stress(2, i);
-        all.r.push_back(model.particles().reference_position.col(i).norm());
-        all.radial.push_back(xx * n.x() * n.x() + yy * n.y() * n.y() + 2.0 * xy * n.x() * n.y());
-        all.hoop.push_back(xx * n.y() * n.y() + yy * n.x() * n.x() - 2.0 * xy * n.x() * n.y());
-        all.shear.push_back((yy - xx) * n.x() * n.y() + xy * (n.x() * n.x() - n.y() * n.y()));
-    }
-    return all;
-}
-
 /// Root mean square deviation from elasticity of the particles of the rim or of those inside,
 /// divided by the stress at the centre.
 double deviation(const Body& body, std::span<const double> y, const Component& component,
                  bool of_rim) {
-    const auto stress = polar_stress(*body.model, y);
+    const auto stress = polar_stress(*body.model, y, rho);
     const auto exact = elasticity(body, y);
     const auto& measured = stress.*component.measured;
     double sum = 0.0, n = 0.0;
@@ -256,7 +221,7 @@ void draw(Session& session, const std::vector<Body>& bodies, const std::vector<R
         CurvePanel panel{
             fmt::format("{} stress", component.name), "r / R", "stress / σ₀", false, {}};
         for (std::size_t k = runs.size(); k-- > 0;) {  // the narrower cloud on top
-            const auto s = polar_stress(*bodies[k].model, runs[k].y);
+            const auto s = polar_stress(*bodies[k].model, runs[k].y, rho);
             panel.curves.push_back({bodies[k].title, over(s.r, exact.R),
                                     over(s.*component.measured, unit), Mark::points,
                                     bodies[k].label == "md" ? 3 : 2});
@@ -264,7 +229,7 @@ void draw(Session& session, const std::vector<Body>& bodies, const std::vector<R
         panel.curves.push_back(exact_curve(exact, component));
         curves.push_back(panel);
         for (std::size_t k = 0; k < runs.size(); ++k) {
-            const auto s = polar_stress(*bodies[k].model, runs[k].y);
+            const auto s = polar_stress(*bodies[k].model, runs[k].y, rho);
             configurations.push_back(
                 {fmt::format("{}, {} stress", bodies[k].title, component.name),
                  ConstState<2>(bodies[k].model->layout(), runs[k].y).position(),
@@ -285,7 +250,7 @@ void draw(Session& session, const std::vector<Body>& bodies, const std::vector<R
 void write_stress(const RunFolder& folder, const Body& body, const RunRecord& run) {
     CsvWriter csv(folder / fmt::format("stress_{}.csv", body.label),
                   {"r", "radial", "hoop", "shear", "radial_exact", "hoop_exact"});
-    const auto s = polar_stress(*body.model, run.y);
+    const auto s = polar_stress(*body.model, run.y, rho);
     const auto exact = elasticity(body, run.y);
     for (std::size_t i = 0; i < s.r.size(); ++i)
         csv.add(std::vector<double>{s.r[i], s.radial[i], s.hoop[i], s.shear[i],

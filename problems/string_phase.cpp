@@ -166,7 +166,8 @@ void report(Session& session, const Parameters& p, const Sample& sample, const R
         {sample.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
     // Of a few particles in a wide box, none is nearer than half of it.
     if (std::isfinite(h.last("closest_pair")))
-        session.check({sample.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
+        session.check(
+            {sample.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});
     session.check_promises(run, sample.prefix);
 }
 

@@ -153,21 +153,17 @@ void Options::read_case(const std::string& text_of_case, const std::string& path
     }
 }
 
-std::vector<std::pair<std::string, std::string>> Options::resolved() const {
-    std::vector<std::pair<std::string, std::string>> result;
-    for (const auto& entry : entries_) {
-        const std::string value = entry->get();
-        if (entry->in_case && !value.empty()) result.emplace_back(entry->name, value);
-    }
-    return result;
-}
-
-std::string Options::case_toml(const std::vector<std::string>& without) const {
+std::string Options::case_toml(const std::vector<std::string>& without,
+                               const std::map<std::string, std::string>& chosen) const {
     std::string text = fmt::format(
         "# {}: the resolved case. Run it again with\n#   {} --config FILE\n", program_, program_);
-    for (const auto& [name, value] : resolved())
-        if (std::find(without.begin(), without.end(), name) == without.end())
-            text += fmt::format("{} = {}\n", name, value);
+    for (const auto& entry : entries_) {
+        if (std::find(without.begin(), without.end(), entry->name) != without.end()) continue;
+        const auto choice = chosen.find(entry->name);
+        std::string value = entry->in_case ? entry->get() : "";
+        if (value.empty() && choice != chosen.end()) value = choice->second;
+        if (!value.empty()) text += fmt::format("{} = {}\n", entry->name, value);
+    }
     return text;
 }
 

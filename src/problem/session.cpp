@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace spam {
 namespace {
@@ -58,36 +59,29 @@ void Session::open_folder() {
 
 /// The options as they were given or chosen; of ends and intervals those that hold for all cases.
 std::string Session::case_file() const {
-    std::string text = problem_.options_.case_toml(left_out_);
-    if (problem_.common_.smoke) text += "smoke = true\n";
-    struct Part {
-        const char* name;
-        double PlanMemory::*value;
-        bool given;
-    };
-    const auto& common = problem_.common_;
-    const Part parts[] = {
-        {"t-end", &PlanMemory::t_end, common.t_end.has_value()},
-        {"output-every", &PlanMemory::output_every, common.output_every.has_value()},
-        {"snapshot-every", &PlanMemory::snapshot_every, common.snapshot_every.has_value()},
-        {"checkpoint-every", &PlanMemory::checkpoint_every, common.checkpoint_every.has_value()}};
+    const std::pair<const char*, double PlanMemory::*> parts[] = {
+        {"t-end", &PlanMemory::t_end},
+        {"output-every", &PlanMemory::output_every},
+        {"snapshot-every", &PlanMemory::snapshot_every},
+        {"checkpoint-every", &PlanMemory::checkpoint_every}};
     const auto& plans = memory_->plans;
-    for (const Part& part : parts) {
-        const bool left_out =
-            std::find(left_out_.begin(), left_out_.end(), part.name) != left_out_.end();
-        if (part.given || left_out || plans.empty()) continue;
-        const auto same = [&](const PlanMemory& plan) {
-            return plan.*part.value == plans.front().*part.value;
-        };
-        if (std::all_of(plans.begin(), plans.end(), same)) {
-            text += fmt::format("{} = {}\n", part.name, plans.front().*part.value);
-            continue;
+    std::map<std::string, std::string> chosen;
+    std::string different;
+    if (problem_.common_.smoke) chosen["smoke"] = "true";
+    for (const auto& [name, value] : parts) {
+        std::string all;
+        bool same = true;
+        for (const PlanMemory& plan : plans) {
+            all += fmt::format(" {}", plan.*value);
+            same = same && plan.*value == plans.front().*value;
         }
-        text += fmt::format("# {} of the cases, in order:", part.name);
-        for (const PlanMemory& plan : plans) text += fmt::format(" {}", plan.*part.value);
-        text += '\n';
+        if (plans.empty()) continue;
+        if (same)
+            chosen[name] = fmt::format("{}", plans.front().*value);
+        else
+            different += fmt::format("# {} of the cases, in order:{}\n", name, all);
     }
-    return text;
+    return problem_.options_.case_toml(left_out_, chosen) + different;
 }
 
 void Session::write_case_file() { folder_->write("case.toml", case_file()); }

@@ -116,7 +116,7 @@ Trial save_with(Plan fault) {
 BOOST_AUTO_TEST_CASE(calls_go_through_this_program) {
     const Trial trial = save_with({});
     BOOST_TEST(trial.outcome == replaced);
-    BOOST_TEST(trial.seen[open_call] == 2);  // folder and temporary
+    BOOST_TEST(trial.seen[open_call] == 2);   // folder and temporary
     BOOST_TEST(trial.seen[write_call] == 2);  // contents and seal
     BOOST_TEST(trial.seen[fsync_call] == 2);
     BOOST_TEST(trial.seen[close_call] == 2);

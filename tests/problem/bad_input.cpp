@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(cases_that_would_never_start) {
         in("string_phase", {"--particles", "1000000", "--side", "8"}, {"side", "neighbours"}),
         in("stability", {"--range", "1e6"}, {"range", "30 spacings"}),
         in("sheared_square", {"--cells", "600", "--range", "9e5"}, {"range", "pairs"}),
-        in("rotating_disk", {"--radius", "300", "--range", "9e5"}, {"range", "pairs"}),
+        in("rotating_disk", {"--radius", "300", "--range", "9e5"}, {"range", "radius"}),
         in("free_expansion", {"--cells", "12", "--ranges", "density"},
            {"cells", "--ranges density", "at least --cells 13"}),
         in("free_expansion", {"--cells", "400", "--range", "399"}, {"range", "pairs"}),

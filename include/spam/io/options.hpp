@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,10 +88,10 @@ class Options {
     /// The first of `names` that the user set; empty if none.
     std::string first_given(const std::vector<std::string>& names) const;
 
-    /// The resolved case as TOML, without the options named.
-    std::string case_toml(const std::vector<std::string>& without = {}) const;
-    /// The same as "name = value" pairs.
-    std::vector<std::pair<std::string, std::string>> resolved() const;
+    /// The resolved case as TOML, without the options named. `chosen`: values, as TOML, that the program
+    /// has chosen for options that were left open.
+    std::string case_toml(const std::vector<std::string>& without = {},
+                          const std::map<std::string, std::string>& chosen = {}) const;
 
   private:
     struct Entry;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/rhs/damped_model.hpp>
+
+#include <span>
+#include <vector>
+
+/// Stress in the directions along and across the radius, at the particles' undeformed distances.
+struct PolarStress {
+    std::vector<double> r, radial, hoop, shear;
+};
+
+/// Of a state y of the model, about the body's centre. `rho`: its density, by which the virial of springs
+/// becomes a stress; smooth particles carry theirs.
+PolarStress polar_stress(const spam::DampedModel& model, std::span<const double> y, double rho);
