@@ -186,14 +186,17 @@ int main(int argc, char** argv) {
     Problem problem("algorithm_sweep", "the 72 algorithm combinations of [HHM04] IX");
     Parameters p;
     auto& options = problem.options();
-    options.integer("size", p.size, "of the hexagon: 1 + 3n + 3n^2 particles", between(1, 200));
-    options.number("speed", p.speed, "speed of its corners", between(1e-6, 1e3));
-    options.number("turns", p.turns, "nominal turns at most", at_least(1.0));
-    options.number("range", p.range, "of Lucy's weight function", positive());
-    options.number("viscosity", p.viscosity, "alpha, where there is viscosity", positive());
-    options.number("closest-approach", p.closest_approach, "R, where pairs are reflected",
+    options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",
+                    between(1, 200));
+    options.number("speed", p.speed, "speed of the corners of the hexagon", between(1e-6, 1e3));
+    options.number("turns", p.turns, "largest number of nominal turns", at_least(1.0));
+    options.number("range", p.range, "range h of Lucy's weight function", positive());
+    options.number("viscosity", p.viscosity, "coefficient alpha of the combinations with viscosity",
                    positive());
-    options.integer("jobs", p.jobs, "combinations computed at a time", between(1, 1024));
+    options.number("closest-approach", p.closest_approach,
+                   "distance of closest approach of the combinations with reflection", positive());
+    options.integer("jobs", p.jobs, "number of combinations computed at the same time",
+                    between(1, 1024));
     options.exclude_from_case({"jobs"});
 
     return problem.main(argc, argv, [&](Session& session) {

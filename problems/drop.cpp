@@ -140,7 +140,7 @@ Check energy_rise(const Drop& drop, const History& h) {
     const double change = h.largest("energy") - h.smallest("energy");
     if (!(change < 1e-6 * largest * static_cast<double>(energy.size()))) {
         check.expected = 0.0;
-        check.source = "friction takes energy and never gives it back";
+        check.source = "friction can only take energy away";
     }
     return check;
 }
@@ -160,7 +160,7 @@ void report(Session& session, const Parameters& p, const Drop& drop, const RunRe
     session.check({drop.prefix + "momentum_per_particle",
                    std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
                    0.0, 1e-12 * std::max(1.0, largest_speed(h)),
-                   "pairwise forces, and a friction that stops what does not move"});
+                   "pairwise forces; friction leaves a momentum of zero at zero"});
     session.check(energy_rise(drop, h));
     session.check({drop.prefix + "energy_per_particle", h.last("energy") / n, {}, 0.0, "measured"});
     session.check({drop.prefix + "closest_pair", h.last("closest_pair"), {}, 0.0, "measured"});

@@ -72,8 +72,9 @@ int main(int argc, char** argv) {
     std::vector<std::string> names;
     for (const auto& system : systems(p)) names.push_back(system.name);
     add_system_option(options, names, p.problem);
-    options.integer("size", p.size, "of hexagons: 1 + 3n + 3n^2 particles", between(2, 50));
-    options.number("speed", p.speed, "of their corners", between(1e-6, 1e3));
+    options.integer("size", p.size, "n of the hexagons, which have 1 + 3n + 3n^2 particles",
+                    between(2, 50));
+    options.number("speed", p.speed, "speed of the corners of the hexagons", between(1e-6, 1e3));
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {

@@ -165,10 +165,11 @@ int main(int argc, char** argv) {
     Problem problem("turns_survived", "how many turns each scheme keeps the rotating hexagon");
     Parameters p;
     auto& options = problem.options();
-    options.integer("size", p.size, "of the hexagon: 1 + 3n + 3n^2 particles", between(2, 200));
-    options.number("speed", p.speed, "speed of its corners", between(1e-6, 1e3));
-    options.number("turns", p.turns, "nominal turns at most", positive());
-    options.integer("jobs", p.jobs, "cases computed at a time", between(1, 1024));
+    options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",
+                    between(2, 200));
+    options.number("speed", p.speed, "speed of the corners of the hexagon", between(1e-6, 1e3));
+    options.number("turns", p.turns, "largest number of nominal turns", positive());
+    options.integer("jobs", p.jobs, "number of cases computed at the same time", between(1, 1024));
     options.exclude_from_case({"jobs"});
 
     return problem.main(argc, argv, [&](Session& session) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints and --restart: a run that was stopped and one that was not are the same, byte for byte.
 #include "problem/twins.hpp"
+#include "support/effort.hpp"
 
 #include <cmath>
 #include <random>
@@ -116,8 +117,9 @@ BOOST_AUTO_TEST_CASE(killed_fifty_times_it_ends_with_the_same_bytes) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> moment(0.0, 0.03);
     int kills = 0, restarts = 0;
+    const int all = effort(50, 5);
     Words command = with(common, {"--out", "killed"});
-    while (kills < 50) {
+    while (kills < all) {
         Child child(problem("rotating_hexagon", command), {folder.path()});
         const auto before = newest_checkpoint(folder / "killed");
         if (!before)
@@ -245,7 +247,8 @@ BOOST_AUTO_TEST_CASE(a_thousand_damaged_files_are_refused) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
     std::size_t refused = 0;
     std::size_t tried = 0;
-    for (int k = 0; tried < 1000; ++k) {
+    const std::size_t all = effort(1000, 60);
+    for (int k = 0; tried < all; ++k) {
         std::string damaged = whole;
         if (k % 3 == 0) damaged[below(damaged.size())] ^= static_cast<char>(1 << below(8));
         if (k % 3 == 1) damaged.resize(below(damaged.size()));
@@ -264,7 +267,7 @@ BOOST_AUTO_TEST_CASE(a_thousand_damaged_files_are_refused) {
             BOOST_ERROR(k << ": status " << outcome.status << " " << outcome.err);
     }
     BOOST_TEST_MESSAGE(refused << " refused");
-    BOOST_TEST(refused == 1000u);
+    BOOST_TEST(refused == all);
     BOOST_TEST(!fs::exists(folder / "rotating_hexagon-out"));
 }
 
