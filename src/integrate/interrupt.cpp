@@ -16,20 +16,22 @@ constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t received_signal = 0;
 volatile std::sig_atomic_t results_begun = 0;
+volatile std::sig_atomic_t delayed = 0;
 
 /// What the handler says, one line a signal, composed beforehand: a handler may not format.
 std::array<std::string, watched.size()> lines;
 
-extern "C" void on_signal(int signal) {
-    if (results_begun != 0) {
-        received_signal = signal;
-        std::signal(signal, SIG_DFL);  // the second one ends the process
-        return;
-    }
+[[noreturn]] void end_process(int signal) {
     for (std::size_t k = 0; k < watched.size(); ++k)
         if (watched[k] == signal && write(STDERR_FILENO, lines[k].data(), lines[k].size()) < 0)
             break;  // nobody is left who could be told
     _exit(128 + signal);
+}
+
+extern "C" void on_signal(int signal) {
+    if (results_begun == 0 && delayed == 0) end_process(signal);
+    received_signal = signal;
+    if (results_begun != 0) std::signal(signal, SIG_DFL);  // the second one ends the process
 }
 
 }  // namespace
@@ -48,6 +50,13 @@ InterruptWatch::InterruptWatch(const std::string& program) {
 
 InterruptWatch::~InterruptWatch() {
     for (const int signal : watched) std::signal(signal, SIG_DFL);
+}
+
+InterruptWatch::Delay::Delay() { delayed = 1; }
+
+InterruptWatch::Delay::~Delay() {
+    delayed = 0;
+    if (received_signal != 0 && results_begun == 0) end_process(received_signal);
 }
 
 void InterruptWatch::complete_results() { results_begun = 1; }

@@ -187,8 +187,11 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         for (const auto& one : cases) describe(one);
         end_dry_run();
     }
-    open_folder();
-    save_first();
+    {
+        const InterruptWatch::Delay delay;
+        open_folder();
+        save_first();
+    }
     std::vector<RunRecord> records;
     for (auto& one : cases) {
         if (!records.empty() && InterruptWatch::received() != 0) break;

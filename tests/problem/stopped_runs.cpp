@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <random>
+#include <thread>
 
 using namespace spam::test;
 using spam::CheckpointReader;
@@ -142,6 +143,22 @@ BOOST_AUTO_TEST_CASE(a_run_can_be_restarted_from_the_first_moment_on) {
     BOOST_TEST(CheckpointReader(folder / "o/checkpoint_0.h5").integers("/counts").at(0) == 0);
     require_ran(run_in(folder, "rotating_hexagon", {"--restart", "o", "--no-plots"}));
     check_same(left_by(folder / "whole"), left_by(folder / "o"));
+}
+
+/// Where a signal finds a folder, it finds a checkpoint in it.
+BOOST_AUTO_TEST_CASE(a_folder_is_never_left_without_a_checkpoint) {
+    const Words common{"--size", "3", "--transport", "plain", "--no-plots", "--quiet"};
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> moment(0.0, 0.02);
+    for (int k = 0; k < 25; ++k) {
+        const Scratch folder;
+        Child child(problem("rotating_hexagon", with(common, {"--out", "o"})), {folder.path()});
+        std::this_thread::sleep_for(Child::Seconds(moment(random)));
+        child.send(SIGTERM);
+        child.finish();
+        if (!fs::exists(folder / "o")) continue;
+        BOOST_TEST(newest_checkpoint(folder / "o").has_value());
+    }
 }
 
 /// Ends and intervals belong to a case: those of the first are not those of the others.

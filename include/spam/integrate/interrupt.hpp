@@ -17,6 +17,16 @@ class InterruptWatch {
     InterruptWatch(const InterruptWatch&) = delete;
     InterruptWatch& operator=(const InterruptWatch&) = delete;
 
+    /// While one is alive a signal waits for its end: a result folder is not left without the checkpoint
+    /// from which it can be gone on with.
+    class Delay {
+      public:
+        Delay();
+        ~Delay();
+        Delay(const Delay&) = delete;
+        Delay& operator=(const Delay&) = delete;
+    };
+
     /// From here on there are results to be completed.
     static void complete_results();
 
