@@ -65,9 +65,11 @@ int run(const Scratch& folder, const std::function<void(Session&)>& body) {
 /// Names of what was checked, in order, with a ! before those that do not hold.
 std::string checked(const Scratch& folder) {
     std::string names;
-    for (const auto& item : json_of(folder / "out/result.json"))
-        names += (names.empty() ? "" : " ") + std::string(item.at("holds").get<bool>() ? "" : "!") +
-                 item.at("name").get<std::string>();
+    for (const auto& item : json_of(folder / "out/result.json")) {
+        if (!names.empty()) names += ' ';
+        if (!item.at("holds").get<bool>()) names += '!';
+        names += item.at("name").get<std::string>();
+    }
     return names;
 }
 

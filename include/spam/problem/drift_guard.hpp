@@ -20,10 +20,10 @@ std::string_view to_string(DriftAction action);
 /// no limit to choose.
 struct DriftLimits {
     DriftAction action = DriftAction::off;
-    std::optional<double> momentum, angular_momentum, energy;
+    std::optional<double> momentum{}, angular_momentum{}, energy{};
 
     std::optional<double> limit_of(const Drift& drift) const;
-    /// "warns beyond mass 1e-12, momentum 1e-12, energy 1e-06", for the banner.
+    /// "warns beyond momentum 1e-12, energy 1e-06", for the banner.
     std::string describe(const std::vector<Drift>& drifts) const;
 };
 
