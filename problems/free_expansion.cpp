@@ -89,7 +89,7 @@ Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t
     // Often enough for the configurations drawn, and no more than 48 files.
     plan.snapshot_every = std::max(std::min(largest / 8.0, t_end / 4.0), t_end / 48.0);
     plan.columns = entropy_columns(gas);
-    plan.on_snapshot = [&session, &gas, &p, folder](double t, const Model<Dim>&, Values y) {
+    plan.on_snapshot = [&, folder](double t, const Model<Dim>&, Values y) {
         for (Scene& scene : gas.scenes) scene.look(t, y);
         write_fields(folder(), gas, t, y);
         if constexpr (Dim == 2)

@@ -12,7 +12,7 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double frame_width = 620.0, height = 540.0;
+constexpr double frame_width = 620.0, frame_height = 540.0;
 
 /// Of the curves with a look of their own, and so a place in the key.
 std::vector<std::string> key_titles(const CurvePanel& panel) {
@@ -144,7 +144,7 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
     // One key for all frames where they show the same curves: under the middle of the picture.
     const bool shared = same_titles(panels);
     const double width = frame_width * static_cast<double>(panels.size());
-    std::string data, script = gnuplot::preamble(name, width, height);
+    std::string data, script = gnuplot::preamble(name, width, frame_height);
     script += gnuplot::line_styles;
     script += fmt::format("set multiplot title \"{}\" font ',15'\n", escaped(title));
     script +=

@@ -1,31 +1,143 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/neighbors/connected_parts.hpp>
-#include <spam/neighbors/pair_list.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace spam {
+namespace {
+
+constexpr std::uint32_t nobody = 0xffffffff;
+
+/// Particles in cells at least `reach` wide, in a hash table: a list of all pairs, which other searches
+/// build, would need ten times the room and serve only once. Cells that share a place in the table cost
+/// time, not correctness, since every separation is measured.
+template <int Dim>
+class Cells {
+    using Coordinates = std::array<std::int64_t, Dim>;
+
+  public:
+    Cells(const Points<Dim>& position, double reach, const Box<Dim>& box)
+        : x_(position),
+          box_(box),
+          reach2_(reach * reach) {
+        const auto n = static_cast<std::size_t>(x_.cols());
+        first_.assign(std::bit_ceil(std::max<std::size_t>(2 * n, 16)), nobody);
+        next_.assign(n, nobody);
+        for (int a = 0; a < Dim; ++a) {
+            const auto k = static_cast<std::size_t>(a);
+            double width =
+                reach * (1.0 + 1e-9);  // rounding must not put two cells between neighbours
+            if (box_.periodic(a)) {
+                count_[k] = static_cast<std::int64_t>(
+                    std::clamp(std::floor(box_.length(a) / width), 1.0, 1e9));
+                width = box_.length(a) / static_cast<double>(count_[k]);
+            }
+            per_width_[k] = 1.0 / width;
+        }
+        stride_[0] = 1;  // neighbours along the first axis lie side by side in memory
+        const auto across = static_cast<std::uint64_t>(std::pow(static_cast<double>(n), 1.0 / Dim));
+        for (std::size_t a = 1; a < Dim; ++a) stride_[a] = stride_[a - 1] * (across | 1) * 2 + 1;
+    }
+
+    /// Calls join(j) for particles j entered before that are closer to i than the reach, and enters i.
+    template <class Join>
+    void enter(std::uint32_t i, const Join& join) {
+        const Coordinates own = cell_of(i);
+        Coordinates other = own;
+        visit<0>(own, other, [&](std::size_t place) {
+            for (std::uint32_t j = first_[place]; j != nobody; j = next_[j])
+                if (close(i, j)) join(j);
+        });
+        const std::size_t place = place_of(own);
+        next_[i] = first_[place];
+        first_[place] = i;
+    }
+
+  private:
+    Coordinates cell_of(std::uint32_t i) const {
+        Coordinates cell;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const int axis = static_cast<int>(a);
+            // What was flung away may lie further than an integer counts.
+            const double c = std::floor(box_.wrap(axis, x_(axis, i)) * per_width_[a]);
+            cell[a] = static_cast<std::int64_t>(std::abs(c) < 1e15 ? c : 1e15);
+            if (count_[a] > 0) cell[a] = std::min(cell[a], count_[a] - 1);
+        }
+        return cell;
+    }
+    std::size_t place_of(const Coordinates& cell) const {
+        std::uint64_t place = 0;
+        for (std::size_t a = 0; a < Dim; ++a)
+            place += static_cast<std::uint64_t>(cell[a]) * stride_[a];
+        return place & (first_.size() - 1);
+    }
+    /// The 3^Dim cells around `own`, itself among them.
+    template <std::size_t Axis, class Function>
+    void visit(const Coordinates& own, Coordinates& other, const Function& f) const {
+        if constexpr (Axis == Dim) {
+            f(place_of(other));
+        } else {
+            for (std::int64_t step = -1; step <= 1; ++step) {
+                other[Axis] = own[Axis] + step;
+                if (count_[Axis] > 0) other[Axis] = (other[Axis] + count_[Axis]) % count_[Axis];
+                visit<Axis + 1>(own, other, f);
+            }
+        }
+    }
+    bool close(std::uint32_t i, std::uint32_t j) const {
+        double r2 = 0.0;
+        for (int a = 0; a < Dim; ++a) {
+            const double s = box_.nearest_image(a, box_.wrap(a, x_(a, i)) - box_.wrap(a, x_(a, j)));
+            r2 += s * s;
+        }
+        return r2 < reach2_;
+    }
+
+    const Points<Dim>& x_;
+    const Box<Dim>& box_;
+    double reach2_;
+    std::array<std::int64_t, Dim> count_{};  ///< of cells, in periodic directions only
+    std::array<double, Dim> per_width_{};
+    std::array<std::uint64_t, Dim> stride_{};
+    std::vector<std::uint32_t> first_,
+        next_;  ///< of the chain of particles at a place of the table
+};
+
+/// Sets that grow together: each particle points towards the lowest one of its set.
+class Sets {
+  public:
+    explicit Sets(std::size_t n) : towards_(n) {
+        for (std::size_t i = 0; i < n; ++i) towards_[i] = static_cast<std::uint32_t>(i);
+    }
+    std::uint32_t lowest(std::uint32_t i) {
+        while (towards_[i] != i) i = towards_[i] = towards_[towards_[i]];
+        return i;
+    }
+    void join(std::uint32_t i, std::uint32_t j) {
+        i = lowest(i), j = lowest(j);
+        towards_[std::max(i, j)] = std::min(i, j);
+    }
+
+  private:
+    std::vector<std::uint32_t> towards_;
+};
+
+}  // namespace
 
 template <int Dim>
 std::vector<std::int32_t> connected_parts(const Points<Dim>& position, double reach,
                                           const Box<Dim>& box) {
-    const auto n = static_cast<std::size_t>(position.cols());
-    const PairList<Dim> list(position, reach, box);
-    std::vector<std::int32_t> body(n, -1);
-    std::vector<std::uint32_t> frontier;
+    const auto n = static_cast<std::uint32_t>(position.cols());
+    Cells<Dim> cells(position, reach, box);
+    Sets sets(n);
+    for (std::uint32_t i = 0; i < n; ++i) cells.enter(i, [&](std::uint32_t j) { sets.join(i, j); });
+    std::vector<std::int32_t> body(n);
     std::int32_t bodies = 0;
-    for (std::size_t first = 0; first < n; ++first) {
-        if (body[first] >= 0) continue;
-        body[first] = bodies;
-        frontier.assign(1, static_cast<std::uint32_t>(first));
-        while (!frontier.empty()) {
-            const std::uint32_t i = frontier.back();
-            frontier.pop_back();
-            for (const std::uint32_t j : list.neighbours(i)) {
-                if (body[j] >= 0) continue;
-                body[j] = bodies;
-                frontier.push_back(j);
-            }
-        }
-        ++bodies;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t lowest = sets.lowest(i);
+        body[i] = lowest == i ? bodies++ : body[lowest];
     }
     return body;
 }

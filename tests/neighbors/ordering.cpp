@@ -6,6 +6,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 using namespace spam;
@@ -60,6 +61,54 @@ BOOST_AUTO_TEST_CASE(bodies_are_connected_parts) {
     // Across a periodic boundary the last joins the first.
     const auto joined = connected_parts<2>(x, 1.2, Box<2>({31.0, 0.0}));
     BOOST_TEST(joined[6] == 0);
+}
+
+BOOST_AUTO_TEST_CASE(bodies_of_random_particles_by_all_pairs) {
+    std::mt19937_64 random(7);
+    const auto compare = [&]<int Dim>(const Points<Dim>& x, const Box<Dim>& box) {
+        const auto n = static_cast<std::size_t>(x.cols());
+        const Points<Dim> in = box.wrapped(x);
+        // The lowest number spreads until nothing changes.
+        std::vector<std::size_t> lowest(n);
+        std::iota(lowest.begin(), lowest.end(), 0U);
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t j = 0; j < n; ++j) {
+                    double r2 = 0.0;
+                    for (int a = 0; a < Dim; ++a) {
+                        const double s =
+                            box.nearest_image(a, in(a, static_cast<Eigen::Index>(i)) -
+                                                     in(a, static_cast<Eigen::Index>(j)));
+                        r2 += s * s;
+                    }
+                    if (r2 < 1.0 && lowest[j] < lowest[i]) lowest[i] = lowest[j], changed = true;
+                }
+        }
+        std::vector<std::int32_t> expected(n);
+        std::int32_t bodies = 0;
+        for (std::size_t i = 0; i < n; ++i)
+            expected[i] = lowest[i] == i ? bodies++ : expected[lowest[i]];
+        BOOST_TEST(bodies > 1);
+        BOOST_TEST(connected_parts<Dim>(x, 1.0, box) == expected, boost::test_tools::per_element());
+    };
+    const auto drawn_in = [&]<int Dim>(Points<Dim> x, double size) {
+        std::uniform_real_distribution<double> u(-0.5 * size, 0.5 * size);
+        for (auto& c : x.reshaped()) c = u(random);
+        return x;
+    };
+    for (int round = 0; round < 5; ++round) {
+        compare(drawn_in(Points<1>(1, 40), 50.0), Box<1>());
+        compare(drawn_in(Points<1>(1, 40), 90.0), Box<1>({50.0}));
+        compare(drawn_in(Points<2>(2, 150), 12.0), Box<2>());
+        compare(drawn_in(Points<2>(2, 150), 30.0), Box<2>({12.0, 0.0}));
+        compare(drawn_in(Points<2>(2, 6), 30.0), Box<2>({2.5, 1.5}));  // of two cells, of one
+        compare(drawn_in(Points<3>(3, 200), 7.0), Box<3>());
+        compare(drawn_in(Points<3>(3, 200), 9.0), Box<3>({7.0, 7.0, 7.0}));
+        Points<2> flung = drawn_in(Points<2>(2, 100), 8.0);
+        flung.leftCols(3).array() *= 1e18;
+        compare(flung, Box<2>());
+    }
 }
 
 BOOST_AUTO_TEST_CASE(particles_remember_their_ids) {
