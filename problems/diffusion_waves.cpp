@@ -11,11 +11,12 @@
 // kappa k^2 c^2/(rho_s^3 c_v) instead of kappa k^2/(rho c_v), and the friction of a shear wave is smaller
 // by the same factor (diagnostics/diffusion_waves.hpp derives it: 0.9398 for 24 cells and h = 3). A
 // lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
-#include "diffusion_waves/frozen_model.hpp"
 #include <spam/diagnostics/diffusion_waves.hpp>
+#include <spam/external/clamp.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
+#include <spam/rhs/fluid_model.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -25,6 +26,9 @@
 #include <numbers>
 
 namespace diffusion_waves {
+
+using namespace spam;
+
 namespace {
 
 enum class Wave { both, thermal, shear };
@@ -93,15 +97,14 @@ Experiment prepare(const Parameters& p, Wave wave, bool only_described) {
     Points<2> v = Points<2>::Zero(2, x.cols());
     if (wave == Wave::shear) v.row(0) = p.amplitude * (p.k() * x.row(1).array()).sin();
     Experiment e{wave, nullptr, {}};
-    if (!only_described) e.y0 = model->state(x, v, p.temperature);
-    if (wave == Wave::shear) {
-        e.model = std::move(model);
-        return e;
+    if (wave == Wave::thermal) model->add(std::make_unique<Clamp<2>>());  // only energies change
+    if (!only_described) {
+        e.y0 = model->state(x, v, p.temperature);
+        if (wave == Wave::thermal)
+            State<2>(model->layout(), e.y0).energy().array() +=
+                p.amplitude * (p.k() * x.row(0).array()).sin();  // c_v = 1
     }
-    if (!only_described)
-        State<2>(model->layout(), e.y0).energy().array() +=
-            p.amplitude * (p.k() * x.row(0).array()).sin();  // c_v = 1
-    e.model = std::make_unique<FrozenModel>(std::move(model));
+    e.model = std::move(model);
     return e;
 }
 

@@ -24,9 +24,9 @@
 // names have no prefix.
 #include "kernels/lattices.hpp"
 #include <spam/diagnostics/roundness.hpp>
+#include <spam/external/friction.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
-#include <spam/rhs/damped_model.hpp>
 #include <spam/rhs/density_potential_model.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
@@ -59,7 +59,7 @@ struct Parameters {
 struct Drop {
     std::string label, prefix, title;
     double tension;
-    std::unique_ptr<DampedModel> model;
+    std::unique_ptr<ParticleModel<2>> model;
 };
 
 /// The same displacements on every computer: the standard fixes the generator's numbers.
@@ -82,9 +82,11 @@ Drop make_drop(const Parameters& p, double tension) {
     auto particles = make_particles<2>(places(p), 1.0);
     particles.body.assign(particles.size(), 0);  // one drop, also where places are disordered
     auto model = std::make_unique<DensityPotentialModel<2>>(std::move(particles), potentials);
-    return {
-        "", "", tension > 0.0 ? fmt::format("surface tension {:g}", tension) : "no surface tension",
-        tension, std::make_unique<DampedModel>(std::move(model), p.damping, Friction::all_motion)};
+    if (p.damping > 0.0)
+        model->add(std::make_unique<Friction<2>>(p.damping, FrictionOf::all_motion));
+    return {"", "",
+            tension > 0.0 ? fmt::format("surface tension {:g}", tension) : "no surface tension",
+            tension, std::move(model)};
 }
 
 std::vector<Drop> drops_of(const Parameters& p) {

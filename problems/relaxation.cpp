@@ -17,9 +17,10 @@
 // (Lucy, range 3) over their mean: of all particles, the wall's part included, and of those off the
 // border by more than the range.
 #include "relaxation/quality.hpp"
+#include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
-#include <spam/rhs/damped_model.hpp>
+#include <spam/rhs/pair_potential_model.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -211,8 +212,10 @@ int main(int argc, char** argv) {
         const Ruler ruler(region);
 
         // repulsion, wall, friction
-        DampedModel model(std::make_unique<WalledModel>(std::move(particles), region, p.range),
-                          p.damping, Friction::all_motion);
+        PairPotentialModel<2> model(std::move(particles), p.range);
+        model.add(std::make_unique<Wall>(region, p.range));
+        if (p.damping > 0.0)
+            model.add(std::make_unique<Friction<2>>(p.damping, FrictionOf::all_motion));
         auto y0 = initial_state<2>(model, 1.0, 1.0, at_rest<2>());
         Plan<2> plan;
         plan.t_end = session.common().smoke ? 40.0 : longest;

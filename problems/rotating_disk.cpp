@@ -17,7 +17,7 @@
 //
 // The body starts unstrained in rigid rotation, so that nothing of this is put in. It would vibrate
 // for long; a friction of all that is not rigid motion takes the vibration away and leaves rotation
-// and angular momentum alone (damped_model.hpp). R: of a disk of the same area.
+// and angular momentum alone (external/friction.hpp). R: of a disk of the same area.
 //
 // Molecular dynamics (its stress is the virial of the bonds) comes to rest there within a per cent.
 // Smooth particles come near it in two sound traversals, and never to rest: at the rim, where half of
@@ -25,9 +25,9 @@
 // sigma_rt in proportion to the angle turned.
 #include "rotating_disk/polar_stress.hpp"
 #include <spam/diagnostics/rotating_disk.hpp>
+#include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
-#include <spam/rhs/damped_model.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ struct Parameters {
 /// A body, its elasticity, and where its rim begins: a range of smooth particles away from its edge.
 struct Body {
     std::string label, title;
-    std::unique_ptr<DampedModel> model;
+    std::unique_ptr<ParticleModel<2>> model;
     double R, rim;
 };
 
@@ -89,7 +89,7 @@ Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
                                                  : triangular_hexagon(static_cast<int>(p.radius)),
                           1.0);
     const double R = std::sqrt(static_cast<double>(particles.size()) / (rho * std::numbers::pi));
-    std::unique_ptr<Model<2>> model;
+    std::unique_ptr<ParticleModel<2>> model;
     if (md)
         model = std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
     else
@@ -97,8 +97,8 @@ Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
             std::move(particles), ElasticSolid::triangular_lattice(), scheme);
     const double rim = R - scheme.range;
     refuse_empty(p, scheme, model->particles().reference_position, rim);
-    return {md ? "md" : "spam", md ? "molecular dynamics" : "SPAM",
-            std::make_unique<DampedModel>(std::move(model), *p.damping), R, rim};
+    if (*p.damping > 0.0) model->add(std::make_unique<Friction<2>>(*p.damping));
+    return {md ? "md" : "spam", md ? "molecular dynamics" : "SPAM", std::move(model), R, rim};
 }
 
 /// Elasticity of a body that turns as fast as this one does by now.

@@ -24,10 +24,10 @@
 //
 // Without --core both are run; names in result.json without a prefix then belong to the one without a
 // core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
+#include <spam/external/friction.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/neighbors/pair_list.hpp>
-#include <spam/rhs/damped_model.hpp>
 #include <spam/rhs/density_potential_model.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
@@ -63,7 +63,7 @@ struct Parameters {
 struct Sample {
     std::string label, prefix, title;
     bool core;
-    std::unique_ptr<DampedModel> model;
+    std::unique_ptr<ParticleModel<2>> model;
 };
 
 /// The same places for every computer: the standard fixes the generator's numbers.
@@ -84,10 +84,11 @@ Sample make_sample(const Parameters& p, double e_c) {
     auto particles = make_particles<2>(random_places(p), 1.0, 1.0, box);
     particles.body.assign(particles.size(), 0);  // random places make no bodies
     auto model = std::make_unique<DensityPotentialModel<2>>(std::move(particles), potentials, box);
+    if (p.damping > 0.0)
+        model->add(std::make_unique<Friction<2>>(p.damping, FrictionOf::all_motion));
     return {"", "",
             e_c > 0.0 ? fmt::format("core {:g} of range {:g}", e_c, p.core_range) : "no core",
-            e_c > 0.0,
-            std::make_unique<DampedModel>(std::move(model), p.damping, Friction::all_motion)};
+            e_c > 0.0, std::move(model)};
 }
 
 std::vector<Sample> samples_of(const Parameters& p) {

@@ -41,7 +41,7 @@ SideBySide::SideBySide(std::vector<std::unique_ptr<Model<2>>> parts)
     : Model<2>(together(parts), parts.front()->box(), fields_of(parts)),
       parts_(std::move(parts)) {
     for (const auto& part : parts_) {
-        if (part->event()) throw std::invalid_argument("models side by side have no events");
+        if (!part->events().empty()) throw std::invalid_argument("models side by side have no events");
         y_.emplace_back(part->layout().size());
         y_dot_.emplace_back(part->layout().size());
         for (const auto& block : part->layout().blocks())
@@ -52,7 +52,7 @@ SideBySide::SideBySide(std::vector<std::unique_ptr<Model<2>>> parts)
 void SideBySide::copy_part(std::size_t k, std::span<double> of_part,
                            std::span<const double> y) const {
     for (const auto& block : parts_[k]->layout().blocks()) {
-        const std::size_t size = block.components * parts_[k]->particles().size();
+        const std::size_t size = block.size;
         std::copy_n(
             y.begin() + static_cast<std::ptrdiff_t>(layout().find(block.field)->offset + k * size),
             size, of_part.begin() + static_cast<std::ptrdiff_t>(block.offset));
@@ -68,7 +68,7 @@ std::vector<double> SideBySide::part(std::size_t k, std::span<const double> y) c
 void SideBySide::set_part(std::size_t k, std::span<const double> of_part,
                           std::span<double> y) const {
     for (const auto& block : parts_[k]->layout().blocks()) {
-        const std::size_t size = block.components * parts_[k]->particles().size();
+        const std::size_t size = block.size;
         std::copy_n(
             of_part.begin() + static_cast<std::ptrdiff_t>(block.offset), size,
             y.begin() + static_cast<std::ptrdiff_t>(layout().find(block.field)->offset + k * size));

@@ -25,7 +25,7 @@ class SideBySide final : public Model<2> {
     std::string describe() const override;
     double neighbour_forces(std::span<const double> y) const override;
     bool smooth() const override;
-    // Not forwarded: event(). It would change the state of a part, not this one; parts that have one are
+    // Not forwarded: events(). They would change the state of a part, not this one; parts that have one are
     // refused.
     // Not forwarded: set_bodies(). Every part stays as many bodies as it was made of.
     std::vector<Remark> watch(double t, std::span<const double> y) override;

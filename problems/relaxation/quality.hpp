@@ -2,7 +2,7 @@
 // How even particles in a region are.
 #pragma once
 
-#include "walled_model.hpp"
+#include "wall.hpp"
 
 #include <vector>
 

@@ -26,8 +26,8 @@ Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y, dou
 
 }  // namespace
 
-PolarStress polar_stress(const DampedModel& model, std::span<const double> y, double rho) {
-    const Points<3> stress = cartesian_stress(model.undamped(), y, rho);
+PolarStress polar_stress(const Model<2>& model, std::span<const double> y, double rho) {
+    const Points<3> stress = cartesian_stress(model, y, rho);
     const Points<2> x = ConstState<2>(model.layout(), y).position();
     const Point<2> centre = x.rowwise().mean();
     PolarStress all;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/rhs/damped_model.hpp>
+#include <spam/rhs/model.hpp>
 
 #include <span>
 #include <vector>
@@ -13,4 +13,4 @@ struct PolarStress {
 
 /// Of a state y of the model, about the body's centre. `rho`: its density, by which the virial of springs
 /// becomes a stress; smooth particles carry theirs.
-PolarStress polar_stress(const spam::DampedModel& model, std::span<const double> y, double rho);
+PolarStress polar_stress(const spam::Model<2>& model, std::span<const double> y, double rho);

@@ -2,39 +2,28 @@
 #include <spam/core/field_layout.hpp>
 
 #include <algorithm>
-#include <array>
 
 namespace spam {
-
-std::string_view field_name(Field field) {
-    constexpr std::array<std::string_view, 5> names{"position", "velocity", "density", "stress",
-                                                    "energy"};
-    return names[static_cast<std::size_t>(field)];
-}
-
-template <int Dim>
-std::size_t FieldLayout<Dim>::components(Field field) {
-    switch (field) {
-        case Field::position:
-        case Field::velocity:
-            return Dim;
-        case Field::stress:
-            return static_cast<std::size_t>(symmetric_size(Dim));
-        case Field::density:
-        case Field::energy:
-            break;
-    }
-    return 1;
-}
 
 template <int Dim>
 FieldLayout<Dim>::FieldLayout(std::size_t particles, const std::vector<Field>& fields)
     : particles_(particles) {
-    std::vector<Field> ordered = fields;
-    std::sort(ordered.begin(), ordered.end());
-    for (const Field field : ordered) {
-        blocks_.push_back({field, components(field), size_, 1.0});
-        size_ += components(field) * particles;
+    for (const Field field : fields) add(field);
+}
+
+template <int Dim>
+void FieldLayout<Dim>::add(Field field) {
+    const std::size_t components = field.components<Dim>();
+    if (has(field) || components == 0) return;
+    const std::size_t size = field.role() == Role::account ? components : components * particles_;
+    const auto behind = std::upper_bound(
+        blocks_.begin(), blocks_.end(), field.place(),
+        [](int place, const Block& block) { return place < block.field.place(); });
+    blocks_.insert(behind, {field, components, 0, size, 1.0});
+    size_ = 0;
+    for (Block& block : blocks_) {
+        block.offset = size_;
+        size_ += block.size;
     }
 }
 
@@ -58,6 +47,12 @@ typename FieldLayout<Dim>::Entry FieldLayout<Dim>::entry(std::size_t k) const {
         if (b.offset <= k) block = &b;
     const std::size_t local = k - block->offset;
     return {block->field, local / block->components, local % block->components};
+}
+
+template <int Dim>
+std::string FieldLayout<Dim>::entry_name(std::size_t k) const {
+    const Entry e = entry(k);
+    return std::string(e.field.name()) + e.field.suffix<Dim>(e.component);
 }
 
 template class FieldLayout<1>;

@@ -10,12 +10,34 @@ namespace {
 /// What rounding may leave of forces that cancel: a few units in the last place.
 constexpr double rounding = 1e-15;
 
-/// Largest change of a quantity stored as `name` or as `name`_x, _y, _z.
-double largest_vector_change(const History& history, const std::string& name) {
+/// Largest change of a column over the run, less the columns of what externals have given (where there
+/// are such).
+double largest_change(const History& history, const std::string& name,
+                      const std::vector<std::string>& given) {
+    if (std::none_of(given.begin(), given.end(),
+                     [&](const std::string& column) { return history.has(column); }))
+        return history.largest_change(name);
+    std::vector<double> balance = history.column(name);
+    for (const std::string& column : given) {
+        const std::vector<double> from_outside = history.column(column);
+        for (std::size_t k = 0; k < balance.size(); ++k) balance[k] -= from_outside[k];
+    }
+    double change = 0.0;
+    for (const double b : balance) {
+        const double here = std::abs(b - balance.front());
+        if (!(here <= change)) change = here;  // NaN stays: std::max would drop it
+        if (std::isnan(change)) break;
+    }
+    return change;
+}
+
+/// Of a quantity stored as `name` or as `name`_x, _y, _z, and of what is given to it.
+double largest_vector_change(const History& history, const std::string& name,
+                             const std::string& given) {
     double change = 0.0;
     for (const char* axis : {"", "_x", "_y", "_z"}) {
         if (!history.has(name + axis)) continue;
-        const double here = history.largest_change(name + axis);
+        const double here = largest_change(history, name + axis, {given + axis});
         if (!(here <= change)) change = here;  // NaN stays: std::max would drop it
         if (std::isnan(change)) break;
     }
@@ -66,13 +88,13 @@ std::vector<Drift> measure_drifts(const History& history, const Promises& promis
         drifts.push_back(drift_of(name, promise, change, size, exchanged, integrator_limit));
     };
     add("mass", promises.mass, history.largest_change("mass"), history.first("mass"), 0.0);
-    add("momentum", promises.momentum, largest_vector_change(history, "momentum"), scales.momentum,
-        scales.impulse);
+    add("momentum", promises.momentum, largest_vector_change(history, "momentum", "impulse"),
+        scales.momentum, scales.impulse);
     if (history.has("angular_momentum") || history.has("angular_momentum_z"))
         add("angular momentum", promises.angular_momentum,
-            largest_vector_change(history, "angular_momentum"), scales.angular_momentum,
-            scales.torque);
-    add("energy", promises.energy, history.largest_change("energy"),
+            largest_vector_change(history, "angular_momentum", "angular_impulse"),
+            scales.angular_momentum, scales.torque);
+    add("energy", promises.energy, largest_change(history, "energy", {"work", "heat"}),
         std::max(std::abs(history.first("energy")), history.largest("kinetic")), scales.work);
     return drifts;
 }

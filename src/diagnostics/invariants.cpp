@@ -48,6 +48,12 @@ Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const doub
     result.kinetic = kinetic;
     result.internal = model.internal_energy(y);
     result.energy = result.kinetic + result.internal;
+    if (state.has(Field::work)) {
+        result.work = state.field(Field::work)(0, 0);
+        result.heat = state.field(Field::heat)(0, 0);
+        result.impulse = state.field(Field::impulse);
+        if constexpr (Dim > 1) result.angular_impulse = state.field(Field::angular_impulse);
+    }
     return result;
 }
 

@@ -8,13 +8,9 @@
 namespace spam {
 Leapfrog::Leapfrog(const Ode& ode, Vector& y, double t0, double dt)
     : FixedSteps(ode, y, t0, dt),
+      at_(separable_blocks(ode, "leapfrog")),
       a_(y.clone()),
-      a_end_(y.clone()) {
-    const SeparableBlocks blocks = separable_blocks(ode, "leapfrog");
-    x_ = blocks.position;
-    v_ = blocks.velocity;
-    n_ = blocks.size;
-}
+      a_end_(y.clone()) {}
 
 void Leapfrog::begin() {
     if (!known_) rates(t_, y_, a_);
@@ -24,11 +20,18 @@ void Leapfrog::begin() {
 void Leapfrog::advance(double h) {
     const auto y = std::as_const(y_).span();
     const auto z = z_.span();
-    const auto v = z.subspan(v_, n_);
-    advance_block(y.subspan(v_, n_), 0.5 * h, a_.span().subspan(v_, n_), v);
-    advance_block(y.subspan(x_, n_), h, v, z.subspan(x_, n_));
+    const auto kick = [&](std::span<const double> from, std::span<const double> rate,
+                          std::size_t first, std::size_t size) {
+        advance_block(from.subspan(first, size), 0.5 * h, rate.subspan(first, size),
+                      z.subspan(first, size));
+    };
+    kick(y, a_.span(), at_.velocity, at_.size);
+    kick(y, a_.span(), at_.account, at_.accounts);
+    const auto v = z.subspan(at_.velocity, at_.size);
+    advance_block(y.subspan(at_.position, at_.size), h, v, z.subspan(at_.position, at_.size));
     rates(t_ + h, z_, a_end_);
-    advance_block(v, 0.5 * h, a_end_.span().subspan(v_, n_), v);
+    kick(z, a_end_.span(), at_.velocity, at_.size);
+    kick(z, a_end_.span(), at_.account, at_.accounts);
 }
 
 }  // namespace spam

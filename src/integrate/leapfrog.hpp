@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fixed_steps.hpp"
+#include "separable.hpp"
 
 namespace spam {
 
@@ -21,7 +22,7 @@ class Leapfrog final : public FixedSteps {
     void accept() override { std::swap(a_, a_end_); }
     void forget() override { known_ = false; }
 
-    std::size_t x_, v_, n_;  ///< where positions and velocities begin; how many numbers each
+    SeparableBlocks at_;
     Vector a_, a_end_;       ///< rates at y_ and z_, of which the accelerations count
     bool known_ = false;     ///< a_ is that of y_
 };

@@ -29,7 +29,7 @@ SeparableBlocks separable_blocks(const Ode& ode, const std::string& method) {
     }
     if (x == nullptr || v == nullptr || x->size != v->size)
         refuse("y does not hold one of each for every particle");
-    return {x->first, v->first, x->size};
+    return {x->first, v->first, x->size, v->first + v->size, ode.accounts};
 }
 
 void advance_block(std::span<const double> in, double c, std::span<const double> rate,

@@ -5,9 +5,10 @@
 
 namespace spam {
 
-/// Where positions and velocities lie in y = (x, v).
+/// Where positions and velocities lie in y = (x, v, accounts). Accounts take the kicks of velocities: what
+/// externals that depend on positions alone give to momentum and angular momentum is then kept exactly.
 struct SeparableBlocks {
-    std::size_t position, velocity, size;
+    std::size_t position, velocity, size, account, accounts;
 };
 
 /// Throws InputError where dx/dt = v and dv/dt = a(x) do not make up the ode; `method` for the message.

@@ -46,11 +46,8 @@ std::vector<IntegrationMethod> sprk_methods() {
 
 Sprk::Sprk(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0)
     : FixedSteps(ode, y, t0, options.dt.value_or(1.0)),
+      at_(separable_blocks(ode, options.method)),
       rates_(y.clone()) {
-    const SeparableBlocks blocks = separable_blocks(ode, options.method);
-    x_ = blocks.position;
-    v_ = blocks.velocity;
-    n_ = blocks.size;
 #ifdef SPAM_SPRK
     const SprkTable table = load(options.method.substr(options.method.find(':') + 1));
     if (!table) throw std::bad_alloc();  // the name is known
@@ -60,12 +57,16 @@ Sprk::Sprk(const IntegratorOptions& options, const Ode& ode, Vector& y, double t
 
 void Sprk::advance(double h) {
     N_VScale(1.0, y_.get(), z_.get());
-    const auto x = z_.span().subspan(x_, n_), v = z_.span().subspan(v_, n_);
+    const auto x = z_.span().subspan(at_.position, at_.size);
+    const auto v = z_.span().subspan(at_.velocity, at_.size);
+    const auto account = z_.span().subspan(at_.account, at_.accounts);
     double drifted = 0.0;
     for (const auto& [kick, drift] : stages_) {
         if (kick != 0.0) {
             rates(t_ + drifted * h, z_, rates_);
-            advance_block(v, kick * h, rates_.span().subspan(v_, n_), v);
+            advance_block(v, kick * h, rates_.span().subspan(at_.velocity, at_.size), v);
+            advance_block(account, kick * h, rates_.span().subspan(at_.account, at_.accounts),
+                          account);
         }
         if (drift != 0.0) advance_block(x, drift * h, v, x);
         drifted += drift;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fixed_steps.hpp"
+#include "separable.hpp"
 #include <spam/integrate/methods.hpp>
 
 namespace spam {
@@ -23,7 +24,7 @@ class Sprk final : public FixedSteps {
         double kick, drift;
     };
     std::vector<Stage> stages_;
-    std::size_t x_, v_, n_;  ///< where positions and velocities begin; how many numbers each
+    SeparableBlocks at_;
     Vector rates_;
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 namespace spam {
@@ -19,8 +20,12 @@ void write_case(CheckpointWriter& file, const std::string& path, const CaseMemor
     file.text(path + "/model", one.model);
     if (!one.has_state()) return;
     file.numbers(path + "/t", std::span(&one.t, 1), 1);
-    for (const auto& block : one.state)
+    std::string fields;  // in the order of y
+    for (const auto& block : one.state) {
         file.numbers(path + "/state/" + block.name, block.values.all(), block.columns);
+        fields += block.name + "\n";
+    }
+    file.text(path + "/fields", fields);
     for (const auto& block : one.particles)
         file.numbers(path + "/particles/" + block.name, block.values.all(), block.columns);
     file.integers(path + "/particles/id", one.id.all());
@@ -40,14 +45,15 @@ CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     one.body.assign(body.begin(), body.end());
     const auto read = [&](const std::string& group, const std::string& name,
                           std::vector<CaseMemory::Values>& into) {
-        if (!file.has(path + group + name)) return;
         auto values = file.numbers(path + group + name);
-        const std::size_t columns = values.size() / std::max<std::size_t>(1, one.id.kept.size());
+        // Of an account, which has one row, all numbers.
+        const std::size_t rows = one.id.kept.size();
+        const bool by_particle = rows > 0 && values.size() % rows == 0;
+        const std::size_t columns = by_particle ? values.size() / rows : values.size();
         into.push_back({name, columns, {{}, std::move(values)}});
     };
-    for (const Field field :
-         {Field::position, Field::velocity, Field::density, Field::stress, Field::energy})
-        read("/state/", std::string(field_name(field)), one.state);
+    std::istringstream fields(file.text(path + "/fields"));
+    for (std::string name; std::getline(fields, name);) read("/state/", name, one.state);
     for (const char* name : {"mass", "reference_position"})
         read("/particles/", name, one.particles);
     one.motion = file.bytes(path + "/motion");
@@ -96,8 +102,8 @@ CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, doubl
     one.t = t;
     one.model = model.describe();
     for (const auto& block : model.layout().blocks()) {
-        const auto values = y.subspan(block.offset, block.components * one.body.size());
-        one.state.push_back({std::string(field_name(block.field)), block.components, {values}});
+        const auto values = y.subspan(block.offset, block.size);
+        one.state.push_back({std::string(block.field.name()), block.components, {values}});
         one.state.back().values.keep();
     }
     return one;
@@ -119,8 +125,7 @@ std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model) 
         refuse("masses or reference positions");
     const auto& blocks = model.layout().blocks();
     const auto alike = [&](const auto& a, const auto& b) {
-        return a.name == field_name(b.field) &&
-               a.values.all().size() == b.components * expected.body.size();
+        return a.name == b.field.name() && a.values.all().size() == b.size;
     };
     if (!std::equal(memory.state.begin(), memory.state.end(), blocks.begin(), blocks.end(), alike))
         refuse("fields");

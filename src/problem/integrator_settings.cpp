@@ -10,10 +10,9 @@
 namespace spam {
 namespace {
 
-constexpr Field fields[] = {Field::position, Field::velocity, Field::density, Field::stress,
-                            Field::energy};
+constexpr auto fields = integrated_fields;
 
-std::string tolerance_of(Field field) { return fmt::format("atol-{}", field_name(field)); }
+std::string tolerance_of(Field field) { return fmt::format("atol-{}", field.name()); }
 
 /// Options that choose adaptive steps and have values; a flag counts where it is set.
 const std::vector<std::string>& adaptive_names() {
@@ -54,11 +53,11 @@ void IntegratorSettings::add_to(Options& options) {
         "atol", atol_,
         "absolute tolerance of adaptive steps, in units of each field's scale (default 1e-10)",
         positive());
-    for (const Field field : fields)
+    for (std::size_t k = 0; k < fields.size(); ++k)
         options.number(
-            tolerance_of(field), field_atol_[static_cast<std::size_t>(field)],
+            tolerance_of(fields[k]), field_atol_[k],
             fmt::format("absolute tolerance of the {}, instead of --atol times its scale",
-                        field_name(field)),
+                        fields[k].name()),
             positive());
     options.text("controller", controller_,
                  fmt::format("step-size controller of ARKODE: {} (default pid)",
@@ -105,9 +104,9 @@ void IntegratorSettings::fill(IntegratorOptions& integrator) {
     integrator.dt = dt_;
     if (rtol_) integrator.rtol = *rtol_;
     if (atol_) integrator.atol = *atol_;
-    for (const Field field : fields)
-        if (const auto& atol = field_atol_[static_cast<std::size_t>(field)])
-            integrator.field_atol.push_back({std::string(field_name(field)), *atol});
+    for (std::size_t k = 0; k < fields.size(); ++k)
+        if (const auto& atol = field_atol_[k])
+            integrator.field_atol.push_back({std::string(fields[k].name()), *atol});
     integrator.controller = controller_;
     integrator.safety = safety_;
     if (min_step_) integrator.min_step = *min_step_;

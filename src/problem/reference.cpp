@@ -40,7 +40,7 @@ FieldErrors compare(const Start<Dim>& start, std::span<const double> y,
     for (std::size_t f = 0; f < fields.size(); ++f) {
         const auto* block = layout.find(fields[f]);
         if (block == nullptr) continue;
-        const std::size_t size = block->components * layout.particles();
+        const std::size_t size = block->size;
         const auto of = [&](std::span<const double> z) { return z.subspan(block->offset, size); };
         double scale = start.model->particles().spacing;
         if (fields[f] != Field::position)

@@ -12,8 +12,7 @@
 
 namespace spam::work_precision {
 
-inline constexpr std::array fields{Field::position, Field::velocity, Field::density, Field::stress,
-                                   Field::energy};
+inline constexpr auto fields = integrated_fields;
 
 /// Root mean square and largest of every field of a difference, over the fields' scales; NaN for a
 /// field that y does not carry.

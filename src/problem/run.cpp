@@ -12,20 +12,6 @@
 namespace spam {
 namespace {
 
-/// "_x", "_xy": which component of a field, nothing for scalars.
-template <int Dim>
-std::string component_name(Field field, std::size_t component) {
-    const std::size_t components = FieldLayout<Dim>::components(field);
-    if (components == 1 && Dim > 1) return {};
-    const std::string axes = "xyz";
-    if (field != Field::stress) return {'_', axes[component]};
-    for (int a = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b)
-            if (static_cast<std::size_t>(symmetric_index(Dim, a, b)) == component)
-                return {'_', axes[static_cast<std::size_t>(a)], axes[static_cast<std::size_t>(b)]};
-    return {};
-}
-
 template <int Dim>
 void add_energy(Ode& ode, Model<Dim>& model, std::size_t& pair_interactions) {
     ode.no_energy = why_no_energy(model);
@@ -50,23 +36,28 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
     ode.failure = [&model] { return model.failure(); };
     ode.entry_name = [&model](std::size_t k) {
         const auto entry = model.layout().entry(k);
-        return fmt::format("{}{} of particle {}", field_name(entry.field),
-                           component_name<Dim>(entry.field, entry.component),
-                           model.particles().id[entry.particle]);
+        std::string name = model.layout().entry_name(k);
+        if (entry.field.role() == Role::account) return name;
+        return fmt::format("{} of particle {}", name, model.particles().id[entry.particle]);
     };
-    if (auto event = model.event()) ode.events.push_back(std::move(*event));
+    ode.events = model.events();
     ode.inseparable = model.inseparable();
     add_energy(ode, model, pair_interactions);
     for (const auto& block : model.layout().blocks())
-        ode.blocks.push_back({std::string(field_name(block.field)), block.offset,
-                              block.components * model.layout().particles()});
+        if (block.field.role() == Role::account)
+            ode.accounts += block.size;
+        else
+            ode.blocks.push_back({std::string(block.field.name()), block.offset, block.size});
     // With fixed steps GSL alone wants them, and they are as long as y.
     if (!options.adaptive() && options.method.find("gsl:") != 0) return ode;
     ode.absolute_tolerance.resize(model.layout().size());
+    // Accounts and what only changes between steps have no say in how long steps are.
     for (const auto& block : model.layout().blocks())
         std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
-                    block.components * model.layout().particles(),
-                    options.absolute_tolerance(field_name(block.field), block.scale));
+                    block.size,
+                    block.field.role() == Role::integrated
+                        ? options.absolute_tolerance(block.field.name(), block.scale)
+                        : std::numeric_limits<double>::infinity());
     return ode;
 }
 

@@ -152,9 +152,10 @@ void Session::describe(const Case<Dim>& one) {
     if (integrator_.adaptive()) {
         std::string tolerances;
         for (const auto& block : one.model.layout().blocks())
-            tolerances +=
-                fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", field_name(block.field),
-                            integrator_.absolute_tolerance(field_name(block.field), block.scale));
+            if (block.field.role() == Role::integrated)
+                tolerances += fmt::format(
+                    "{}{} {:.1e}", tolerances.empty() ? "" : ", ", block.field.name(),
+                    integrator_.absolute_tolerance(block.field.name(), block.scale));
         terminal_.say(fmt::format("atol        {}", tolerances));
     }
 }

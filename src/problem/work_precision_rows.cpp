@@ -39,7 +39,7 @@ const std::vector<std::string>& columns() {
             "events", "error",     "floor"};
         for (const Field field : fields)
             for (const char* norm : {"_rms", "_max"})
-                all.push_back(std::string(field_name(field)) + norm);
+                all.push_back(std::string(field.name()) + norm);
         for (const char* name :
              {"momentum_drift", "angular_momentum_drift", "energy_drift", "end", "seconds"})
             all.emplace_back(name);

@@ -13,7 +13,7 @@ namespace spam {
 template <int Dim>
 BondedModel<Dim>::BondedModel(Particles<Dim> particles, const HarmonicSpring& spring,
                               const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       spring_(spring),
       bond_reach_(1.2 * this->particles().spacing) {
     const PairList<Dim> list(this->particles().reference_position, bond_reach_, box);
@@ -41,7 +41,7 @@ Point<Dim> BondedModel<Dim>::bond(const View& x, std::size_t i, std::size_t j) c
 }
 
 template <int Dim>
-void BondedModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void BondedModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     const ConstState<Dim> state(this->layout(), y);
     const State<Dim> rate(this->layout(), y_dot);
@@ -60,7 +60,7 @@ void BondedModel<Dim>::rates(double, std::span<const double> y, std::span<double
 }
 
 template <int Dim>
-double BondedModel<Dim>::internal_energy(std::span<const double> y) const {
+double BondedModel<Dim>::pair_energy(std::span<const double> y) const {
     const auto x = ConstState<Dim>(this->layout(), y).position();
     CompensatedSum sum;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
@@ -95,14 +95,14 @@ std::vector<SymTensor<Dim>> BondedModel<Dim>::stress(std::span<const double> y,
 }
 
 template <int Dim>
-Promises BondedModel<Dim>::promises() const {
+Promises BondedModel<Dim>::pair_promises() const {
     Promises p;
     p.angular_momentum = Promise::integrator_error;
     return this->in_box(p);
 }
 
 template <int Dim>
-std::string BondedModel<Dim>::describe() const {
+std::string BondedModel<Dim>::pair_description() const {
     return fmt::format(
         "molecular dynamics, {} harmonic springs kappa = {:g}, rest length {:g}, between initial "
         "neighbours",

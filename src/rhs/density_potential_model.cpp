@@ -198,7 +198,7 @@ template <int Dim>
 DensityPotentialModel<Dim>::DensityPotentialModel(Particles<Dim> particles,
                                                   const DensityPotentials& potentials,
                                                   const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       potentials_(validated(potentials, this->particles())),
       parts_(std::make_unique<Parts>(potentials_)) {
     parts_->packed = packed_with(ListUse::again_and_again);
@@ -217,7 +217,7 @@ std::unique_ptr<PackedParticles<Dim>> DensityPotentialModel<Dim>::packed_with(Li
 
 /// The order that the equations force: rho, g and D; their slopes; forces.
 template <int Dim>
-void DensityPotentialModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void DensityPotentialModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     PackedParticles<Dim>& packed = *parts_->packed;
     if (!packed.follow(this->particles().size(), fields(*this, y))) {
@@ -262,7 +262,7 @@ void DensityPotentialModel<Dim>::remember(Archive& archive) {
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as
 /// it is.
 template <int Dim>
-std::vector<double> DensityPotentialModel<Dim>::density(std::span<const double> y) const {
+std::vector<double> DensityPotentialModel<Dim>::pair_density(std::span<const double> y) const {
     const auto own = packed_with(ListUse::once);
     std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
     if (!own->follow(rho.size(), fields(*this, y))) return rho;
@@ -273,7 +273,7 @@ std::vector<double> DensityPotentialModel<Dim>::density(std::span<const double> 
 }
 
 template <int Dim>
-double DensityPotentialModel<Dim>::internal_energy(std::span<const double> y) const {
+double DensityPotentialModel<Dim>::pair_energy(std::span<const double> y) const {
     const auto own = packed_with(ListUse::once);
     const std::size_t n = this->particles().size();
     if (!own->follow(n, fields(*this, y))) return std::numeric_limits<double>::quiet_NaN();
@@ -295,9 +295,9 @@ double DensityPotentialModel<Dim>::internal_energy(std::span<const double> y) co
 
 template <int Dim>
 double DensityPotentialModel<Dim>::neighbour_forces(std::span<const double> y) const {
-    double sum = std::abs(internal_energy(y));
+    double sum = std::abs(pair_energy(y));
     if (potentials_.state) {
-        const auto rho = density(y);
+        const auto rho = pair_density(y);
         std::vector<double> P(rho.size());
         potentials_.state->pressures(rho, rho, P);
         for (std::size_t i = 0; i < P.size(); ++i)
@@ -307,14 +307,14 @@ double DensityPotentialModel<Dim>::neighbour_forces(std::span<const double> y) c
 }
 
 template <int Dim>
-Promises DensityPotentialModel<Dim>::promises() const {
+Promises DensityPotentialModel<Dim>::pair_promises() const {
     Promises p;
     p.angular_momentum = Promise::integrator_error;
     return this->in_box(p);
 }
 
 template <int Dim>
-std::string DensityPotentialModel<Dim>::describe() const {
+std::string DensityPotentialModel<Dim>::pair_description() const {
     return fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
 }
 

@@ -52,9 +52,10 @@ void check(const Fluid& fluid, const FluidScheme& scheme, int dim) {
 }
 
 template <int Dim>
-FluidSweeps<Dim> best_sweeps(const Fluid& fluid) {
+FluidSweeps<Dim> best_sweeps(const Fluid& fluid, const FluidScheme& scheme) {
     return at_level(instruction_set(), [&](auto level) {
-        FluidSweeps<Dim> sweeps = fluid_sweeps<Dim, level>(has_gradients(fluid));
+        FluidSweeps<Dim> sweeps =
+            fluid_sweeps<Dim, level>(has_gradients(fluid), scheme.kernel, scheme.mean_density);
         sweeps.pack = pack_for<Dim, level>();
         return sweeps;
     });
@@ -74,11 +75,11 @@ FluidModel<Dim>::~FluidModel() = default;
 template <int Dim>
 FluidModel<Dim>::FluidModel(Particles<Dim> particles, const Fluid& fluid, const FluidScheme& scheme,
                             const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, fields_of(scheme)),
+    : ParticleModel<Dim>(std::move(particles), box, fields_of(scheme)),
       fluid_(fluid),
       scheme_(scheme),
       weight_(scheme.kernel, scheme.range),
-      sweeps_(std::make_unique<const FluidSweeps<Dim>>(best_sweeps<Dim>(fluid))),
+      sweeps_(std::make_unique<const FluidSweeps<Dim>>(best_sweeps<Dim>(fluid, scheme))),
       density_(this->particles().size()),
       pressure_(density_.size()),
       temperature_(density_.size()) {
@@ -126,7 +127,7 @@ PackedFields FluidModel<Dim>::fields(std::span<const double> y) const {
 /// pairs - density if summed - pressure and temperature - gradients, stress and heat flux if there are
 /// any - forces.
 template <int Dim>
-void FluidModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void FluidModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     const ConstState<Dim> state(this->layout(), y);
     const State<Dim> rate(this->layout(), y_dot);
@@ -143,8 +144,13 @@ void FluidModel<Dim>::rates(double, std::span<const double> y, std::span<double>
         sweeps_->density(in, out);
     }
     const std::span<const double> e{state.energy().data(), density_.size()};
-    fluid_.state.pressures(density_, e, pressure_);
-    if (fluid_.state.thermal) fluid_.state.temperatures(density_, e, temperature_);
+    parallel_blocks(e.size(), [&](std::size_t first, std::size_t count) {
+        const std::span<const double> rho{density_.data() + first, count};
+        const auto of_block = e.subspan(first, count);
+        fluid_.state.pressures(rho, of_block, {pressure_.data() + first, count});
+        if (fluid_.state.thermal)
+            fluid_.state.temperatures(rho, of_block, {temperature_.data() + first, count});
+    });
     if (!meaningful(e, y_dot)) return;
     fill_records();
     if (sweeps_->gradient != nullptr) {
@@ -237,14 +243,14 @@ std::vector<double> FluidModel<Dim>::summed_density(const Points<Dim>& x) const 
 
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
-std::vector<double> FluidModel<Dim>::density(std::span<const double> y) const {
+std::vector<double> FluidModel<Dim>::pair_density(std::span<const double> y) const {
     if (scheme_.density == Density::continuity) return Model<Dim>::density(y);
     return summed_density(ConstState<Dim>(this->layout(), y).position());
 }
 
 template <int Dim>
 std::vector<double> FluidModel<Dim>::pressure(std::span<const double> y) const {
-    const auto rho = density(y);
+    const auto rho = pair_density(y);
     std::vector<double> P(rho.size());
     fluid_.state.pressures(rho, {ConstState<Dim>(this->layout(), y).energy().data(), P.size()}, P);
     return P;
@@ -252,7 +258,7 @@ std::vector<double> FluidModel<Dim>::pressure(std::span<const double> y) const {
 
 template <int Dim>
 std::vector<double> FluidModel<Dim>::temperature(std::span<const double> y) const {
-    const auto rho = density(y);
+    const auto rho = pair_density(y);
     std::vector<double> T(rho.size());
     fluid_.state.temperatures(rho, {ConstState<Dim>(this->layout(), y).energy().data(), T.size()},
                               T);
@@ -266,13 +272,13 @@ std::vector<double> FluidModel<Dim>::state(const Points<Dim>& position, const Po
 }
 
 template <int Dim>
-double FluidModel<Dim>::internal_energy(std::span<const double> y) const {
+double FluidModel<Dim>::pair_energy(std::span<const double> y) const {
     return carried_energy(*this, y);
 }
 
 template <int Dim>
 double FluidModel<Dim>::neighbour_forces(std::span<const double> y) const {
-    const auto rho = density(y);
+    const auto rho = pair_density(y);
     std::vector<double> P(rho.size());
     fluid_.state.pressures(rho, {ConstState<Dim>(this->layout(), y).energy().data(), P.size()}, P);
     double sum = 0.0;
@@ -283,7 +289,7 @@ double FluidModel<Dim>::neighbour_forces(std::span<const double> y) const {
 
 /// Pressures act along r_ij; viscous stresses do not.
 template <int Dim>
-Promises FluidModel<Dim>::promises() const {
+Promises FluidModel<Dim>::pair_promises() const {
     Promises promises;
     if (Dim == 1 || !fluid_.viscosity) promises.angular_momentum = Promise::integrator_error;
     return this->in_box(promises);
@@ -305,7 +311,7 @@ std::size_t FluidModel<Dim>::list_builds() const {
 }
 
 template <int Dim>
-std::string FluidModel<Dim>::describe() const {
+std::string FluidModel<Dim>::pair_description() const {
     return fmt::format("fluid of smooth particles, {}: {}", fluid_.describe(),
                        scheme_.describe(has_gradients(fluid_)));
 }

@@ -57,8 +57,9 @@ void Model<Dim>::remember(Archive& archive) {
 template <int Dim>
 std::string Model<Dim>::inseparable() const {
     for (const auto& block : layout_.blocks())
-        if (block.field != Field::position && block.field != Field::velocity)
-            return fmt::format("{} in y changes with the velocity", field_name(block.field));
+        if (block.field.role() == Role::integrated && block.field != Field::position &&
+            block.field != Field::velocity)
+            return fmt::format("{} in y changes with the velocity", block.field.name());
     return {};
 }
 

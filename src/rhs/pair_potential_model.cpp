@@ -28,7 +28,7 @@ PackedFields fields(const Model<Dim>& model, std::span<const double> y) {
 template <int Dim>
 PairPotentialModel<Dim>::PairPotentialModel(Particles<Dim> particles, double range,
                                             const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       range_(valid_range<Dim>(range, this->particles().spacing, this->particles().size())),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>())),
       packed_(packed_with(ListUse::again_and_again)) {}
@@ -44,7 +44,7 @@ std::unique_ptr<PackedParticles<Dim>> PairPotentialModel<Dim>::packed_with(ListU
 }
 
 template <int Dim>
-void PairPotentialModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void PairPotentialModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     if (!packed_->follow(this->particles().size(), fields(*this, y))) {
         this->fail(y_dot, "a position is not finite");
@@ -65,14 +65,14 @@ void PairPotentialModel<Dim>::remember(Archive& archive) {
 
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
-std::vector<double> PairPotentialModel<Dim>::density(std::span<const double> y) const {
+std::vector<double> PairPotentialModel<Dim>::pair_density(std::span<const double> y) const {
     return packed_with(ListUse::once)
         ->summed_density(sweeps_->density, this->particles().size(), fields(*this, y));
 }
 
 template <int Dim>
-double PairPotentialModel<Dim>::internal_energy(std::span<const double> y) const {
-    const std::vector<double> rho = density(y);
+double PairPotentialModel<Dim>::pair_energy(std::span<const double> y) const {
+    const std::vector<double> rho = pair_density(y);
     const double w_0 = Lucy<Dim>(range_).value(0.0);
     CompensatedSum sum;
     for (std::size_t i = 0; i < rho.size(); ++i) {
@@ -83,14 +83,14 @@ double PairPotentialModel<Dim>::internal_energy(std::span<const double> y) const
 }
 
 template <int Dim>
-Promises PairPotentialModel<Dim>::promises() const {
+Promises PairPotentialModel<Dim>::pair_promises() const {
     Promises p;
     p.angular_momentum = Promise::integrator_error;
     return this->in_box(p);
 }
 
 template <int Dim>
-std::string PairPotentialModel<Dim>::describe() const {
+std::string PairPotentialModel<Dim>::pair_description() const {
     return fmt::format("molecular dynamics, Lucy's weight function of range {:g} as pair potential",
                        range_);
 }

@@ -66,7 +66,7 @@ template <int Dim>
 SmoothParticleModel<Dim>::SmoothParticleModel(Particles<Dim> particles,
                                               const Material<Dim>& material, const Scheme& scheme,
                                               const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, fields_of(validated(scheme, Dim))),
+    : ParticleModel<Dim>(std::move(particles), box, fields_of(validated(scheme, Dim))),
       material_(material),
       scheme_(scheme),
       sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps<Dim>(scheme))),
@@ -152,7 +152,7 @@ ViscosityConstants SmoothParticleModel<Dim>::viscosity() {
 /// The order that the physics forces: pairs - density if summed - A - everything that needs one
 /// sweep - constitutive law - torque balance per body - what needs u or the balance.
 template <int Dim>
-void SmoothParticleModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void SmoothParticleModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     if (!load(y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
@@ -272,25 +272,25 @@ void SmoothParticleModel<Dim>::remember(Archive& archive) {
 }
 
 template <int Dim>
-double SmoothParticleModel<Dim>::internal_energy(std::span<const double> y) const {
+double SmoothParticleModel<Dim>::pair_energy(std::span<const double> y) const {
     return carried_energy(*this, y);
 }
 
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
-std::vector<double> SmoothParticleModel<Dim>::density(std::span<const double> y) const {
+std::vector<double> SmoothParticleModel<Dim>::pair_density(std::span<const double> y) const {
     if (sweeps_->density == nullptr) return Model<Dim>::density(y);
     return packed_with(ListUse::once)
         ->summed_density(sweeps_->density, this->particles().size(), fields(y));
 }
 
 template <int Dim>
-std::optional<Event> SmoothParticleModel<Dim>::event() const {
-    if (scheme_.closest_approach == 0.0) return std::nullopt;
-    return closest_approach_event<Dim>(
+std::vector<Event> SmoothParticleModel<Dim>::pair_events() const {
+    if (scheme_.closest_approach == 0.0) return {};
+    return {closest_approach_event<Dim>(
         {this->particles().mass, this->box(), scheme_.closest_approach,
          scheme_.transport == Transport::plain},
-        this->layout());
+        this->layout())};
 }
 
 template <int Dim>
@@ -303,7 +303,7 @@ std::size_t SmoothParticleModel<Dim>::list_builds() const {
 }
 
 template <int Dim>
-std::string SmoothParticleModel<Dim>::describe() const {
+std::string SmoothParticleModel<Dim>::pair_description() const {
     return fmt::format("smooth particles, {}: {}", material_.describe(), scheme_.describe());
 }
 

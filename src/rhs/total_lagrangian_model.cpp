@@ -101,7 +101,7 @@ TotalLagrangianModel<Dim>::TotalLagrangianModel(Particles<Dim> particles,
                                                 const HyperelasticMaterial<Dim>& material,
                                                 const TotalLagrangianScheme& scheme,
                                                 const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       material_(material),
       scheme_(validated(scheme, this->particles(), material.stiffness())),
       sweeps_(std::make_unique<const LagrangianSweeps<Dim>>(best_sweeps<Dim>())),
@@ -178,7 +178,7 @@ void TotalLagrangianModel<Dim>::load(std::span<const double> y,
 
 /// The order that the equations force: A, F, P - penalty and M, B - force.
 template <int Dim>
-void TotalLagrangianModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void TotalLagrangianModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     const State<Dim> rate(this->layout(), y_dot);
     load(y, records_);
@@ -239,7 +239,7 @@ std::vector<Mat<Dim>> TotalLagrangianModel<Dim>::deformation_gradients(
 }
 
 template <int Dim>
-std::vector<double> TotalLagrangianModel<Dim>::density(std::span<const double> y) const {
+std::vector<double> TotalLagrangianModel<Dim>::pair_density(std::span<const double> y) const {
     std::vector<double> rho;
     for (const Mat<Dim>& F : deformation_gradients(y))
         rho.push_back(scheme_.density / Eigen::Map<const Tensor<Dim>>(F.c.data()).determinant());
@@ -247,7 +247,7 @@ std::vector<double> TotalLagrangianModel<Dim>::density(std::span<const double> y
 }
 
 template <int Dim>
-double TotalLagrangianModel<Dim>::internal_energy(std::span<const double> y) const {
+double TotalLagrangianModel<Dim>::pair_energy(std::span<const double> y) const {
     std::vector<double> records = deformed(y);
     std::vector<double> penalty(list_.size(), 0.0);
     if (scheme_.penalty > 0.0) {
@@ -266,14 +266,14 @@ double TotalLagrangianModel<Dim>::internal_energy(std::span<const double> y) con
 }
 
 template <int Dim>
-Promises TotalLagrangianModel<Dim>::promises() const {
+Promises TotalLagrangianModel<Dim>::pair_promises() const {
     Promises p;
     p.angular_momentum = Promise::integrator_error;
     return this->in_box(p);
 }
 
 template <int Dim>
-std::string TotalLagrangianModel<Dim>::describe() const {
+std::string TotalLagrangianModel<Dim>::pair_description() const {
     return fmt::format(
         "total Lagrangian, {}, density {:.6g}, lucy weight of range {} between reference "
         "positions, penalty kappa = {}",

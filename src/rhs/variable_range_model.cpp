@@ -80,7 +80,7 @@ VariableRangeModel<Dim>::~VariableRangeModel() = default;
 template <int Dim>
 VariableRangeModel<Dim>::VariableRangeModel(Particles<Dim> particles, const Fluid& fluid,
                                             const VariableRangeScheme& scheme, const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box,
+    : ParticleModel<Dim>(std::move(particles), box,
                  {Field::position, Field::velocity, Field::density, Field::energy}),
       fluid_(fluid),
       scheme_(scheme),
@@ -164,7 +164,7 @@ void VariableRangeModel<Dim>::fill(const Fill& fill) {
 }
 
 template <int Dim>
-void VariableRangeModel<Dim>::rates(double, std::span<const double> y, std::span<double> y_dot) {
+void VariableRangeModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
     if (!find_ranges(y, y_dot)) return;
     make_room();
@@ -264,12 +264,12 @@ std::vector<double> VariableRangeModel<Dim>::ranges(std::span<const double> y) c
 }
 
 template <int Dim>
-double VariableRangeModel<Dim>::internal_energy(std::span<const double> y) const {
+double VariableRangeModel<Dim>::pair_energy(std::span<const double> y) const {
     return carried_energy(*this, y);
 }
 
 template <int Dim>
-Promises VariableRangeModel<Dim>::promises() const {
+Promises VariableRangeModel<Dim>::pair_promises() const {
     Promises promises;
     promises.angular_momentum = Promise::integrator_error;
     return this->in_box(promises);
@@ -287,7 +287,7 @@ std::size_t VariableRangeModel<Dim>::pairs() const {
 }
 
 template <int Dim>
-std::string VariableRangeModel<Dim>::describe() const {
+std::string VariableRangeModel<Dim>::pair_description() const {
     return fmt::format("fluid of smooth particles, {}: density integrated, {}", fluid_.describe(),
                        scheme_.describe());
 }

@@ -27,8 +27,7 @@ class Stepping {
         ode_.entry_name = [](std::size_t) { return std::string{}; };
         ode_.absolute_tolerance.assign(system.y.size(), 1e-10);
         for (const auto& block : system.model.layout().blocks())
-            ode_.blocks.push_back({std::string(field_name(block.field)), block.offset,
-                                   block.components * system.model.layout().particles()});
+            ode_.blocks.push_back({std::string(block.field.name()), block.offset, block.size});
         integrator_ = make_integrator(options, ode_, y_, 0.0, context_);
     }
     void step() { integrator_->step(1e9); }

@@ -45,9 +45,9 @@ Outcome run(const Scheme& scheme, const IntegratorOptions& options, double t_end
     ode.entry_name = [](std::size_t k) { return std::to_string(k); };
     for (const auto& block : model.layout().blocks())
         ode.absolute_tolerance.insert(ode.absolute_tolerance.end(),
-                                      block.components * model.layout().particles(),
+                                      block.size,
                                       options.atol * block.scale);
-    Event event = model.event().value();
+    Event event = model.events().front();
     event.apply = [&, apply = event.apply](double t, std::span<double> z) {
         const auto before = measure_invariants<2>(model, z);
         const std::size_t n = apply(t, z);

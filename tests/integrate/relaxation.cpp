@@ -4,7 +4,7 @@
 #include "support/refusal.hpp"
 #include "support/small_hexagons.hpp"
 #include <spam/integrate/driver.hpp>
-#include <spam/rhs/damped_model.hpp>
+#include <spam/external/friction.hpp>
 #include <spam/rhs/pair_potential_model.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -84,7 +84,8 @@ double slope_error(const System& system) {
 }
 
 std::unique_ptr<System> damped(std::unique_ptr<System> system) {
-    return shaken(std::make_unique<DampedModel>(std::move(system->model), 0.1), 0.3);
+    dynamic_cast<ParticleModel<2>&>(*system->model).add(std::make_unique<Friction<2>>(0.1));
+    return shaken(std::move(system->model), 0.3);
 }
 
 struct Kept {

@@ -39,7 +39,7 @@ spam_test(problem/judged problem nlohmann_json::nlohmann_json)
 spam_test(problem/drift_guard unit)
 spam_test(problem/walls property)  # parts of the problem relaxation
 target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxation/region.cpp
-                                          ${PROJECT_SOURCE_DIR}/problems/relaxation/walled_model.cpp
+                                          ${PROJECT_SOURCE_DIR}/problems/relaxation/wall.cpp
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/quality.cpp)
 target_include_directories(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 

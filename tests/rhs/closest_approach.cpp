@@ -8,7 +8,7 @@
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/physics/closest_approach.hpp>
-#include <spam/rhs/damped_model.hpp>
+#include <spam/external/friction.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -62,7 +62,7 @@ struct Collisions {
         ode.failure = [&] { return model.failure(); };
         ode.entry_name = [](std::size_t k) { return std::to_string(k); };
         ode.absolute_tolerance.assign(y0.size(), options.atol);
-        if (auto event = model.event()) ode.events.push_back(observed(std::move(*event)));
+        for (Event& event : model.events()) ode.events.push_back(observed(std::move(event)));
         integrator = make_integrator(options, ode, y, 0.0, context);
     }
 
@@ -241,6 +241,12 @@ struct Gas {
             mass.push_back(1.0 + 0.3 * std::tanh(g(random)));
         model = std::make_unique<SmoothParticleModel<2>>(free_particles(x, mass),
                                                          ElasticSolid{0.0, 0.0}, scheme, box);
+        this->v = v;
+        y0 = start(*model, v);
+    }
+    Points<2> v;
+    void add(std::unique_ptr<External<2>> external) {
+        model->add(std::move(external));
         y0 = start(*model, v);
     }
 };
@@ -271,8 +277,8 @@ BOOST_AUTO_TEST_CASE(a_gas_is_reflected_under_friction_too) {
     for (const auto& options : methods) {
         BOOST_TEST_CONTEXT(options.describe()) {
             Gas gas;
-            DampedModel damped(std::move(gas.model), 0.05, Friction::all_motion);
-            Collisions run(damped, gas.y0, options);
+            gas.add(std::make_unique<Friction<2>>(0.05, FrictionOf::all_motion));
+            Collisions run(*gas.model, gas.y0, options);
             run.run(5.0);
             BOOST_TEST(run.times.size() > 100U);
             BOOST_TEST(run.times.size() == run.integrator->statistics().events);
@@ -282,8 +288,9 @@ BOOST_AUTO_TEST_CASE(a_gas_is_reflected_under_friction_too) {
         }
     }
     Gas gas;
-    DampedModel damped(std::move(gas.model), 0.05);
-    BOOST_CHECK_THROW(Collisions(damped, gas.y0, with("cvode:adams", std::nullopt)), InputError);
+    gas.add(std::make_unique<Friction<2>>(0.05));
+    BOOST_CHECK_THROW(Collisions(*gas.model, gas.y0, with("cvode:adams", std::nullopt)),
+                      InputError);
 }
 
 BOOST_AUTO_TEST_CASE(integrators_agree_on_the_events_of_a_gas) {

@@ -31,9 +31,11 @@ struct System {
             return energy_gradient(*model, t, y, gradient);
         };
         for (const auto& block : model->layout().blocks()) {
-            const std::size_t size = block.components * model->layout().particles();
-            ode.blocks.push_back({std::string(field_name(block.field)), block.offset, size});
-            ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), size, atol);
+            if (block.field.role() == Role::account)
+                ode.accounts += block.size;
+            else
+                ode.blocks.push_back({std::string(block.field.name()), block.offset, block.size});
+            ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), block.size, atol);
         }
     }
     System(const System&) = delete;  // ode refers to it

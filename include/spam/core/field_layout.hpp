@@ -1,36 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/tensor.hpp>
+#include <spam/core/field.hpp>
 
 #include <cstddef>
-#include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace spam {
 
-/// Fields a particle may carry in the state vector y, in the order of their blocks.
-enum class Field { position, velocity, density, stress, energy };
-
-std::string_view field_name(Field field);
-
 /// Where each field lies in y. y holds one block per field, each block `components x particles`,
-/// column-major (the components of one particle are adjacent):
-///     y = [ x_0 y_0 x_1 y_1 ... | vx_0 vy_0 ... | rho_0 rho_1 ... | sxx_0 syy_0 sxy_0 ... | e_0
-///     ... ]
-/// Which blocks exist follows from scheme and material (the model decides).
+/// column-major (the components of one particle are adjacent), accounts of the whole system last:
+///     y = [ x_0 y_0 x_1 y_1 ... | vx_0 vy_0 ... | rho_0 ... | sxx_0 syy_0 sxy_0 ... | e_0 ... | work ]
+/// Which blocks exist follows from scheme, material and externals (the model decides).
 template <int Dim>
 class FieldLayout {
   public:
     struct Block {
         Field field;
-        std::size_t components;  ///< per particle
+        std::size_t components;  ///< per particle, or of the account
         std::size_t offset;      ///< first entry of the block in y
+        std::size_t size;        ///< entries
         double scale;            ///< typical magnitude; the absolute tolerance is atol * scale
     };
 
     FieldLayout(std::size_t particles, const std::vector<Field>& fields);
+
+    /// One more field, at its place; nothing where y holds it already. Blocks behind it move: no y may
+    /// have been made yet.
+    void add(Field field);
 
     std::size_t particles() const { return particles_; }
     std::size_t size() const { return size_; }  ///< entries of y
@@ -41,15 +39,15 @@ class FieldLayout {
     /// Typical magnitude of a field, in the units of the run. Precondition: the field is present.
     void set_scale(Field field, double scale);
 
-    /// Entry k of y in words, "velocity_y of particle 17", for guards and error messages.
+    /// Which number entry k of y is.
     struct Entry {
         Field field;
-        std::size_t particle;
+        std::size_t particle;  ///< 0 for accounts
         std::size_t component;
     };
     Entry entry(std::size_t k) const;
-
-    static std::size_t components(Field field);
+    /// The field and component of entry k: "velocity_y", "stress_xy", "density".
+    std::string entry_name(std::size_t k) const;
 
   private:
     std::size_t particles_;

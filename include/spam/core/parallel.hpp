@@ -20,6 +20,16 @@ void parallel_for(std::size_t n, const Body& body, std::size_t weight = 1) {
     for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
+/// body(first, count) for blocks of 0, ..., n - 1, the same blocks for any number of threads.
+template <class Body>
+void parallel_blocks(std::size_t n, const Body& body) {
+    constexpr std::size_t block = 512;
+    parallel_for(
+        (n + block - 1) / block,
+        [&](std::size_t b) { body(b * block, n - b * block < block ? n - b * block : block); },
+        block);
+}
+
 /// Sum of count(i), a whole number.
 template <class Count>
 std::size_t parallel_count(std::size_t n, const Count& count, std::size_t weight = 1) {

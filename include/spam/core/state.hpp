@@ -40,6 +40,13 @@ class StateView {
     Block<1> density() const { return block<1>(Field::density); }
     Block<symmetric_size(Dim)> stress() const { return block<symmetric_size(Dim)>(Field::stress); }
     Block<1> energy() const { return block<1>(Field::energy); }
+    /// Any field: components x N, or components x 1 of an account.
+    Block<Eigen::Dynamic> field(Field field) const {
+        const auto* b = layout_->find(field);
+        assert(b != nullptr);
+        const auto rows = static_cast<Eigen::Index>(b->components);
+        return {y_.data() + b->offset, rows, static_cast<Eigen::Index>(b->size) / rows};
+    }
 
     bool has(Field field) const { return layout_->has(field); }
     const FieldLayout<Dim>& layout() const { return *layout_; }

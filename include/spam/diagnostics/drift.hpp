@@ -37,7 +37,8 @@ struct DriftScales {
     bool begun_ = false;
 };
 
-/// Drifts of mass, momentum, angular momentum and energy over a run; none of a run without rows.
+/// Drifts of mass, momentum, angular momentum and energy over a run, the last three less what externals
+/// have given (Invariants::energy_balance() and the like); none of a run without rows.
 /// Columns are those of invariants.csv; vectors are compared with sum m |v| and sum m |x||v|, the
 /// energy with its start or the largest kinetic energy. Where particles hardly move, what rounding
 /// leaves of the forces between neighbours is more than that: 1e-15 of what they exchange in the time

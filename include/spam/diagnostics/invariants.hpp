@@ -7,8 +7,8 @@
 
 namespace spam {
 
-/// What an isolated system keeps, at one time. Sums are compensated: their own error is far below
-/// the drifts they are compared for.
+/// What an isolated system keeps, at one time, and what externals have given to one that is not. Sums are
+/// compensated: their own error is far below the drifts they are compared for.
 template <int Dim>
 struct Invariants {
     /// Number of rotation planes: 0, 1, 3.
@@ -21,6 +21,16 @@ struct Invariants {
     double kinetic = 0.0;
     double internal = 0.0;
     double energy = 0.0;  ///< kinetic + internal
+
+    /// What externals have given since t = 0 (external/external.hpp); zero without any.
+    double work = 0.0, heat = 0.0;
+    Point<Dim> impulse = Point<Dim>::Zero();
+    AngularMomentum angular_impulse = AngularMomentum::Zero();
+
+    /// What the particles keep among themselves.
+    double energy_balance() const { return energy - work - heat; }
+    Point<Dim> momentum_balance() const { return momentum - impulse; }
+    AngularMomentum angular_momentum_balance() const { return angular_momentum - angular_impulse; }
 };
 
 template <int Dim>

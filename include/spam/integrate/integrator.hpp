@@ -24,7 +24,7 @@ struct Ode {
     std::function<std::string()> failure;
     /// Entry k of y in words, for messages: "velocity_y of particle 17".
     std::function<std::string(std::size_t k)> entry_name;
-    /// Absolute tolerance of every entry of y; used by adaptive methods.
+    /// Absolute tolerance of every entry of y; used by adaptive methods. Infinite: no say in the steps.
     std::vector<double> absolute_tolerance;
     /// What changes y at single times.
     std::vector<Event> events{};
@@ -34,6 +34,9 @@ struct Ode {
         std::size_t first, size;
     };
     std::vector<Block> blocks{};
+    /// The last so many entries of y, of no block, are accounts: integrals along the motion, which no rate
+    /// depends on.
+    std::size_t accounts = 0;
     /// Why `velocity` and `position` cannot be advanced in turn; empty where they can.
     std::string inseparable{};
 

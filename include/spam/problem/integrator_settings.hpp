@@ -33,7 +33,7 @@ class IntegratorSettings {
     std::optional<double> dt_, rtol_, atol_, safety_, min_step_, max_step_, initial_step_;
     std::optional<int> max_steps_;
     bool relaxation_ = false;
-    std::array<std::optional<double>, 5> field_atol_;  ///< by Field
+    std::array<std::optional<double>, integrated_fields.size()> field_atol_;
 };
 
 /// Throws InputError where fixed steps would take more than 1e9 of them to `t_end`.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <spam/material/harmonic_spring.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <cstdint>
 
@@ -12,24 +12,25 @@ namespace spam {
 /// paper's reference solution, [HHM04] VI: y = (x, v). Keeps p exactly, L and E to integrator
 /// error.
 template <int Dim>
-class BondedModel final : public Model<Dim> {
+class BondedModel final : public ParticleModel<Dim> {
   public:
     /// Bonds every pair closer than 1.2 spacings in the reference configuration.
     BondedModel(Particles<Dim> particles, const HarmonicSpring& spring, const Box<Dim>& box = {});
 
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double internal_energy(std::span<const double> y) const override;
     /// Stress of every particle from its own bonds (virial), tension-positive:
     /// sigma_i = -1/(2 V) sum_j r_ij (x) F_ij, V the volume of a particle.
     std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const;
-    Promises promises() const override;
-    std::string describe() const override;
     /// Of all bonds, from both ends.
     double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override { return partner_.size() / 2; }
     double reach() const override { return bond_reach_; }
 
   private:
+    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    double pair_energy(std::span<const double> y) const override;
+    Promises pair_promises() const override;
+    std::string pair_description() const override;
+
     template <class View>
     Point<Dim> bond(const View& x, std::size_t i, std::size_t j) const;
 

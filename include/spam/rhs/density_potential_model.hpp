@@ -4,7 +4,7 @@
 #include <spam/kernel/kernel.hpp>
 #include <spam/material/fluid.hpp>
 #include <spam/physics/core_potential.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <memory>
 
@@ -30,7 +30,7 @@ struct DensityPotentials {
 /// Molecular dynamics with potentials of the density: y = (x, v), m v_dot = -d Phi/d r. Keeps p
 /// exactly, E to integrator error, and in open space L as well.
 template <int Dim>
-class DensityPotentialModel final : public Model<Dim> {
+class DensityPotentialModel final : public ParticleModel<Dim> {
   public:
     /// Throws InputError where nothing acts, the law is not cold, the weight function is not smooth
     /// enough for a potential (physics/density_potential.hpp), a potential needs more dimensions, a
@@ -40,13 +40,6 @@ class DensityPotentialModel final : public Model<Dim> {
                           const Box<Dim>& box = {});
     ~DensityPotentialModel() override;
 
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    /// Phi
-    double internal_energy(std::span<const double> y) const override;
-    /// sum_j m_j w_ij, self included
-    std::vector<double> density(std::span<const double> y) const override;
-    Promises promises() const override;
-    std::string describe() const override;
     double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override;
     double reach() const override { return potentials_.range; }
@@ -55,6 +48,14 @@ class DensityPotentialModel final : public Model<Dim> {
     const DensityPotentials& potentials() const { return potentials_; }
 
   private:
+    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    /// Phi
+    double pair_energy(std::span<const double> y) const override;
+    /// sum_j m_j w_ij, self included
+    std::vector<double> pair_density(std::span<const double> y) const override;
+    Promises pair_promises() const override;
+    std::string pair_description() const override;
+
     struct Parts;
     void fail_density(std::span<double> y_dot);
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;

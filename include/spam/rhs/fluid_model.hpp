@@ -3,7 +3,7 @@
 
 #include <spam/kernel/general_weight.hpp>
 #include <spam/material/fluid.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <memory>
 
@@ -35,7 +35,7 @@ struct FluidScheme {
 /// with P = p(rho, e) 1 - (viscous stress of grad v) and Q = -kappa grad T. Keeps m, p and
 /// sum m (e + v^2/2) whatever the law; L too without viscosity, in open space.
 template <int Dim>
-class FluidModel final : public Model<Dim> {
+class FluidModel final : public ParticleModel<Dim> {
   public:
     /// Throws InputError for a range that does not reach a neighbour, a periodic box not wider than
     /// twice the range, density by the chain rule, conduction in a law without temperature, negative
@@ -44,16 +44,9 @@ class FluidModel final : public Model<Dim> {
                const Box<Dim>& box = {});
     ~FluidModel() override;
 
-    /// A particle whose density or energy is outside the law is named in failure().
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double internal_energy(std::span<const double> y) const override;
-    std::vector<double> density(std::span<const double> y) const override;
-    Promises promises() const override;
-    std::string describe() const override;
     double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
-    double fastest_damping() const override { return damping_; }
     void remember(Archive& archive) override;
     std::size_t list_builds() const;
 
@@ -70,6 +63,14 @@ class FluidModel final : public Model<Dim> {
                               double T = 0.0);
 
   private:
+    /// A particle whose density or energy is outside the law is named in failure().
+    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    double pair_energy(std::span<const double> y) const override;
+    std::vector<double> pair_density(std::span<const double> y) const override;
+    Promises pair_promises() const override;
+    std::string pair_description() const override;
+    double pair_damping() const override { return damping_; }
+
     bool meaningful(std::span<const double> e, std::span<double> y_dot);
     void fill_records();
     void close(std::size_t first_slot, const std::uint32_t* particle, std::size_t count,

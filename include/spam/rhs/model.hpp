@@ -7,9 +7,9 @@
 #include <spam/neighbors/box.hpp>
 #include <spam/physics/scheme.hpp>
 
-#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace spam {
 
@@ -47,8 +47,8 @@ class Model {
     /// Densities of all particles; empty for a model without density.
     virtual std::vector<double> density(std::span<const double> y) const;
 
-    /// What changes y between steps, if anything does; for one run, and no longer than the model.
-    virtual std::optional<Event> event() const { return std::nullopt; }
+    /// What changes y between steps; for one run, and no longer than the model.
+    virtual std::vector<Event> events() const { return {}; }
 
     virtual Promises promises() const = 0;
     virtual std::string describe() const = 0;  ///< one line for banner and dry run

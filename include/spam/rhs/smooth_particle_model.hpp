@@ -3,7 +3,7 @@
 
 #include <spam/material/material.hpp>
 #include <spam/physics/viscosity.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <memory>
 
@@ -24,7 +24,7 @@ class GaussForces;
 /// decides whether density is part of y, what velocity moves the particles, and what keeps the
 /// angular momentum.
 template <int Dim>
-class SmoothParticleModel final : public Model<Dim> {
+class SmoothParticleModel final : public ParticleModel<Dim> {
   public:
     /// `material`: any stress law (stress_law.hpp). Throws InputError when the scheme makes no
     /// sense here (Scheme::validate), the range does not reach a neighbour, pairs are to be reflected at
@@ -35,24 +35,14 @@ class SmoothParticleModel final : public Model<Dim> {
 
     ~SmoothParticleModel() override;
 
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double internal_energy(std::span<const double> y) const override;
-    std::vector<double> density(std::span<const double> y) const override;
-    /// The restriction of the distance of closest approach, where the scheme has one.
-    std::optional<Event> event() const override;
-    /// The scheme's; in a periodic box no scheme keeps the angular momentum about the origin, because
-    /// forces across the border act at the images of particles.
-    Promises promises() const override { return this->in_box(scheme_.promises(Dim)); }
     /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
     /// sets in and out.
     bool smooth() const override {
         return scheme_.angular_momentum != AngularMomentum::torque_particle &&
                scheme_.angular_momentum != AngularMomentum::gauss;
     }
-    std::string describe() const override;
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
-    double fastest_damping() const override { return viscous_damping_; }
 
     const Scheme& scheme() const { return scheme_; }
     /// R and 1/R of each body (of all with Balance::global) in the latest rates(); empty where torques
@@ -67,6 +57,17 @@ class SmoothParticleModel final : public Model<Dim> {
     std::size_t list_builds() const;
 
   private:
+    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    double pair_energy(std::span<const double> y) const override;
+    std::vector<double> pair_density(std::span<const double> y) const override;
+    /// The scheme's; in a periodic box no scheme keeps the angular momentum about the origin, because
+    /// forces across the border act at the images of particles.
+    Promises pair_promises() const override { return this->in_box(scheme_.promises(Dim)); }
+    /// The restriction of the distance of closest approach, where the scheme has one.
+    std::vector<Event> pair_events() const override;
+    std::string pair_description() const override;
+    double pair_damping() const override { return viscous_damping_; }
+
     bool load(std::span<const double> y, std::span<double> y_dot);
     PackedFields fields(std::span<const double> y) const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;

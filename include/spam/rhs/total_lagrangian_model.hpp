@@ -3,7 +3,7 @@
 
 #include <spam/material/hyperelastic_material.hpp>
 #include <spam/neighbors/cluster_list.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <memory>
 
@@ -28,7 +28,7 @@ struct TotalLagrangianScheme {
 /// unchanged: p is kept exactly, E and in open space L to integrator error, and there is no tensile
 /// instability. It cannot flow or break: who are neighbours stays so.
 template <int Dim>
-class TotalLagrangianModel final : public Model<Dim> {
+class TotalLagrangianModel final : public ParticleModel<Dim> {
   public:
     /// `material`: any hyperelastic law (hyperelastic_law.hpp). In a periodic box the lattice closes on
     /// itself as in the reference configuration. Throws InputError for a density, range or penalty
@@ -38,13 +38,6 @@ class TotalLagrangianModel final : public Model<Dim> {
                          const TotalLagrangianScheme& scheme, const Box<Dim>& box = {});
     ~TotalLagrangianModel() override;
 
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair.
-    double internal_energy(std::span<const double> y) const override;
-    /// rho_0/det F; negative where a particle is turned inside out.
-    std::vector<double> density(std::span<const double> y) const override;
-    Promises promises() const override;
-    std::string describe() const override;
     std::size_t pairs() const override { return list_.pairs(); }
     double reach() const override { return scheme_.range; }
 
@@ -53,6 +46,14 @@ class TotalLagrangianModel final : public Model<Dim> {
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
 
   private:
+    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair.
+    double pair_energy(std::span<const double> y) const override;
+    /// rho_0/det F; negative where a particle is turned inside out.
+    std::vector<double> pair_density(std::span<const double> y) const override;
+    Promises pair_promises() const override;
+    std::string pair_description() const override;
+
     struct Stresses;
     SweepInput<Dim> input(const std::vector<double>& records) const;
     void pack_reference();

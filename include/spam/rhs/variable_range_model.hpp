@@ -3,7 +3,7 @@
 
 #include <spam/kernel/general_weight.hpp>
 #include <spam/material/fluid.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <memory>
 
@@ -30,7 +30,7 @@ struct VariableRangeScheme {
 /// then integrated, so that ranges are a function of y and no equation is solved in the rates. Keeps m, p
 /// and sum m (e + v^2/2) exactly, in open space L as well.
 template <int Dim>
-class VariableRangeModel final : public Model<Dim> {
+class VariableRangeModel final : public ParticleModel<Dim> {
   public:
     /// Throws InputError where eta is so small that a particle would be its own only neighbour, and for a
     /// law with friction or conduction.
@@ -38,11 +38,6 @@ class VariableRangeModel final : public Model<Dim> {
                        const VariableRangeScheme& scheme, const Box<Dim>& box = {});
     ~VariableRangeModel() override;
 
-    /// A range that has grown to half of a periodic length ends the run: failure() says so.
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double internal_energy(std::span<const double> y) const override;
-    Promises promises() const override;
-    std::string describe() const override;
     std::size_t pairs() const override;
     /// The largest range of the latest rates().
     double reach() const override { return reach_; }
@@ -62,6 +57,12 @@ class VariableRangeModel final : public Model<Dim> {
     std::vector<double> solve_densities(const Points<Dim>& position) const;
 
   private:
+    /// A range that has grown to half of a periodic length ends the run: failure() says so.
+    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
+    double pair_energy(std::span<const double> y) const override;
+    Promises pair_promises() const override;
+    std::string pair_description() const override;
+
     double range_of(std::size_t i, double rho) const;
     double most_range() const;
     bool find_ranges(std::span<const double> y, std::span<double> y_dot);

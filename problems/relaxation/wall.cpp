@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "walled_model.hpp"
+#include "wall.hpp"
 
 #include <spam/core/sums.hpp>
 
@@ -123,54 +123,17 @@ double Wall::least_weight_on_border() const {
     return least;
 }
 
-WalledModel::WalledModel(Particles<2> particles, const Region& region, double range)
-    : Model<2>(particles, {}, {Field::position, Field::velocity}),
-      inside_(std::move(particles), range),
-      wall_(region, range) {}
-
-void WalledModel::rates(double t, std::span<const double> y, std::span<double> y_dot) {
-    inside_.rates(t, y, y_dot);
-    failure_ = inside_.failure();
-    if (!failure_.empty()) return;
-    const auto x = ConstState<2>(layout(), y).position();
-    auto v_dot = State<2>(layout(), y_dot).velocity();
-    for (Eigen::Index i = 0; i < x.cols(); ++i) v_dot.col(i) += wall_.force(x.col(i));
+double Wall::energy(const Particles<2>&, const ConstState<2>& state) const {
+    CompensatedSum sum;
+    const auto x = state.position();
+    for (Eigen::Index i = 0; i < x.cols(); ++i) sum += energy(Point<2>(x.col(i)));
+    return sum;
 }
 
-double WalledModel::internal_energy(std::span<const double> y) const {
-    CompensatedSum energy;
-    energy += inside_.internal_energy(y);
-    const auto x = ConstState<2>(layout(), y).position();
-    for (Eigen::Index i = 0; i < x.cols(); ++i) energy += wall_.energy(x.col(i));
-    return energy;
-}
-
-std::vector<double> WalledModel::density(std::span<const double> y) const {
-    auto rho = inside_.density(y);
-    const auto x = ConstState<2>(layout(), y).position();
+void Wall::add_density(const ConstState<2>& state, std::vector<double>& rho) const {
+    const auto x = state.position();
     for (std::size_t i = 0; i < rho.size(); ++i)
-        rho[i] += wall_.weight_outside(x.col(static_cast<Eigen::Index>(i)));
-    return rho;
-}
-
-Promises WalledModel::promises() const {
-    Promises promises = inside_.promises();
-    promises.momentum = promises.angular_momentum = Promise::not_kept;
-    return promises;
-}
-
-std::string WalledModel::describe() const {
-    return inside_.describe() + "; inside a wall of the same density";
-}
-
-void WalledModel::set_bodies(std::vector<std::int32_t> bodies) {
-    inside_.set_bodies(bodies);
-    Model<2>::set_bodies(std::move(bodies));
-}
-
-void WalledModel::remember(Archive& archive) {
-    Model<2>::remember(archive);
-    inside_.remember(archive);
+        rho[i] += weight_outside(x.col(static_cast<Eigen::Index>(i)));
 }
 
 }  // namespace relaxation

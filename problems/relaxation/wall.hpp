@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles that repel each other, inside a region.
+// What keeps particles that repel each other inside a region.
 #pragma once
 
 #include "region.hpp"
+#include <spam/external/external.hpp>
 #include <spam/kernel/lucy.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
+
 
 #include <cstdint>
 #include <vector>
@@ -19,9 +20,19 @@ namespace relaxation {
 /// Deep in that matter nothing pushes any more, and particles that begin on top of each other are fast
 /// enough to get there; so in the outside a spring pulls back to the border, where nothing is at rest:
 ///     + d^2/2,   d the distance from the border.
-class Wall {
+class Wall final : public External<2> {
   public:
     Wall(const Region& region, double range);
+
+    void add(const Now& now, Eigen::Index first, Eigen::Index last) const override {
+        const auto x = now.state.position();
+        auto v_dot = now.rate.velocity();  // of particles of mass 1
+        for (Eigen::Index i = first; i < last; ++i) v_dot.col(i) += force(x.col(i));
+    }
+    bool potential() const override { return true; }
+    double energy(const Particles<2>& particles, const ConstState<2>& state) const override;
+    void add_density(const ConstState<2>& state, std::vector<double>& rho) const override;
+    std::string describe() const override { return "inside a wall of the same density"; }
 
     /// -grad Phi
     Point<2> force(const Point<2>& r) const;
@@ -50,38 +61,6 @@ class Wall {
     std::vector<std::uint32_t> start_;  ///< of each cell's pieces
     Point<2> corner_;                   ///< of the grid of cells, as wide as the range
     int columns_, rows_;
-};
-
-/// Molecular dynamics with Lucy's weight function as pair potential (rhs/pair_potential_model.hpp),
-/// inside a wall: particles have mass 1.
-class WalledModel final : public Model<2> {
-  public:
-    WalledModel(Particles<2> particles, const Region& region, double range);
-
-    void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double internal_energy(std::span<const double> y) const override;
-    /// What the wall stands for included.
-    std::vector<double> density(std::span<const double> y) const override;
-    std::optional<Event> event() const override { return inside_.event(); }
-    Promises promises() const override;
-    double neighbour_forces(std::span<const double> y) const override {
-        return inside_.neighbour_forces(y);
-    }
-    bool smooth() const override { return inside_.smooth(); }
-    std::string describe() const override;
-    std::vector<Remark> watch(double t, std::span<const double> y) override {
-        return inside_.watch(t, y);
-    }
-    void set_bodies(std::vector<std::int32_t> bodies) override;
-    std::string inseparable() const override { return inside_.inseparable(); }
-    double fastest_damping() const override { return inside_.fastest_damping(); }
-    std::size_t pairs() const override { return inside_.pairs(); }
-    double reach() const override { return inside_.reach(); }
-    void remember(Archive& archive) override;
-
-  private:
-    PairPotentialModel<2> inside_;
-    Wall wall_;
 };
 
 }  // namespace relaxation

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/tensor.hpp>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace spam {
+
+/// How many numbers a field holds, and how a rotation, a mirror or an image changes them.
+enum class Rank {
+    scalar,     ///< 1 number
+    vector,     ///< D
+    axial,      ///< D (D - 1)/2: one number for each plane of rotation, z in the plane, x y z in space
+    symmetric,  ///< D (D + 1)/2, in the order of symmetric_index()
+    tensor      ///< D^2, row by row
+};
+
+/// How a field of y changes, and who holds it.
+enum class Role {
+    integrated,  ///< of every particle, with a rate
+    history,     ///< of every particle, rate zero: changed between steps only (a plastic strain, damage)
+    account      ///< of the whole system, with a rate: what externals have given (work, heat, impulse)
+};
+
+/// A field that y may hold, as its author declares it, once and for good:
+///     inline constexpr FieldKind damage{"damage", Rank::scalar, Role::history, "1"};
+struct FieldKind {
+    std::string_view name;  ///< in messages, checkpoints, snapshots and the options --atol-NAME
+    Rank rank;
+    Role role;
+    std::string_view unit;  ///< in terms of mass, length, time: "m/l^3"; "1" for a pure number
+    int place = 100;        ///< in y: by place, then in the order in which a model names them
+};
+
+/// A field of y, by its kind. Two of the same name are the same.
+class Field {
+  public:
+    constexpr Field(const FieldKind& kind) : kind_(&kind) {}  // NOLINT: a kind is a field
+
+    constexpr std::string_view name() const { return kind_->name; }
+    constexpr Rank rank() const { return kind_->rank; }
+    constexpr Role role() const { return kind_->role; }
+    constexpr std::string_view unit() const { return kind_->unit; }
+    constexpr int place() const { return kind_->place; }
+
+    template <int Dim>
+    constexpr std::size_t components() const {
+        switch (rank()) {
+            case Rank::vector:
+                return Dim;
+            case Rank::axial:
+                return Dim * (Dim - 1) / 2;
+            case Rank::symmetric:
+                return static_cast<std::size_t>(symmetric_size(Dim));
+            case Rank::tensor:
+                return Dim * Dim;
+            case Rank::scalar:
+                break;
+        }
+        return 1;
+    }
+
+    /// "_x", "_xy", nothing for a scalar: the suffix of one component in names of columns.
+    template <int Dim>
+    std::string suffix(std::size_t component) const {
+        constexpr std::string_view axes = "xyz";
+        if (rank() == Rank::scalar || components<Dim>() < 2) return {};
+        if (rank() == Rank::vector || rank() == Rank::axial) return {'_', axes[component]};
+        for (std::size_t a = 0; a < Dim; ++a)
+            for (std::size_t b = 0; b < Dim; ++b) {
+                const std::size_t at =
+                    rank() == Rank::tensor
+                        ? a * Dim + b
+                        : static_cast<std::size_t>(
+                              symmetric_index(Dim, static_cast<int>(a), static_cast<int>(b)));
+                if ((rank() == Rank::tensor || a <= b) && at == component)
+                    return {'_', axes[a], axes[b]};
+            }
+        return {};
+    }
+
+    friend constexpr bool operator==(const Field& a, const Field& b) { return a.name() == b.name(); }
+
+    static const Field position, velocity, density, stress, energy;
+    static const Field work, heat, impulse, angular_impulse;
+
+  private:
+    const FieldKind* kind_;
+};
+
+namespace field_kind {
+inline constexpr FieldKind position{"position", Rank::vector, Role::integrated, "l", 0};
+inline constexpr FieldKind velocity{"velocity", Rank::vector, Role::integrated, "l/t", 1};
+inline constexpr FieldKind density{"density", Rank::scalar, Role::integrated, "m/l^D", 2};
+inline constexpr FieldKind stress{"stress", Rank::symmetric, Role::integrated, "m l^(2-D)/t^2", 3};
+inline constexpr FieldKind energy{"energy", Rank::scalar, Role::integrated, "l^2/t^2", 4};
+inline constexpr FieldKind work{"work", Rank::scalar, Role::account, "m l^2/t^2", 200};
+inline constexpr FieldKind heat{"heat", Rank::scalar, Role::account, "m l^2/t^2", 201};
+inline constexpr FieldKind impulse{"impulse", Rank::vector, Role::account, "m l/t", 202};
+inline constexpr FieldKind angular_impulse{"angular_impulse", Rank::axial, Role::account, "m l^2/t",
+                                           203};
+}  // namespace field_kind
+
+inline constexpr Field Field::position{field_kind::position};
+inline constexpr Field Field::velocity{field_kind::velocity};
+inline constexpr Field Field::density{field_kind::density};    ///< by continuity
+inline constexpr Field Field::stress{field_kind::stress};      ///< tension positive
+inline constexpr Field Field::energy{field_kind::energy};      ///< internal, by mass
+inline constexpr Field Field::work{field_kind::work};          ///< done on the particles by externals
+inline constexpr Field Field::heat{field_kind::heat};          ///< given to them by externals
+inline constexpr Field Field::impulse{field_kind::impulse};    ///< time integral of external forces
+inline constexpr Field Field::angular_impulse{field_kind::angular_impulse};  ///< of their torques
+
+/// The fields that have options of their own (--atol-NAME) and columns in the studies of integrators.
+inline constexpr std::array integrated_fields{Field::position, Field::velocity, Field::density,
+                                              Field::stress, Field::energy};
+
+}  // namespace spam

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/external/external.hpp>
+
+namespace spam {
+
+/// A constant acceleration of all particles, v_dot_i += g (length/time^2), with the potential
+/// -sum m g . x: the energy of the run contains it.
+template <int Dim>
+class Gravity final : public External<Dim> {
+  public:
+    /// Throws InputError for a g that is not finite.
+    explicit Gravity(const Point<Dim>& g);
+
+    void add(const typename External<Dim>::Now& now, Eigen::Index first,
+             Eigen::Index last) const override {
+        now.rate.velocity().middleCols(first, last - first).colwise() += g_;
+    }
+    bool potential() const override { return true; }
+    double energy(const Particles<Dim>& particles, const ConstState<Dim>& state) const override;
+    std::string describe() const override;
+
+  private:
+    Point<Dim> g_;
+};
+
+extern template class Gravity<1>;
+extern template class Gravity<2>;
+extern template class Gravity<3>;
+
+}  // namespace spam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/external/gravity.hpp>
+
+#include <fmt/format.h>
+
+namespace spam {
+
+template <int Dim>
+Gravity<Dim>::Gravity(const Point<Dim>& g) : g_(g) {
+    if (!g.allFinite()) throw InputError("gravity: must be a finite acceleration");
+}
+
+template <int Dim>
+double Gravity<Dim>::energy(const Particles<Dim>& particles, const ConstState<Dim>& state) const {
+    const auto x = state.position();
+    CompensatedSum sum;
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        sum += -particles.mass[static_cast<std::size_t>(i)] * g_.dot(x.col(i));
+    return sum;
+}
+
+template <int Dim>
+std::string Gravity<Dim>::describe() const {
+    std::string components;
+    for (int a = 0; a < Dim; ++a) components += fmt::format("{}{:g}", a > 0 ? ", " : "", g_[a]);
+    return fmt::format("gravity ({})", components);
+}
+
+template class Gravity<1>;
+template class Gravity<2>;
+template class Gravity<3>;
+
+}  // namespace spam

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/external/thermostat.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spam {
+
+template <int Dim>
+Thermostat<Dim>::Thermostat(double kT_0, double gamma) : kT_0_(kT_0),
+                                                         gamma_(gamma) {
+    if (!(kT_0 > 0.0) || !std::isfinite(kT_0) || !(gamma > 0.0) || !std::isfinite(gamma))
+        throw InputError(fmt::format("thermostat: kT = {} and rate {} must be finite and positive",
+                                     kT_0, gamma));
+}
+
+template <int Dim>
+void Thermostat<Dim>::prepare(const typename External<Dim>::Now& now) {
+    const auto v = now.state.velocity();
+    const auto& mass = now.particles.mass;
+    CompensatedSum m;
+    std::array<CompensatedSum, Dim> p;
+    for (Eigen::Index i = 0; i < v.cols(); ++i) {
+        const double m_i = mass[static_cast<std::size_t>(i)];
+        m += m_i;
+        for (int a = 0; a < Dim; ++a) p[static_cast<std::size_t>(a)] += m_i * v(a, i);
+    }
+    for (int a = 0; a < Dim; ++a) V_[a] = p[static_cast<std::size_t>(a)] / static_cast<double>(m);
+    CompensatedSum twice_kinetic;
+    for (Eigen::Index i = 0; i < v.cols(); ++i)
+        twice_kinetic += mass[static_cast<std::size_t>(i)] * (v.col(i) - V_).squaredNorm();
+    const double kT = twice_kinetic / (Dim * (static_cast<double>(v.cols()) - 1.0));
+    // Nothing that is at rest can be warmed by its own velocities.
+    factor_ = kT > 0.0 ? -0.5 * gamma_ * (1.0 - kT_0_ / kT) : 0.0;
+}
+
+template <int Dim>
+std::string Thermostat<Dim>::describe() const {
+    return fmt::format("thermostat kT = {:g}, rate {:g}", kT_0_, gamma_);
+}
+
+template class Thermostat<1>;
+template class Thermostat<2>;
+template class Thermostat<3>;
+
+}  // namespace spam

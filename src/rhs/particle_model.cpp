@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/rhs/particle_model.hpp>
+
+#include <algorithm>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+auto moment(const Point<Dim>& r, const Point<Dim>& f) {
+    Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1> m;
+    if constexpr (Dim == 2) m[0] = r.x() * f.y() - r.y() * f.x();
+    if constexpr (Dim == 3) m = r.cross(f);
+    return m;
+}
+
+}  // namespace
+
+template <int Dim>
+void ParticleModel<Dim>::add(std::unique_ptr<External<Dim>> external) {
+    externals_.push_back(std::move(external));
+    for (const Field field : {Field::work, Field::heat, Field::impulse, Field::angular_impulse})
+        this->layout().add(field);
+    given_.resize((this->particles().size() + block - 1) / block);
+}
+
+template <int Dim>
+void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<double> y_dot) {
+    this->failure_.clear();
+    pair_rates(t, y, y_dot);
+    if (externals_.empty() || !this->failure_.empty()) return;
+    const State<Dim> rate(this->layout(), y_dot);
+    for (const auto& b : this->layout().blocks())
+        if (b.field.role() == Role::account) rate.field(b.field).setZero();
+    const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
+    for (const auto& external : externals_) {
+        external->prepare(now);
+        apply(*external, now);
+    }
+}
+
+/// Blocks are the same for any number of threads, and what they are given is summed in their order.
+template <int Dim>
+void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
+    const auto n = static_cast<Eigen::Index>(now.particles.size());
+    parallel_for(
+        given_.size(),
+        [&](std::size_t b) {
+            const Eigen::Index first = static_cast<Eigen::Index>(b) * block;
+            given_[b] = apply_to(external, now, first, std::min(n, first + block));
+        },
+        block);
+    Given sum;
+    for (const Given& given : given_) {
+        sum.force += given.force;
+        sum.torque += given.torque;
+        sum.power += given.power;
+        sum.heat += given.heat;
+    }
+    book(external, sum, now.rate);
+}
+
+/// The difference that the external makes to what the particles had before it.
+template <int Dim>
+typename ParticleModel<Dim>::Given ParticleModel<Dim>::apply_to(
+    const External<Dim>& external, const typename External<Dim>::Now& now, Eigen::Index first,
+    Eigen::Index last) const {
+    const bool has_energy = now.rate.has(Field::energy);
+    Eigen::Matrix<double, Dim, block> v_dot;
+    Eigen::Matrix<double, 1, block> e_dot;
+    const Eigen::Index count = last - first;
+    v_dot.leftCols(count) = now.rate.velocity().middleCols(first, count);
+    if (has_energy) e_dot.leftCols(count) = now.rate.energy().middleCols(first, count);
+    external.add(now, first, last);
+    Given given;
+    const auto x = now.state.position(), v = now.state.velocity();
+    const auto after = now.rate.velocity();
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const Eigen::Index i = first + k;
+        const double m = now.particles.mass[static_cast<std::size_t>(i)];
+        const Point<Dim> force = m * (after.col(i) - v_dot.col(k));
+        given.force += force;
+        given.torque += moment<Dim>(x.col(i), force);
+        given.power += force.dot(v.col(i));
+        if (has_energy) given.heat += m * (now.rate.energy()(0, i) - e_dot(0, k));
+    }
+    return given;
+}
+
+template <int Dim>
+void ParticleModel<Dim>::book(const External<Dim>& external, const Given& given,
+                              const State<Dim>& rate) const {
+    rate.field(Field::impulse) += given.force;
+    if constexpr (Dim > 1) rate.field(Field::angular_impulse) += given.torque;
+    if (!external.potential())
+        rate.field(external.thermal() ? Field::heat : Field::work)(0, 0) += given.power;
+    rate.field(Field::heat)(0, 0) += given.heat;
+}
+
+template <int Dim>
+double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
+    double energy = pair_energy(y);
+    for (const auto& external : externals_)
+        if (external->potential())
+            energy += external->energy(this->particles(), {this->layout(), y});
+    return energy;
+}
+
+template <int Dim>
+std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const {
+    std::vector<double> rho = pair_density(y);
+    if (!rho.empty())
+        for (const auto& external : externals_) external->add_density({this->layout(), y}, rho);
+    return rho;
+}
+
+template <int Dim>
+std::vector<double> ParticleModel<Dim>::pair_density(std::span<const double> y) const {
+    return Model<Dim>::density(y);
+}
+
+template <int Dim>
+std::vector<Event> ParticleModel<Dim>::events() const {
+    std::vector<Event> events = pair_events();
+    if (events.empty()) return events;
+    const std::size_t n = this->particles().size();
+    std::size_t held = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        held += std::any_of(externals_.begin(), externals_.end(),
+                            [i](const auto& external) { return external->holds(i); });
+    if (held == n) return {};  // what does not move never meets
+    if (held > 0)
+        throw InputError(
+            "closest-approach: a reflection would move particles that are held or driven; leave one "
+            "of the two out");
+    return events;
+}
+
+template <int Dim>
+std::string ParticleModel<Dim>::describe() const {
+    std::string words = pair_description();
+    for (const auto& external : externals_) words += "; " + external->describe();
+    return words;
+}
+
+template <int Dim>
+std::string ParticleModel<Dim>::inseparable() const {
+    for (const auto& external : externals_)
+        if (auto why = external->inseparable(); !why.empty()) return why;
+    return Model<Dim>::inseparable();
+}
+
+template <int Dim>
+double ParticleModel<Dim>::fastest_damping() const {
+    double damping = pair_damping();
+    for (const auto& external : externals_) damping += external->damping();
+    return damping;
+}
+
+template <int Dim>
+double ParticleModel<Dim>::neighbour_forces(std::span<const double> y) const {
+    const bool potential = !this->layout().has(Field::energy) && !this->layout().has(Field::stress);
+    // Potentials of externals are no forces between neighbours.
+    return potential ? std::abs(pair_energy(y)) / this->particles().spacing
+                     : Model<Dim>::neighbour_forces(y);
+}
+
+template class ParticleModel<1>;
+template class ParticleModel<2>;
+template class ParticleModel<3>;
+
+}  // namespace spam
