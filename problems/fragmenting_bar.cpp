@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
     options.number("speed", p.speed, "speed of the projectile (the speed of sound is 1.06)",
                    positive());
     options.number("offset", p.offset, "height of the impact above the middle of the bar",
-                   any_number());
+                   between(-1e6, 1e6));
     problem.use_scheme({.transport = Transport::monaghan,
                         .angular_momentum = AngularMomentum::torque_pair,
                         .viscosity = 1.0});

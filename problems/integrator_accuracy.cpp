@@ -79,6 +79,13 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("problem")) p.problem = "md";
+        if (p.problem == "wave" || p.problem == "expansion") {
+            if (const auto name = options.first_given({"size", "speed"}); !name.empty())
+                throw InputError(fmt::format(
+                    "{}: is of the hexagons, there are none with --problem {}; leave it out", name,
+                    p.problem));
+            session.leave_out_of_case({"size", "speed"});
+        }
         auto trials = systems(p);
         if (p.problem != "all")
             std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });

@@ -12,6 +12,8 @@
 #include <spam/setup/plane_wave.hpp>
 #include <spam/spam.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -73,6 +75,17 @@ int main(int argc, char** argv) {
             if (!session.given("size")) p.size = 3;
             if (!session.given("turns")) p.turns = 0.2;
             if (!session.given("periods")) p.periods = 2.0;
+        }
+        if (p.problem != "all") {
+            const bool wave = p.problem == "wave";
+            const std::vector<std::string> idle =
+                wave ? std::vector<std::string>{"size", "speed", "turns"}
+                     : std::vector<std::string>{"cells", "periods"};
+            if (const auto name = options.first_given(idle); !name.empty())
+                throw InputError(
+                    fmt::format("{}: is of the {}, there {} none with --problem {}; leave it out",
+                                name, wave ? "hexagons" : "wave", wave ? "are" : "is", p.problem));
+            session.leave_out_of_case(idle);
         }
         auto trials = systems(p);
         if (p.problem != "all")

@@ -199,6 +199,11 @@ int main(int argc, char** argv) {
             session.leave_out_of_case({"lobes", "depth"});
         } else {
             session.leave_out_of_case({"outline"});
+            if (p.depth == 0.0) {
+                if (session.given("lobes"))
+                    throw InputError("lobes: a circle (--depth 0) has none; leave one out");
+                session.leave_out_of_case({"lobes"});
+            }
         }
         if (session.common().smoke && !session.given("particles")) p.particles = 80;
         // shape and places

@@ -3,6 +3,7 @@
 
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
+#include <spam/io/text_file.hpp>
 #include <spam/setup/drawn.hpp>
 
 #include <fmt/format.h>
@@ -168,10 +169,7 @@ Region lobed_region(int lobes, double depth) {
 }
 
 Region region_from_file(const std::string& path) {
-    std::ifstream in(path);
-    if (!in || std::filesystem::is_directory(path))
-        throw InputError(fmt::format(
-            "outline: '{}' cannot be read; give a file with a line x,y a corner", path));
+    std::istringstream in(text_file(path, "outline", "a file with a line x,y a corner"));
     std::vector<Point<2>> corners;
     std::string line;
     bool first = true;
@@ -187,7 +185,6 @@ Region region_from_file(const std::string& path) {
         const Point<2> corner(*x, *y);
         if (corners.empty() || corner != corners.back()) corners.push_back(corner);
     }
-    if (in.bad()) throw InputError(fmt::format("outline: '{}' cannot be read to its end", path));
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     if (corners.size() < 3)
         throw InputError(

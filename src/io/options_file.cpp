@@ -3,6 +3,7 @@
 #include "option_entry.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
+#include <spam/io/text_file.hpp>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -16,25 +17,9 @@
 namespace spam {
 namespace {
 
-constexpr std::size_t largest_file = 16 << 20;  // no list of options is longer
-
-/// The whole of a file of options; throws InputError when there is nothing to read.
 std::string text_of(const std::string& path) {
     if (path.empty()) throw InputError("config: must not be empty; give the name of a TOML file");
-    std::error_code error;
-    std::ifstream in(path, std::ios::binary);
-    if (!in || std::filesystem::is_directory(path, error))
-        throw InputError(fmt::format("config: '{}' is not a file that can be read", path));
-    std::string text;
-    for (std::array<char, 4096> part; in;) {
-        in.read(part.data(), part.size());
-        text.append(part.data(), static_cast<std::size_t>(in.gcount()));
-        if (text.size() > largest_file)
-            throw InputError(fmt::format(
-                "config: '{}' is longer than 16 MiB; give a TOML file of options", path));
-    }
-    if (in.bad()) throw InputError(fmt::format("config: '{}' cannot be read to its end", path));
-    return text;
+    return text_file(path, "config", "a TOML file of options");
 }
 
 toml::table table_of(const std::string& text, const std::string& path) {

@@ -20,14 +20,17 @@ std::string without_value(const std::string& complaint) {
                        name.substr(std::min(name.find_first_not_of('-'), name.size())), name);
 }
 
-/// The parser takes "--quiet=", without the value announced, for "--quiet".
-void refuse_missing_value(const std::string& flag, int argc, const char* const* argv) {
-    const std::string announced = "--" + flag + "=";
-    if (std::any_of(argv + std::min(1, argc), argv + argc,
-                    [&](const char* word) { return word == announced; }))
-        throw InputError(
-            fmt::format("{}: the value of --{}= is missing; write --{}, --{}=true or --{}=false",
-                        flag, flag, flag, flag, flag));
+/// The parser takes "--quiet=", without the value announced, for "--quiet", and "--size= --speed" for
+/// "--size --speed".
+void refuse_missing_value(const std::string& name, bool is_flag, int argc,
+                          const char* const* argv) {
+    const std::string announced = "--" + name + "=";
+    if (std::none_of(argv + std::min(1, argc), argv + argc,
+                     [&](const char* word) { return word == announced; }))
+        return;
+    throw InputError(fmt::format("{0}: the value of --{0}= is missing; ", name) +
+                     (is_flag ? fmt::format("write --{0}, --{0}=true or --{0}=false", name)
+                              : fmt::format("write --{0} VALUE or --{0}=VALUE", name)));
 }
 
 /// A word of the command line that is nothing.
@@ -66,6 +69,8 @@ bool Options::parse(int argc, const char* const* argv) {
     const auto* config = app.add_option("--config", config_, "read options from a TOML file")
                              ->type_name("FILE")
                              ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    for (const auto& entry : entries_)
+        refuse_missing_value(entry->name, entry->is_flag, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -97,7 +102,6 @@ bool Options::parse(int argc, const char* const* argv) {
     refuse_option_as_value("config", config_);
     const bool earlier = read_earlier_case(raw, config->count() > 0);
     for (std::size_t k = 0; k < entries_.size(); ++k) {
-        if (entries_[k]->is_flag) refuse_missing_value(entries_[k]->name, argc, argv);
         if (registered[k]->count() == 0) continue;
         refuse_option_as_value(entries_[k]->name, raw[k]);
         const std::string before = entries_[k]->get();

@@ -17,8 +17,16 @@ std::string Problem::recall_case(const std::string& name) {
     if (std::filesystem::is_directory(name, error)) {
         const auto newest = newest_checkpoint(name);
         if (!newest)
-            throw InputError(fmt::format("restart: '{}' holds no complete checkpoint", name));
+            throw InputError(fmt::format(
+                "restart: '{}' holds no complete checkpoint; give the folder of a run that has "
+                "written one, or a checkpoint file",
+                name));
         file = newest->string();
+        if (!std::filesystem::exists(std::filesystem::path(name) / "run.log", error))
+            throw InputError(fmt::format(
+                "restart: '{}' is no folder of results any more (it has no run.log); give its "
+                "checkpoint, --restart {}, and another --out",
+                name, file));
     }
     restart_file_ = file;
     try {
@@ -27,8 +35,9 @@ std::string Problem::recall_case(const std::string& name) {
         throw InputError(fmt::format("restart: {}", refusal.what()));
     }
     if (earlier_->problem != name_)
-        throw InputError(fmt::format("restart: '{}' is a checkpoint of {}, not of {}", file,
-                                     earlier_->problem, name_));
+        throw InputError(fmt::format(
+            "restart: '{}' is a checkpoint of {}, not of {}; go on with ./spam run {} --restart ...",
+            file, earlier_->problem, name_, earlier_->problem));
     return earlier_->case_toml;
 }
 

@@ -2,7 +2,6 @@
 #include "run.hpp"
 
 #include <spam/core/error.hpp>
-#include <spam/diagnostics/total_energy.hpp>
 #include <spam/problem/run_in_memory.hpp>
 
 #include <fmt/format.h>
@@ -10,56 +9,6 @@
 #include <algorithm>
 
 namespace spam {
-namespace {
-
-template <int Dim>
-void add_energy(Ode& ode, Model<Dim>& model, std::size_t& pair_interactions) {
-    ode.no_energy = why_no_energy(model);
-    if (!ode.no_energy.empty()) return;
-    ode.energy = [&model](std::span<const double> y) { return total_energy(model, y); };
-    ode.energy_gradient = [&](double t, std::span<const double> y, std::span<double> gradient) {
-        const std::size_t evaluations = energy_gradient(model, t, y, gradient);
-        pair_interactions += evaluations * model.pairs();
-        return evaluations;
-    };
-}
-
-}  // namespace
-
-template <int Dim>
-Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pair_interactions) {
-    Ode ode;
-    ode.rates = [&](double t, std::span<const double> y, std::span<double> y_dot) {
-        model.rates(t, y, y_dot);
-        pair_interactions += model.pairs();
-    };
-    ode.failure = [&model] { return model.failure(); };
-    ode.entry_name = [&model](std::size_t k) {
-        const auto entry = model.layout().entry(k);
-        std::string name = model.layout().entry_name(k);
-        if (entry.field.role() == Role::account) return name;
-        return fmt::format("{} of particle {}", name, model.particles().id[entry.particle]);
-    };
-    ode.events = model.events();
-    ode.inseparable = model.inseparable();
-    add_energy(ode, model, pair_interactions);
-    for (const auto& block : model.layout().blocks())
-        if (block.field.role() == Role::account)
-            ode.accounts += block.size;
-        else
-            ode.blocks.push_back({std::string(block.field.name()), block.offset, block.size});
-    // With fixed steps GSL alone wants them, and they are as long as y.
-    if (!options.adaptive() && options.method.find("gsl:") != 0) return ode;
-    ode.absolute_tolerance.resize(model.layout().size());
-    // Accounts and what only changes between steps have no say in how long steps are.
-    for (const auto& block : model.layout().blocks())
-        std::fill_n(ode.absolute_tolerance.begin() + static_cast<std::ptrdiff_t>(block.offset),
-                    block.size,
-                    block.field.role() == Role::integrated
-                        ? options.absolute_tolerance(block.field.name(), block.scale)
-                        : std::numeric_limits<double>::infinity());
-    return ode;
-}
 
 double promise_limit(const IntegratorOptions& options, bool smooth) {
     if (options.adaptive()) return std::max(1e-12, 1e3 * std::max(options.rtol, options.atol));
@@ -70,16 +19,13 @@ template <int Dim>
 Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
     : one_(one),
       promise_limit_(promise_limit(options, one.model.smooth())),
-      y_(one.y0.size(), context_),
+      motion_(one.model, one.y0, options),
       recorder_(one.model, one.plan, folder),
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
-    std::copy(one.y0.begin(), one.y0.end(), y_.span().begin());
-    one.y0 = {};  // y holds it from now on
+    one.y0 = {};  // the motion holds it from now on
     record_.label = one.label;
     record_.statistics.particles = one.model.particles().size();
-    ode_ = as_ode(one.model, options, record_.statistics.pair_interactions);
-    integrator_ = make_integrator(options, ode_, y_, 0.0, context_);
     if (folder != nullptr) events_ = *folder / "events.csv";
 }
 
@@ -107,13 +53,7 @@ void Run<Dim>::snapshot(double t, const Watchers& watchers) {
     if (!snapshot_times_.empty() && snapshot_times_.back() == t) return;
     snapshot_times_.push_back(t);
     if (watchers.snapshot) watchers.snapshot(t);
-    if (one_.plan.on_snapshot) one_.plan.on_snapshot(t, one_.model, y_.span());
-}
-
-template <int Dim>
-void Run<Dim>::remember_motion(Archive& archive) {
-    one_.model.remember(archive);
-    integrator_->remember(archive);
+    if (one_.plan.on_snapshot) one_.plan.on_snapshot(t, one_.model, motion_.y());
 }
 
 template <int Dim>
@@ -121,17 +61,21 @@ void Run<Dim>::remember_records(Archive& archive) {
     recorder_.remember(archive);
     archive(guard_);
     double so_far = seconds();
-    archive(record_.remarks, record_.statistics.pair_interactions, so_far, snapshot_times_);
-    if (archive.reading()) seconds_before_ = so_far;
+    std::size_t pairs = pair_interactions();
+    archive(record_.remarks, pairs, so_far, snapshot_times_);
+    if (archive.reading()) {
+        seconds_before_ = so_far;
+        pairs_before_ = pairs - motion_.pair_interactions();
+    }
     if (one_.plan.memory) one_.plan.memory(archive);
 }
 
 template <int Dim>
 CaseMemory Run<Dim>::memory() {
-    CaseMemory memory = case_memory<Dim>(one_.model, y_.span(), integrator_->t());
+    CaseMemory memory = case_memory<Dim>(one_.model, motion_.y(), motion_.t());
     memory.label = one_.label;
     Archive motion, records;
-    remember_motion(motion);
+    motion_.remember(motion);
     remember_records(records);
     memory.motion = motion.bytes();
     memory.records = records.bytes();
@@ -141,9 +85,12 @@ CaseMemory Run<Dim>::memory() {
 template <int Dim>
 void Run<Dim>::recall(const CaseMemory& memory) {
     const auto y = state_of(memory, one_.model);
-    std::copy(y.begin(), y.end(), y_.span().begin());
+    motion_.edit([&](std::span<double> now) {
+        std::copy(y.begin(), y.end(), now.begin());
+        return true;
+    });
     Archive motion(memory.motion), records(memory.records);
-    remember_motion(motion);
+    motion_.remember(motion);
     motion.expect_end();
     remember_records(records);
     records.expect_end();
@@ -157,7 +104,7 @@ template <int Dim>
 void Run<Dim>::checkpoint(const Watchers& watchers) {
     CaseMemory written = memory();
     Archive back(written.motion);
-    remember_motion(back);
+    motion_.remember(back);
     watchers.checkpoint(std::move(written));
 }
 
@@ -172,7 +119,7 @@ void Run<Dim>::rewrite_events() {
 
 template <int Dim>
 void Run<Dim>::watch(double t, const Watchers& watchers) {
-    for (const Remark& remark : one_.model.watch(t, y_.span())) {
+    for (const Remark& remark : one_.model.watch(t, motion_.y())) {
         remember(t, remark);
         if (watchers.remark) watchers.remark(t, remark);
         if (remark.stop)
@@ -202,7 +149,8 @@ void Run<Dim>::guard(double t, const Watchers& watchers) {
 template <int Dim>
 std::string Run<Dim>::limiting() const {
     const auto block = statistics().limiting;
-    return block && *block < ode_.blocks.size() ? ode_.blocks[*block].name : std::string{};
+    return block && *block < motion_.ode().blocks.size() ? motion_.ode().blocks[*block].name
+                                                         : std::string{};
 }
 
 /// Nothing for fixed steps.
@@ -212,15 +160,16 @@ std::vector<RunStatistics::Limit> Run<Dim>::limits() const {
     const auto& s = statistics();
     if (std::all_of(s.limited_by.begin(), s.limited_by.end(), [](auto n) { return n == 0; }))
         return limits;
-    for (std::size_t b = 0; b < std::min(ode_.blocks.size(), s.limited_by.size()); ++b)
-        limits.push_back({ode_.blocks[b].name, s.limited_by[b], s.error_share[b]});
+    for (std::size_t b = 0; b < std::min(motion_.ode().blocks.size(), s.limited_by.size()); ++b)
+        limits.push_back({motion_.ode().blocks[b].name, s.limited_by[b], s.error_share[b]});
     return limits;
 }
 
 template <int Dim>
 void Run<Dim>::complete() {
     RunStatistics& s = record_.statistics;
-    s.t_end = integrator_->t();
+    s.t_end = motion_.t();
+    s.pair_interactions = pair_interactions();
     s.steps = statistics().steps;
     s.rejected_steps = statistics().rejected_steps;
     s.rhs_evaluations = statistics().rhs_evaluations;
@@ -229,7 +178,7 @@ void Run<Dim>::complete() {
     s.wall_seconds = seconds();
     record_.history = recorder_.history();
     record_.drifts = s.invariants = drifts();
-    record_.y.assign(y_.span().begin(), y_.span().end());
+    record_.y.assign(motion_.y().begin(), motion_.y().end());
 }
 
 template <int Dim>
@@ -239,7 +188,7 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     observers.output = [&](double t) {
         const auto& rows = recorder_.history().rows();
         if (!rows.empty() && rows.back().front() == t) return;
-        recorder_.add(t, statistics().last_step, y_.span());
+        recorder_.add(t, statistics().last_step, motion_.y());
         guard(t, watchers);
     };
     observers.snapshot = [&](double t) { snapshot(t, watchers); };
@@ -250,7 +199,9 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         if (watchers.step) watchers.step(t);
     };
     if (plan.revise)
-        observers.revise = [&](double t) { return plan.revise(t, one_.model, y_.span()); };
+        observers.revise = [&](double t) {
+            return motion_.edit([&](std::span<double> y) { return plan.revise(t, one_.model, y); });
+        };
     if (plan.enough) observers.enough = [&](double) { return plan.enough(recorder_.history()); };
 
     std::string reason;
@@ -258,7 +209,7 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         Schedule schedule{plan.t_end, plan.output_every, plan.snapshot_every,
                           plan.checkpoint_every};
         schedule.resumed = resumed_;
-        const int signal = spam::drive(*integrator_, schedule, observers);
+        const int signal = spam::drive(motion_.integrator(), schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const GuardStop& stop) {
@@ -282,9 +233,6 @@ RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
 template class Run<1>;
 template class Run<2>;
 template class Run<3>;
-template Ode as_ode(Model<1>&, const IntegratorOptions&, std::size_t&);
-template Ode as_ode(Model<2>&, const IntegratorOptions&, std::size_t&);
-template Ode as_ode(Model<3>&, const IntegratorOptions&, std::size_t&);
 template RunRecord run_in_memory(Case<1>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<2>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<3>, const IntegratorOptions&);

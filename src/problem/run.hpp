@@ -4,6 +4,7 @@
 #include "checkpoint.hpp"
 #include "recorder.hpp"
 #include <spam/integrate/driver.hpp>
+#include <spam/problem/motion.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -11,10 +12,6 @@
 #include <optional>
 
 namespace spam {
-
-/// What integrators see of a model. `pair_interactions` counts.
-template <int Dim>
-Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pair_interactions);
 
 /// One case on its way: rows, remarks, statistics. What else is to be done at snapshots and steps comes
 /// from outside.
@@ -45,8 +42,8 @@ class Run {
     /// When snapshots were taken.
     const std::vector<double>& snapshot_times() const { return snapshot_times_; }
 
-    std::span<double> y() { return y_.span(); }
-    const Integrator::Statistics& statistics() const { return integrator_->statistics(); }
+    std::span<const double> y() const { return motion_.y(); }
+    const Integrator::Statistics& statistics() const { return motion_.statistics(); }
     /// The field that kept the latest step short; empty where none did.
     std::string limiting() const;
     double seconds() const;
@@ -59,25 +56,23 @@ class Run {
     void watch(double t, const Watchers& watchers);
     void snapshot(double t, const Watchers& watchers);
     void checkpoint(const Watchers& watchers);
-    void remember_motion(Archive& archive);
     void remember_records(Archive& archive);
     void rewrite_events();
     std::vector<RunStatistics::Limit> limits() const;
     void guard(double t, const Watchers& watchers);
     void complete();
+    std::size_t pair_interactions() const { return pairs_before_ + motion_.pair_interactions(); }
 
     Case<Dim>& one_;
     double promise_limit_;
     RunRecord record_;
-    SundialsContext context_;
-    Vector y_;
-    Ode ode_;
-    std::unique_ptr<Integrator> integrator_;
+    Motion<Dim> motion_;
     Recorder<Dim> recorder_;
     DriftGuard guard_;
     std::optional<std::filesystem::path> events_;
     std::chrono::steady_clock::time_point start_;
     double seconds_before_ = 0.0;  ///< a restart
+    std::size_t pairs_before_ = 0;
     std::vector<double> snapshot_times_;
     bool resumed_ = false;
 };

@@ -73,17 +73,14 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
     if (!(plan.t_end > 0.0) || !std::isfinite(plan.t_end))
         throw InputError(fmt::format("t-end: {} must be a number above 0", plan.t_end));
     // Times closer than this would not be told apart, or never be reached.
-    const auto limit = [&](const char* name, const std::optional<double>& interval,
-                           const char* what) {
-        if (interval && !(plan.t_end / *interval <= 1e9))
+    const auto limit = [&](const char* name, double interval, const char* what) {
+        if (!(plan.t_end / interval <= 1e9))
             throw InputError(
-                fmt::format("{}: {} would take {:.0e} {} to t = {:g}; choose a larger one", name,
-                            *interval, plan.t_end / *interval, what, plan.t_end));
+                fmt::format("{}: {}{} would take {:.0e} {} to t = {:g}; choose a larger one", name,
+                            interval, given(name) ? "" : ", which this case chooses,",
+                            plan.t_end / interval, what, plan.t_end));
     };
     refuse_endless(integrator_, plan.t_end);
-    limit("output-every", common.output_every, "rows");
-    limit("snapshot-every", common.snapshot_every, "files");
-    limit("checkpoint-every", common.checkpoint_every, "files");
     plan.output_every = settled(common.output_every, &PlanMemory::output_every, plan.output_every,
                                 plan.t_end / 240.0);
     plan.snapshot_every = settled(common.snapshot_every, &PlanMemory::snapshot_every,
@@ -92,6 +89,9 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
     plan.checkpoint_every = settled(
         common.checkpoint_every, &PlanMemory::checkpoint_every, plan.checkpoint_every,
         std::min(plan.t_end, std::max(1.0, std::ceil(twelfth - 1e-9)) * plan.snapshot_every));
+    limit("output-every", plan.output_every, "rows");
+    limit("snapshot-every", plan.snapshot_every, "files");
+    limit("checkpoint-every", plan.checkpoint_every, "files");
     memory_->plans.push_back(
         {plan.t_end, plan.output_every, plan.snapshot_every, plan.checkpoint_every});
     plan.guard = common.guard;
@@ -153,9 +153,9 @@ void Session::describe(const Case<Dim>& one) {
         std::string tolerances;
         for (const auto& block : one.model.layout().blocks())
             if (block.field.role() == Role::integrated)
-                tolerances += fmt::format(
-                    "{}{} {:.1e}", tolerances.empty() ? "" : ", ", block.field.name(),
-                    integrator_.absolute_tolerance(block.field.name(), block.scale));
+                tolerances +=
+                    fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", block.field.name(),
+                                integrator_.absolute_tolerance(block.field.name(), block.scale));
         terminal_.say(fmt::format("atol        {}", tolerances));
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/integrate/interrupt.hpp>
+#include <spam/problem/motion.hpp>
 #include <spam/problem/trial.hpp>
 
 #include <algorithm>
@@ -19,40 +19,22 @@ double thread_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// An integrator and what it is bound to.
-template <int Dim>
-struct Bound {
-    SundialsContext context;
-    Vector y;
-    std::size_t pairs = 0;
-    Ode ode;
-    std::unique_ptr<Integrator> integrator;
-
-    Bound(const Start<Dim>& start, const IntegratorOptions& options)
-        : y(start.y0.size(), context),
-          ode(as_ode(*start.model, options, pairs)) {
-        std::copy(start.y0.begin(), start.y0.end(), y.span().begin());
-        integrator = make_integrator(options, ode, y, 0.0, context);
-    }
-};
-
 }  // namespace
 
 template <int Dim>
 TrialRun integrate_trial(const Start<Dim>& start, const IntegratorOptions& options, double t_end,
                          std::size_t most_calls) {
-    Bound<Dim> bound(start, options);
-    Integrator& integrator = *bound.integrator;
+    Motion<Dim> motion(*start.model, start.y0, options);
     TrialRun run;
     const double most =
         most_calls > 0 ? static_cast<double>(most_calls) : std::numeric_limits<double>::infinity();
     const double begun = thread_seconds();
     try {
-        while (integrator.t() < t_end && !run.interrupted && run.stopped.empty()) {
-            integrator.step(t_end);
-            const auto calls = static_cast<double>(integrator.statistics().rhs_evaluations);
-            const double part = std::max(integrator.t() / t_end, 0.25);
-            if (calls > most * part && integrator.t() < t_end)
+        while (motion.t() < t_end && !run.interrupted && run.stopped.empty()) {
+            motion.step(t_end);
+            const auto calls = static_cast<double>(motion.statistics().rhs_evaluations);
+            const double part = std::max(motion.t() / t_end, 0.25);
+            if (calls > most * part && motion.t() < t_end)
                 run.stopped = "too many right-hand sides";
             run.interrupted = InterruptWatch::received() != 0;
         }
@@ -60,8 +42,8 @@ TrialRun integrate_trial(const Start<Dim>& start, const IntegratorOptions& optio
         run.stopped = stop.what();
     }
     run.seconds = thread_seconds() - begun;
-    run.statistics = integrator.statistics();
-    run.y.assign(bound.y.span().begin(), bound.y.span().end());
+    run.statistics = motion.statistics();
+    run.y.assign(motion.y().begin(), motion.y().end());
     return run;
 }
 
@@ -83,14 +65,12 @@ double calls_per_step(const Start<Dim>& start, const std::string& method, double
     IntegratorOptions options;
     options.method = method;
     options.dt = dt;
-    Bound<Dim> bound(start, options);
-    const auto calls = [&] {
-        return static_cast<double>(bound.integrator->statistics().rhs_evaluations);
-    };
-    bound.integrator->step(1e3 * dt);  // the first may cost more
+    Motion<Dim> motion(*start.model, start.y0, options);
+    const auto calls = [&] { return static_cast<double>(motion.statistics().rhs_evaluations); };
+    motion.step(1e3 * dt);  // the first may cost more
     const double before = calls();
     constexpr int steps = 4;
-    for (int n = 0; n < steps; ++n) bound.integrator->step(1e3 * dt);
+    for (int n = 0; n < steps; ++n) motion.step(1e3 * dt);
     return (calls() - before) / steps;
 }
 

@@ -14,6 +14,9 @@ namespace spam {
 
 PeriodicSolid triangular_solid(int columns, int rows, const Material<2>& material,
                                const Scheme& scheme, double density, double stress) {
+    if (!(scheme.range <= 1e4))
+        throw InputError(fmt::format("range: {} must not be above 10000 spacings; 2 to 4 are usual",
+                                     scheme.range));
     const Box<2> box = triangular_box(columns, rows);
     if (std::min(box.length(0), box.length(1)) <= 2.0 * scheme.range) {
         const int least = static_cast<int>(2.0 * scheme.range / std::sqrt(0.75)) + 1;
