@@ -52,7 +52,7 @@ typename FieldLayout<Dim>::Entry FieldLayout<Dim>::entry(std::size_t k) const {
 template <int Dim>
 std::string FieldLayout<Dim>::entry_name(std::size_t k) const {
     const Entry e = entry(k);
-    return std::string(e.field.name()) + e.field.suffix<Dim>(e.component);
+    return std::string(e.field.name()) + e.field.template suffix<Dim>(e.component);
 }
 
 template class FieldLayout<1>;

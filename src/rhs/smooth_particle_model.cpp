@@ -256,7 +256,7 @@ template <int Dim>
 std::vector<Remark> SmoothParticleModel<Dim>::watch(double t, std::span<const double> y) {
     if (!gauss_) return {};
     watched_rates_.resize(y.size());
-    rates(t, y, watched_rates_);
+    this->rates(t, y, watched_rates_);
     const bool works = !gauss_->singular();
     if (works == std::exchange(gauss_works_, works)) return {};
     if (works) return {{"gauss constraint works", gauss_->health()}};
