@@ -9,6 +9,9 @@
 
 namespace spam {
 
+Allowed any_number() {
+    return {[](double) { return true; }, "a finite number"};
+}
 Allowed positive() {
     return {[](double x) { return x > 0.0; }, "a number above 0"};
 }

@@ -3,6 +3,8 @@
 #include <spam/core/parallel.hpp>
 #include <spam/rhs/particle_model.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace spam {

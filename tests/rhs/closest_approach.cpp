@@ -5,10 +5,10 @@
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/shape.hpp>
+#include <spam/external/friction.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/physics/closest_approach.hpp>
-#include <spam/external/friction.hpp>
 #include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -228,23 +228,22 @@ namespace {
 struct Gas {
     Box<2> box{std::array<double, 2>{7.0, 7.0}};
     std::unique_ptr<SmoothParticleModel<2>> model;
+    Points<2> v;
     std::vector<double> y0;
 
     explicit Gas(Scheme scheme = touching) {
         std::mt19937_64 random(7);
         std::normal_distribution<double> g;
         const Points<2> x = square_lattice<2>({7, 7});
-        Points<2> v(2, x.cols());
+        v.resize(2, x.cols());
         for (double& c : v.reshaped()) c = g(random);
         std::vector<double> mass;
         for (Eigen::Index i = 0; i < x.cols(); ++i)
             mass.push_back(1.0 + 0.3 * std::tanh(g(random)));
         model = std::make_unique<SmoothParticleModel<2>>(free_particles(x, mass),
                                                          ElasticSolid{0.0, 0.0}, scheme, box);
-        this->v = v;
         y0 = start(*model, v);
     }
-    Points<2> v;
     void add(std::unique_ptr<External<2>> external) {
         model->add(std::move(external));
         y0 = start(*model, v);

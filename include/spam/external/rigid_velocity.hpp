@@ -3,6 +3,8 @@
 
 #include <spam/core/particles.hpp>
 
+#include <Eigen/Geometry>
+
 namespace spam {
 
 /// The velocities of a rigid body, V + omega x (r - R).

@@ -16,6 +16,7 @@ struct Allowed {
     std::function<bool(double)> holds;
     std::string words;
 };
+Allowed any_number();
 Allowed positive();
 Allowed non_negative();
 Allowed at_least(double least);
