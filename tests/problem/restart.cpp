@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(a_thousand_damaged_files_are_refused) {
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
     std::size_t refused = 0;
     std::size_t tried = 0;
-    const std::size_t all = effort(1000, 60);
+    const std::size_t all = effort(1000U, 60U);
     for (int k = 0; tried < all; ++k) {
         std::string damaged = whole;
         if (k % 3 == 0) damaged[below(damaged.size())] ^= static_cast<char>(1 << below(8));
