@@ -157,8 +157,6 @@ class Child {
         for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
         argv.push_back(nullptr);
         if (chdir(launch.folder.c_str()) != 0) _exit(127);
-        // A test that runs in the background may have inherited that it is not to be interrupted.
-        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
         if (launch.before_exec) launch.before_exec();
         execvp(argv[0], argv.data());
         _exit(127);
