@@ -75,6 +75,10 @@ if(NOT SPAM_SANITIZE)  # the sanitizers' functions are in the program
 endif()
 add_executable(test.builds.load_module builds/load_module.cpp)
 target_link_libraries(test.builds.load_module PRIVATE spam_test_main spam_flags ${CMAKE_DL_LIBS})
+if(SPAM_SANITIZE)  # clang adds libraries of its own, which lie beside the one of OpenMP
+  find_package(OpenMP REQUIRED COMPONENTS CXX)
+  target_link_libraries(test.builds.load_module PRIVATE OpenMP::OpenMP_CXX)
+endif()
 target_compile_definitions(test.builds.load_module PRIVATE
                            SPAM_MODULE="$<TARGET_FILE:spam_module>")
 add_dependencies(test.builds.load_module spam_module)

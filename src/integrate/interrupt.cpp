@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstddef>
 #include <string>
@@ -14,9 +15,9 @@ namespace {
 
 constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t received_signal = 0;
-volatile std::sig_atomic_t results_begun = 0;
-volatile std::sig_atomic_t delayed = 0;
+// Handlers may use them, and so may the threads of a study, which begin results all at once.
+std::atomic<int> received_signal = 0, results_begun = 0, delayed = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 /// What the handler says, one line a signal, composed beforehand: a handler may not format.
 std::array<std::string, watched.size()> lines;

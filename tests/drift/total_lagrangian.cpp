@@ -2,6 +2,7 @@
 // What a total-Lagrangian solid keeps while it turns: the standard hexagon (217 particles, speed 0.1
 // at the corners, RK4) and a ball in space. Without its penalty the hexagon drifts off into modes
 // without energy.
+#include "support/effort.hpp"
 #include <spam/core/nvector.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/history.hpp>
@@ -20,6 +21,7 @@
 #include <numbers>
 
 using namespace spam;
+using spam::test::effort;
 
 namespace {
 
@@ -85,18 +87,19 @@ Points<3> ball(int radius) {
 
 BOOST_AUTO_TEST_CASE(the_hexagon_turns_four_times_and_nothing_changes) {
     auto model = hexagon(0.1);
-    const History h = run<2>(model, rigid_rotation(0.1 / 8), 0.1, 4.0 * turn);
+    const double end = effort(4.0, 1.0) * turn;
+    const History h = run<2>(model, rigid_rotation(0.1 / 8), 0.1, end);
     BOOST_TEST(h.largest("shape_error") < 0.03);
     BOOST_TEST(h.smallest("closest_pair") > 0.97);
     BOOST_TEST(h.largest("p") < 1e-12);
     BOOST_TEST(h.largest("L") < 1e-11);
     BOOST_TEST(h.largest("energy") < 1e-8);
-    BOOST_TEST(survival(h).t == 4.0 * turn);
+    BOOST_TEST(survival(h).t == end);
 }
 
 BOOST_AUTO_TEST_CASE(without_the_penalty_its_shape_is_lost) {
     auto model = hexagon(0.0);
-    const History h = run<2>(model, rigid_rotation(0.1 / 8), 0.2, 9.0 * turn);
+    const History h = run<2>(model, rigid_rotation(0.1 / 8), effort(0.2, 0.4), 9.0 * turn);
     BOOST_TEST(h.largest("shape_error") > 0.5);
     BOOST_TEST(h.largest("p") < 1e-12);  // what does not depend on it is kept all the same
     BOOST_TEST(h.largest("L") < 1e-8);
@@ -121,7 +124,7 @@ BOOST_AUTO_TEST_CASE(a_ball_in_space_that_turns_and_rings) {
     const auto velocity = [&](const Point<3>& x) -> Point<3> {
         return omega.cross(x) + Point<3>(0.02 * x[0], -0.01 * x[1], 0.0) + Point<3>(0.1, 0.2, 0.0);
     };
-    const History h = run<3>(model, velocity, 0.05, 250.0);
+    const History h = run<3>(model, velocity, 0.05, effort(250.0, 50.0));
     BOOST_TEST(h.largest("shape_error") < 0.1);
     BOOST_TEST(h.largest("p") < 1e-12);
     BOOST_TEST(h.largest("L") < 1e-9);

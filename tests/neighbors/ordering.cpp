@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(bodies_of_random_particles_by_all_pairs) {
         std::int32_t bodies = 0;
         for (std::size_t i = 0; i < n; ++i)
             expected[i] = lowest[i] == i ? bodies++ : expected[lowest[i]];
-        BOOST_TEST(bodies > 1);
+        if (n > 10) BOOST_TEST(bodies > 1);
         BOOST_TEST(connected_parts<Dim>(x, 1.0, box) == expected, boost::test_tools::per_element());
     };
     const auto drawn_in = [&]<int Dim>(Points<Dim> x, double size) {

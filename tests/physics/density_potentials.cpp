@@ -69,7 +69,8 @@ double force_error(const Sample<Dim>& sample, const Evaluate& evaluate) {
     double worst = 0.0;
     const double h = 2e-4;
     int looked_at = 0;
-    for (Eigen::Index i = 0; i < x.cols(); i += test::effort(3, 12)) {
+    const int stride = Dim == 1 ? 3 : test::effort(3, 12);  // on a line there are few
+    for (Eigen::Index i = 0; i < x.cols(); i += stride) {
         if (near_a_joint(sample, x, i, 1.01 * h)) continue;
         ++looked_at;
         for (int a = 0; a < Dim; ++a) {

@@ -267,7 +267,7 @@ BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
     for (std::size_t number = 0; number < cases.size(); ++number) {
         const auto& [program, base] = cases[number];
         if (!is_mine(number)) continue;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if SPAM_SANITIZED
         if (program != "rotating_hexagon") continue;  // thousands of runs, ten times slower
 #endif
         Comparisons comparisons(program);
@@ -280,7 +280,7 @@ BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
             ++tried;
         }
     }
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !SPAM_SANITIZED
     BOOST_TEST(tried > 100u);
 #endif
 }

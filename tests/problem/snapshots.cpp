@@ -95,7 +95,7 @@ void check_stress(const Vtp& vtp) {
     double largest = 0.0;
     for (std::size_t i = 0; i < s.size(); i += 9) {
         BOOST_TEST(s[i + 1] == s[i + 3]);
-        for (const std::size_t out_of_plane : {2, 5, 6, 7, 8})
+        for (const std::size_t out_of_plane : {2U, 5U, 6U, 7U, 8U})
             BOOST_TEST(s[i + out_of_plane] == 0.0);
         for (std::size_t c = 0; c < 9; ++c) largest = std::max(largest, std::abs(s[i + c]));
     }

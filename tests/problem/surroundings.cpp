@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(files_of_options_from_elsewhere) {
 
 /// OpenMP would end the program, with the status of a check that fails.
 BOOST_AUTO_TEST_CASE(too_many_threads_for_the_limits) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if SPAM_SANITIZED
     return;  // the sanitizer needs terabytes of addresses
 #else
     const Scratch folder;
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(too_many_threads_for_the_limits) {
 }
 
 BOOST_AUTO_TEST_CASE(too_many_particles_for_the_memory) {
-#if defined(__SANITIZE_ADDRESS__)
+#if SPAM_SANITIZED
     return;  // the sanitizer needs terabytes of addresses
 #else
     const Scratch folder;

@@ -12,8 +12,7 @@
 
 #include <atomic>
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__clang__)
+#if defined(__GLIBC__) && !SPAM_SANITIZED && !defined(__clang__)
 #define SPAM_COUNTS_ALLOCATIONS
 #endif
 
