@@ -70,21 +70,23 @@ typename ParticleModel<Dim>::Given ParticleModel<Dim>::apply_to(
     const External<Dim>& external, const typename External<Dim>::Now& now, Eigen::Index first,
     Eigen::Index last) const {
     const bool has_energy = now.rate.has(Field::energy);
-    Eigen::Matrix<double, Dim, block> v_dot;
+    Eigen::Matrix<double, Dim, block> x_dot, v_dot;
     Eigen::Matrix<double, 1, block> e_dot;
     const Eigen::Index count = last - first;
+    x_dot.leftCols(count) = now.rate.position().middleCols(first, count);
     v_dot.leftCols(count) = now.rate.velocity().middleCols(first, count);
     if (has_energy) e_dot.leftCols(count) = now.rate.energy().middleCols(first, count);
     external.add(now, first, last);
     Given given;
     const auto x = now.state.position(), v = now.state.velocity();
-    const auto after = now.rate.velocity();
+    const auto after = now.rate.velocity(), moves = now.rate.position();
     for (Eigen::Index k = 0; k < count; ++k) {
         const Eigen::Index i = first + k;
         const double m = now.particles.mass[static_cast<std::size_t>(i)];
         const Point<Dim> force = m * (after.col(i) - v_dot.col(k));
         given.force += force;
         given.torque += moment<Dim>(x.col(i), force);
+        given.torque += m * moment<Dim>(moves.col(i) - x_dot.col(k), v.col(i));
         given.power += force.dot(v.col(i));
         if (has_energy) given.heat += m * (now.rate.energy()(0, i) - e_dot(0, k));
     }
@@ -96,7 +98,7 @@ void ParticleModel<Dim>::book(const External<Dim>& external, const Given& given,
                               const State<Dim>& rate) const {
     rate.field(Field::impulse) += given.force;
     if constexpr (Dim > 1) rate.field(Field::angular_impulse) += given.torque;
-    if (!external.potential())
+    if (!has_energy(external))
         rate.field(external.thermal() ? Field::heat : Field::work)(0, 0) += given.power;
     rate.field(Field::heat)(0, 0) += given.heat;
 }
@@ -105,7 +107,7 @@ template <int Dim>
 double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
     double energy = pair_energy(y);
     for (const auto& external : externals_)
-        if (external->potential())
+        if (has_energy(*external))
             energy += external->energy(this->particles(), {this->layout(), y});
     return energy;
 }

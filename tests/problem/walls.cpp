@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the problem relaxation: regions, and walls that stand for evenly spread matter outside.
 #include "relaxation/quality.hpp"
-#include "relaxation/walled_model.hpp"
+#include "relaxation/wall.hpp"
 #include "support/process.hpp"
 #include <spam/core/error.hpp>
 

@@ -20,7 +20,7 @@ namespace spam {
 /// the force, the torque, the power and the heat that it gives, and integrates them with y (the accounts
 /// `impulse`, `angular_impulse`, `work`, `heat` of FieldLayout). p - impulse, L - angular_impulse and
 /// E - work - heat are kept as well as the model alone keeps p, L and E, and every run watches them.
-/// An external with a potential takes part in E instead and books no work.
+/// An external with a potential takes part in E instead and books no work, where particles move with v.
 template <int Dim>
 class External {
   public:

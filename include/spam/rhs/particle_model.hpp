@@ -46,6 +46,9 @@ class ParticleModel : public Model<Dim> {
     virtual Promises pair_promises() const = 0;
     virtual std::string pair_description() const = 0;
     virtual double pair_damping() const { return 0.0; }
+    /// Whether x_dot = v: else a potential changes at another rate than its forces do work, and the work is
+    /// booked instead.
+    virtual bool moves_with_velocity() const { return true; }
 
   private:
     /// What one external gives to the particles of a block, per time.
@@ -61,6 +64,10 @@ class ParticleModel : public Model<Dim> {
     Given apply_to(const External<Dim>& external, const typename External<Dim>::Now& now,
                    Eigen::Index first, Eigen::Index last) const;
     void book(const External<Dim>& external, const Given& given, const State<Dim>& rate) const;
+
+    bool has_energy(const External<Dim>& external) const {
+        return external.potential() && moves_with_velocity();
+    }
 
     Externals externals_;
     std::vector<Given> given_;  ///< by block

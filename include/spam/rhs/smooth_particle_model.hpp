@@ -67,6 +67,7 @@ class SmoothParticleModel final : public ParticleModel<Dim> {
     std::vector<Event> pair_events() const override;
     std::string pair_description() const override;
     double pair_damping() const override { return viscous_damping_; }
+    bool moves_with_velocity() const override { return scheme_.transport == Transport::plain; }
 
     bool load(std::span<const double> y, std::span<double> y_dot);
     PackedFields fields(std::span<const double> y) const;
