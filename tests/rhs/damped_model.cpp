@@ -6,6 +6,7 @@
 #include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/bonded_model.hpp>
 #include <spam/rhs/damped_model.hpp>
+#include <spam/rhs/smooth_particle_model.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
@@ -109,6 +110,50 @@ BOOST_AUTO_TEST_CASE(promises_follow) {
     BOOST_CHECK_THROW(DampedModel(disk(), -0.1), InputError);
 }
 
+namespace {
+
+/// A turning disk of smooth particles; shaken it is no rigid rotation, and the constraint works.
+std::unique_ptr<SmoothParticleModel<2>> constrained(AngularMomentum law) {
+    return std::make_unique<SmoothParticleModel<2>>(make_particles<2>(triangular_disk(4.0), 1.5),
+                                                    ElasticSolid{0.7, 0.4},
+                                                    Scheme{.angular_momentum = law, .range = 2.6});
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_model_inside_learns_of_its_bodies) {
+    const auto plain = constrained(AngularMomentum::torque_pair);
+    DampedModel damped(constrained(AngularMomentum::torque_pair), 0.0);
+    const auto y = moving_state(*plain, 0.1);
+    std::vector<double> with(y.size()), without(y.size());
+    plain->rates(0.0, y, without);
+    damped.rates(0.0, y, with);
+    BOOST_TEST((with == without));
+    std::vector<std::int32_t> halves;
+    for (const auto& x : plain->particles().reference_position.colwise())
+        halves.push_back(x.x() > 0.1 ? 1 : 0);
+    const auto before = without;
+    plain->set_bodies(halves);
+    damped.set_bodies(halves);
+    plain->rates(0.0, y, without);
+    damped.rates(0.0, y, with);
+    BOOST_TEST((without != before));
+    BOOST_TEST((with == without));
+    BOOST_TEST(damped.particles().body == halves, boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(the_model_inside_is_remembered) {
+    Archive written, inside;
+    DampedModel damped(constrained(AngularMomentum::gauss), friction_gamma);
+    const auto plain = constrained(AngularMomentum::gauss);
+    damped.remember(written);
+    plain->remember(inside);
+    // The bodies of the wrapper, then all that the model knows.
+    BOOST_TEST(written.bytes().size() > inside.bytes().size());
+    BOOST_TEST(
+        std::equal(inside.bytes().rbegin(), inside.bytes().rend(), written.bytes().rbegin()));
+}
+
 BOOST_AUTO_TEST_CASE(virial_stress_is_that_of_the_elastic_solid) {
     BondedModel<2> model(make_particles<2>(triangular_disk(4.0), 1.0), HarmonicSpring{});
     const double e = 1e-6, xx = 3.0 * e, yy = 0.5 * e, xy = 2.0 * e;
@@ -137,4 +182,12 @@ BOOST_AUTO_TEST_CASE(disks_hold_every_site_within_their_radius) {
     BOOST_TEST(triangular_disk(8.0).cols() == 241);  // the ball of [HH07]
     BOOST_TEST(triangular_disk(16.0, 2.0).cols() == 241);
     BOOST_TEST(triangular_disk(12.3).colwise().norm().maxCoeff() <= 12.3);
+    // Sites on the rim itself, by whole numbers: |a e_1 + b e_2|^2 = a^2 + a b + b^2.
+    for (int square = 1; square <= 150; ++square) {
+        int sites = 0;
+        for (int a = -15; a <= 15; ++a)
+            for (int b = -15; b <= 15; ++b) sites += a * a + a * b + b * b <= square ? 1 : 0;
+        for (const double spacing : {1.0, 0.7, 0.01})
+            BOOST_TEST(triangular_disk(std::sqrt(square) * spacing, spacing).cols() == sites);
+    }
 }
