@@ -63,7 +63,8 @@ class Cells {
             // What was flung away may lie further than an integer counts.
             const double c = std::floor(box_.wrap(axis, x_(axis, i)) * per_width_[a]);
             cell[a] = static_cast<std::int64_t>(std::abs(c) < 1e15 ? c : 1e15);
-            if (count_[a] > 0) cell[a] = std::min(cell[a], count_[a] - 1);
+            // Next to the border rounding may lead to the other side of it.
+            if (count_[a] > 0) cell[a] = std::clamp<std::int64_t>(cell[a], 0, count_[a] - 1);
         }
         return cell;
     }

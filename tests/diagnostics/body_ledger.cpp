@@ -79,6 +79,19 @@ BOOST_AUTO_TEST_CASE(bodies_join_while_they_can_act_on_each_other) {
     BOOST_TEST(ledger.entries().back().parents[0].size() == 2u);
 }
 
+BOOST_AUTO_TEST_CASE(bodies_that_fly_towards_each_other_come_nearer_twice_as_fast) {
+    for (const double until_next : {0.051, 0.04}) {
+        TwoHexagons two(2.5);
+        BodyLedger ledger;
+        ledger.look(0.0, two.model, two.y, 0.0);
+        two.move_apart(0.3);  // 0.1 out of reach
+        const State<2> state(two.model.layout(), two.y);
+        for (Eigen::Index i = 0; i < state.velocity().cols(); ++i)
+            state.velocity().col(i) << (state.position()(0, i) > 0.0 ? -1.0 : 1.0), 0.0;
+        BOOST_TEST(ledger.look(1.0, two.model, two.y, until_next) == (until_next < 0.045));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_body_that_loses_angular_momentum_is_noticed) {
     TwoHexagons two(4.0);
     BodyLedger ledger;

@@ -42,6 +42,20 @@ BOOST_AUTO_TEST_CASE(angular_momentum_in_space_is_a_vector) {
     BOOST_TEST((measure_invariants<3>(model, y).angular_momentum - L).norm() < 1e-12);
 }
 
+BOOST_AUTO_TEST_CASE(what_neighbours_exchange_at_a_mean_distance_and_speed) {
+    BondedModel<2> model(make_particles<2>(triangular_hexagon(3), 1.5), {});
+    auto y = initial_state<2>(model, 1.0, 1.0, rigid_rotation(0.1));
+    State<2>(model.layout(), y).position() *= 1.01;
+    const ConstState<2> s(model.layout(), y);
+    const auto scales = measure_scales<2>(model, y);
+    const auto tolerance = boost::test_tools::tolerance(1e-12);
+    BOOST_TEST(scales.force == model.neighbour_forces(y));
+    BOOST_TEST(scales.force > 0.1);
+    BOOST_TEST(scales.torque == scales.force * s.position().colwise().norm().mean(), tolerance);
+    BOOST_TEST(scales.power == scales.force * s.velocity().colwise().norm().mean(), tolerance);
+    BOOST_TEST(scales.momentum == 1.5 * s.velocity().colwise().norm().sum(), tolerance);
+}
+
 BOOST_AUTO_TEST_CASE(shape_error_ignores_rigid_motion) {
     const Points<2> shape = triangular_hexagon(4);
     const Points<2> turned =
@@ -98,6 +112,9 @@ BOOST_AUTO_TEST_CASE(history_answers_by_name) {
     BOOST_TEST(h.at(-1.0, "energy") == 2.0);
     BOOST_TEST(h.at(9.0, "energy") == 1.0);
     BOOST_CHECK_THROW(h.column("enrgy"), std::out_of_range);
+    h.add({4.0, std::nan("")});
+    h.add({5.0, 2.5});
+    BOOST_TEST(std::isnan(h.largest_change("energy")));
 }
 
 BOOST_AUTO_TEST_CASE(drifts_are_judged_by_the_promise) {

@@ -51,6 +51,16 @@ BOOST_AUTO_TEST_CASE(slots_that_follow_each_other_are_neighbours) {
     neighbours_in_memory<3>(8000, 20.0);
 }
 
+// Few in a bin are sorted in another way than many.
+BOOST_AUTO_TEST_CASE(ties_keep_the_lower_number_first) {
+    for (const Eigen::Index n : {40, 400}) {
+        const Points<2> same = Points<2>::Constant(2, n, 3.0);
+        StripSort<2> strips;
+        strips.build(same, {});
+        BOOST_TEST(std::is_sorted(strips.order().begin(), strips.order().end()));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(bodies_are_connected_parts) {
     Points<2> x(2, 7);
     x << 0, 10, 1, 11, 2, 12, 30,  //
@@ -61,6 +71,36 @@ BOOST_AUTO_TEST_CASE(bodies_are_connected_parts) {
     // Across a periodic boundary the last joins the first.
     const auto joined = connected_parts<2>(x, 1.2, Box<2>({31.0, 0.0}));
     BOOST_TEST(joined[6] == 0);
+}
+
+// Periods that are no whole number of reaches; places next to the border, which rounding may take for the
+// other side.
+BOOST_AUTO_TEST_CASE(bodies_in_boxes_of_any_length) {
+    std::size_t apart = 0, cut = 0;
+    for (int k = 0; k < 1000; ++k) {
+        const double length = 5.0 + 0.013 * k;
+        const Box<1> box({length});
+        Points<1> x(1, 2);
+        for (double at = 0.0; at < length; at += 0.09) {
+            x << at, at + 0.99;
+            apart += connected_parts<1>(x, 1.0, box).back() == 0 ? 0 : 1;
+        }
+        for (double last = length; last > length * (1.0 - 1e-15);) {
+            last = std::nextafter(last, 0.0);
+            x << last, 0.1;
+            cut += connected_parts<1>(x, 1.0, box).back() == 0 ? 0 : 1;
+        }
+    }
+    BOOST_TEST(apart == 0U);
+    BOOST_TEST(cut == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(who_is_as_far_as_the_reach_is_not_connected) {
+    const Points<2> x = square_lattice<2>({4, 3});
+    for (const Box<2>& box : {Box<2>(), Box<2>({4.0, 3.0})}) {
+        BOOST_TEST(connected_parts<2>(x, 1.0, box).back() == 11);
+        BOOST_TEST(connected_parts<2>(x, 1.0 + 1e-12, box).back() == 0);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(bodies_of_random_particles_by_all_pairs) {

@@ -3,6 +3,7 @@
 #include <spam/kernel/general_weight.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/neighbors/box.hpp>
+#include <spam/physics/gauss_constraint.hpp>
 #include <spam/physics/mean_density.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/physics/torque_balance.hpp>
@@ -168,6 +169,29 @@ BOOST_AUTO_TEST_CASE(torques_of_one_sign_are_scaled_away) {
     BOOST_TEST(torque_balance(2.0, 0.0, -0.5).positive == 0.25);  // or so as to cancel X
     BOOST_TEST(torque_balance(0.0, 2.0, 0.5).negative == 0.25);
     BOOST_TEST(torque_balance(0.0, 0.0, 0.0).positive == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_multipliers_of_gauss_and_where_they_are_left_off) {
+    const double I = 4.0, L = 1.5, twice_K = 3.0, health = 1.0 - L * L / (twice_K * I);
+    // L_dot that uses up the rest of K before `part` of half a radian.
+    const auto after = [&](double part) { return -I * health * twice_K / (I * part); };
+    for (const double part : {1.01, 1.5, 30.0})
+        for (const double sign : {1.0, -1.0}) {
+            const GaussMultipliers m = gauss_multipliers(I, L, twice_K, sign * after(part));
+            BOOST_TEST(!m.singular);
+            BOOST_TEST(m.health == health, boost::test_tools::tolerance(1e-14));
+            BOOST_TEST(m.alpha == sign * L / (I * part), boost::test_tools::tolerance(1e-14));
+            BOOST_TEST(m.beta == m.alpha * twice_K / L, boost::test_tools::tolerance(1e-14));
+        }
+    for (const double part : {0.99, 0.6, 0.01})
+        for (const double sign : {1.0, -1.0}) {
+            const GaussMultipliers m = gauss_multipliers(I, L, twice_K, sign * after(part));
+            BOOST_TEST(m.singular);
+            BOOST_TEST(m.alpha == 0.0);
+            BOOST_TEST(m.beta == 0.0);
+        }
+    BOOST_TEST(gauss_multipliers(I, std::sqrt(twice_K * I), twice_K, 1.0).singular);  // rigid
+    BOOST_TEST(!gauss_multipliers(I, 0.0, 0.0, 0.0).singular);                        // at rest
 }
 
 BOOST_AUTO_TEST_CASE(a_particle_does_not_act_on_itself) {

@@ -175,6 +175,24 @@ BOOST_AUTO_TEST_CASE(bodies_found_anew_are_kept_from_then_on) {
     BOOST_TEST(torque_residual(model, 3, 1) < 1e-13);
 }
 
+BOOST_AUTO_TEST_CASE(that_the_constraint_works_is_remarked_once_also_after_a_restart) {
+    const Scheme scheme{.angular_momentum = AngularMomentum::gauss, .range = 2.6};
+    const auto particles = jittered_particles<2>(7, 1);
+    SmoothParticleModel<2> model(particles, solid, scheme), again(particles, solid, scheme);
+    auto y = random_state(model, 8);
+    const State<2> state(model.layout(), y);
+    for (Eigen::Index i = 0; i < state.position().cols(); ++i)  // much to keep
+        state.velocity().col(i) += Point<2>(-state.position()(1, i), state.position()(0, i));
+    BOOST_TEST(model.watch(1.0, y).size() == 1U);
+    BOOST_TEST(model.watch(2.0, y).empty());
+    Archive written;
+    model.remember(written);
+    Archive reading(written.bytes());
+    again.remember(reading);
+    reading.expect_end();
+    BOOST_TEST(again.watch(3.0, y).empty());
+}
+
 BOOST_AUTO_TEST_CASE(the_average_velocity_needs_its_own_term_in_the_balance) {
     Scheme scheme{.transport = Transport::average,
                   .angular_momentum = AngularMomentum::torque_pair,

@@ -182,4 +182,12 @@ BOOST_AUTO_TEST_CASE(disks_hold_every_site_within_their_radius) {
     BOOST_TEST(triangular_disk(8.0).cols() == 241);  // the ball of [HH07]
     BOOST_TEST(triangular_disk(16.0, 2.0).cols() == 241);
     BOOST_TEST(triangular_disk(12.3).colwise().norm().maxCoeff() <= 12.3);
+    // Sites on the rim itself, by whole numbers: |a e_1 + b e_2|^2 = a^2 + a b + b^2.
+    for (int square = 1; square <= 150; ++square) {
+        int sites = 0;
+        for (int a = -15; a <= 15; ++a)
+            for (int b = -15; b <= 15; ++b) sites += a * a + a * b + b * b <= square ? 1 : 0;
+        for (const double spacing : {1.0, 0.7, 0.01})
+            BOOST_TEST(triangular_disk(std::sqrt(square) * spacing, spacing).cols() == sites);
+    }
 }

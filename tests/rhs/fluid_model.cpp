@@ -237,6 +237,27 @@ BOOST_AUTO_TEST_CASE(states_outside_the_law_name_the_particle) {
     BOOST_TEST(says(integrated.failure(), "density -0.2 of particle"), integrated.failure());
 }
 
+BOOST_AUTO_TEST_CASE(a_gas_may_be_as_cold_as_can_be) {
+    for (const Fluid& fluid : {Fluid{IdealGas{}}, Fluid{VanDerWaals{0.5, 0.2, 2}}}) {
+        FluidModel<2> model(jittered_particles<2>(8, 31), fluid, {.range = 2.6});
+        const auto& x = model.particles().reference_position;
+        auto y = model.state(x, Points<2>::Zero(2, x.cols()), 0.0);
+        BOOST_TEST(std::isfinite(rates_of(model, y).front()), model.failure());
+        BOOST_TEST(model.failure().empty(), model.failure());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(friction_alone_costs_the_angular_momentum) {
+    const auto promise = [](const Fluid& fluid) {
+        return FluidModel<2>(jittered_particles<2>(8, 31), fluid, {.range = 2.6})
+            .promises()
+            .angular_momentum;
+    };
+    BOOST_TEST((promise({IdealGas{}}) == Promise::integrator_error));
+    BOOST_TEST((promise({IdealGas{}, {}, FourierConduction{0.7}}) == Promise::integrator_error));
+    BOOST_TEST((promise({IdealGas{}, NewtonViscosity{0.2, 0.3}}) == Promise::not_kept));
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
     FluidModel<2> dense(jittered_particles<2>(8, 31), {VanDerWaals{0.5, 3.0, 2}}, {.range = 2.6});
     const Points<2> x = dense.particles().reference_position;
@@ -248,6 +269,8 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
     }
     const Fluid gas{IdealGas{}};
     BOOST_TEST(why_refused(gas, {.range = 2.6}).empty());
+    for (const double range : {3.9, 3.95, 3.99, 3.999})  // a tight box leaves little room, but some
+        BOOST_TEST(why_refused(gas, {.range = range}, periodic<2>(8.0)).empty());
     BOOST_TEST(says(why_refused(gas, {.density = Density::chain_rule}), "density: chain_rule"));
     BOOST_TEST(says(why_refused(gas, {.range = 0.9}), "range"));
     BOOST_TEST(says(why_refused(gas, {.range = 4.1}, periodic<2>(8.0)), "box: periodic length 8"));

@@ -3,8 +3,11 @@
 // (diagnostics/diffusion_waves.hpp): what comes out of the equations of motion against lattice sums.
 #include "support/random_state.hpp"
 #include <spam/diagnostics/diffusion_waves.hpp>
+#include <spam/material/elastic_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/rhs/fluid_model.hpp>
+#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/setup/initial_state.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -193,4 +196,45 @@ BOOST_AUTO_TEST_CASE(the_fastest_damping_is_announced) {
             BOOST_TEST(model.fastest_damping() > fastest);
             BOOST_TEST(model.fastest_damping() < 2.0 * fastest);
         }
+}
+
+namespace {
+
+/// The same of a solid without stress and its artificial viscosity. That acts on those who approach: no
+/// matrix, but changes still tend towards what decays fastest.
+double fastest_decay(SmoothParticleModel<2>& model, std::vector<double> y) {
+    const State<2> state(model.layout(), y);
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> g;
+    Points<2> v(2, state.velocity().cols());
+    for (auto& c : v.reshaped()) c = g(random);
+    double fastest = 0.0;
+    for (int n = 0; n < 200; ++n) {
+        v *= 1e-6 / v.norm();
+        state.velocity() = v;
+        const auto now = rates_of(model, y);
+        const Points<2> a = ConstState<2>(model.layout(), now).velocity();
+        fastest = std::max(fastest, -v.cwiseProduct(a).sum() / v.squaredNorm());
+        v = -a;
+    }
+    return fastest;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_fastest_damping_of_a_solid_is_announced) {
+    const Box<2> box({12.0, 12.0});
+    for (const Kernel kernel : {Kernel::lucy, Kernel::w5}) {
+        SmoothParticleModel<2> model(
+            make_particles<2>(square_lattice<2>({12, 12}), 1.3, 1.0, box),
+            ElasticSolid::triangular_lattice(),
+            {.density = Density::summed, .viscosity = 0.7, .kernel = kernel, .range = 3.0}, box);
+        const auto y = initial_state<2>(model, 1.3, 1.0, at_rest<2>());
+        const double fastest = fastest_decay(model, y);
+        BOOST_TEST_MESSAGE(model.describe()
+                           << ": " << fastest << ", announced " << model.fastest_damping());
+        BOOST_TEST(fastest > 0.0);
+        BOOST_TEST(model.fastest_damping() > 0.9 * fastest);
+        BOOST_TEST(model.fastest_damping() < 1.3 * fastest);
+    }
 }

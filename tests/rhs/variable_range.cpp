@@ -179,6 +179,72 @@ BOOST_AUTO_TEST_CASE(bits) {
     BOOST_TEST(v_dot.col(0).norm() > 0.01);
 }
 
+// Between two lists particles come nearer and ranges grow: nobody within a range is missed.
+BOOST_AUTO_TEST_CASE(lists_reach_as_far_as_ranges_that_grow) {
+    const auto particles = jittered_particles<2>(24, 101);
+    const VariableRangeScheme scheme{2.4, Kernel::w2};
+    VariableRangeModel<2> used(particles, {LucyGas{}}, scheme);
+    auto y = start(used, 102);
+    const auto mass =
+        Eigen::RowVectorXd::Map(particles.mass.data(), Eigen::Index(particles.size()));
+    State<2>(used.layout(), y).density() = mass;  // the same range for all
+    rates_of(used, y);
+    std::mt19937_64 random(103);
+    std::uniform_real_distribution<double> angle(0.0, 6.283185307179586);
+    for (double growth = 1.01; growth < 1.25; growth += 0.01) {
+        auto z = y;
+        const State<2> state(used.layout(), z);
+        state.density() = mass / (growth * growth);
+        auto x = state.position();
+        for (Eigen::Index i = 0; i < x.cols(); ++i) {
+            const double a = angle(random);
+            x.col(i) += 0.08 * Point<2>(std::cos(a), std::sin(a));
+        }
+        VariableRangeModel<2> fresh(particles, {LucyGas{}}, scheme);
+        BOOST_TEST(relative_difference(rates_of(used, z), rates_of(fresh, z)) < 1e-12);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(ranges_of_nearly_half_of_a_periodic_box) {
+    for (const double length : {9.0, 9.5, 10.0, 11.0}) {
+        const Box<2> box({length, length});
+        auto model = gas<2>(9, {LucyGas{}}, {2.4}, box);
+        auto y = start(model, 104);
+        const auto h = model.ranges(y);
+        const double longest = *std::max_element(h.begin(), h.end());
+        // The longest becomes 0.48 of the box.
+        State<2>(model.layout(), y).density() *= std::pow(longest / (0.48 * length), 2);
+        const auto y_dot = rates_of(model, y);
+        BOOST_TEST(model.failure().empty(), model.failure());
+        BOOST_TEST(std::isfinite(y_dot.back()));
+    }
+}
+
+// As a run that writes a checkpoint goes on, and one that begins there.
+BOOST_AUTO_TEST_CASE(after_reading_what_was_remembered_rates_are_those_of_a_model_made_anew) {
+    const Box<2> box({24.0, 24.0});
+    const auto particles = jittered_particles<2>(24, 105, 0.15, box);
+    const VariableRangeScheme scheme{2.4, Kernel::lucy};
+    VariableRangeModel<2> used(particles, {LucyGas{}}, scheme, box);
+    VariableRangeModel<2> fresh(particles, {LucyGas{}}, scheme, box);
+    std::mt19937_64 random(107);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    const auto mixed = [&](Points<2> x, double by) {
+        for (auto& c : x.reshaped()) c += by * u(random);
+        return used.state(x, Points<2>::Random(2, x.cols()), 1.0);
+    };
+    // In no order: the list is sorted into strips, by where the particles are then.
+    const auto before = mixed(particles.reference_position, 20.0);
+    const auto y = mixed(ConstState<2>(used.layout(), before).position(), 0.05);
+    rates_of(used, before);
+    BOOST_TEST((rates_of(used, y) != rates_of(fresh, y)));  // in the last digits
+    Archive written;
+    used.remember(written);
+    Archive reading(written.bytes());
+    used.remember(reading);
+    BOOST_TEST((rates_of(used, y) == rates_of(fresh, y)));
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto particles = jittered_particles<2>(8, 96);
     using Model = VariableRangeModel<2>;
@@ -195,6 +261,9 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     State<2>(model.layout(), y).density()(0, 5) = -1.0;
     rates_of(model, y);
     BOOST_TEST(model.failure().find("not positive") != std::string::npos, model.failure());
+    y = start(model, 98);
+    BOOST_TEST(std::isfinite(rates_of(model, y).front()));
+    BOOST_TEST(model.failure().empty(), model.failure());
     y = start(model, 98);
     State<2>(model.layout(), y).energy()(0, 5) = -1.0;
     rates_of(model, y);
