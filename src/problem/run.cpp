@@ -10,15 +10,10 @@
 
 namespace spam {
 
-double promise_limit(const IntegratorOptions& options, bool smooth) {
-    if (options.adaptive()) return std::max(1e-12, 1e3 * std::max(options.rtol, options.atol));
-    return smooth ? 1e-6 : 1e-4;
-}
-
 template <int Dim>
 Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
     : one_(one),
-      promise_limit_(promise_limit(options, one.model.smooth())),
+      promise_limit_(promise_limit(options, one.model)),
       motion_(one.model, one.y0, options),
       recorder_(one.model, one.plan, folder),
       guard_(one.plan.guard),

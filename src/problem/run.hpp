@@ -78,7 +78,12 @@ class Run {
 };
 
 /// The change that 'to integrator error' allows. With fixed steps a method keeps its order only where
-/// rates are `smooth`.
-double promise_limit(const IntegratorOptions& options, bool smooth);
+/// rates are smooth; and where externals drive or damp the motion, steps are chosen for what it comes to,
+/// not for the rough start that the balance of energy and work remembers.
+template <int Dim>
+double promise_limit(const IntegratorOptions& options, const Model<Dim>& model) {
+    if (options.adaptive()) return std::max(1e-12, 1e3 * std::max(options.rtol, options.atol));
+    return model.smooth() && !model.layout().has(Field::work) ? 1e-6 : 1e-4;
+}
 
 }  // namespace spam

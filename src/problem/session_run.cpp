@@ -140,9 +140,9 @@ void Session::describe(const Case<Dim>& one) {
         fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
     terminal_.say(
         fmt::format("checkpoints every {:.6g}, and at the end", one.plan.checkpoint_every));
-    terminal_.say(fmt::format("guard       {}",
-                              one.plan.guard.describe(drifts_at_start(
-                                  p, Dim, promise_limit(integrator_, one.model.smooth())))));
+    terminal_.say(fmt::format(
+        "guard       {}",
+        one.plan.guard.describe(drifts_at_start(p, Dim, promise_limit(integrator_, one.model)))));
     for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
                                          std::pair{"snapshot-every", one.plan.snapshot_every}})
         if (given(name) && interval > one.plan.t_end)

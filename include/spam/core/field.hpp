@@ -12,9 +12,9 @@ namespace spam {
 
 /// How many numbers a field holds, and how a rotation, a mirror or an image changes them.
 enum class Rank {
-    scalar,     ///< 1 number
-    vector,     ///< D
-    axial,      ///< D (D - 1)/2: one number for each plane of rotation, z in the plane, x y z in space
+    scalar,  ///< 1 number
+    vector,  ///< D
+    axial,   ///< D (D - 1)/2: one number for each plane of rotation, z in the plane, x y z in space
     symmetric,  ///< D (D + 1)/2, in the order of symmetric_index()
     tensor      ///< D^2, row by row
 };
@@ -22,8 +22,8 @@ enum class Rank {
 /// How a field of y changes, and who holds it.
 enum class Role {
     integrated,  ///< of every particle, with a rate
-    history,     ///< of every particle, rate zero: changed between steps only (a plastic strain, damage)
-    account      ///< of the whole system, with a rate: what externals have given (work, heat, impulse)
+    history,  ///< of every particle, rate zero: changed between steps only (a plastic strain, damage)
+    account  ///< of the whole system, with a rate: what externals have given (work, heat, impulse)
 };
 
 /// A field that y may hold, as its author declares it, once and for good:
@@ -72,18 +72,19 @@ class Field {
         if (rank() == Rank::vector || rank() == Rank::axial) return {'_', axes[component]};
         for (std::size_t a = 0; a < Dim; ++a)
             for (std::size_t b = 0; b < Dim; ++b) {
-                const std::size_t at =
-                    rank() == Rank::tensor
-                        ? a * Dim + b
-                        : static_cast<std::size_t>(
-                              symmetric_index(Dim, static_cast<int>(a), static_cast<int>(b)));
+                const std::size_t at = rank() == Rank::tensor
+                                           ? a * Dim + b
+                                           : static_cast<std::size_t>(symmetric_index(
+                                                 Dim, static_cast<int>(a), static_cast<int>(b)));
                 if ((rank() == Rank::tensor || a <= b) && at == component)
                     return {'_', axes[a], axes[b]};
             }
         return {};
     }
 
-    friend constexpr bool operator==(const Field& a, const Field& b) { return a.name() == b.name(); }
+    friend constexpr bool operator==(const Field& a, const Field& b) {
+        return a.name() == b.name();
+    }
 
     static const Field position, velocity, density, stress, energy;
     static const Field work, heat, impulse, angular_impulse;
@@ -107,12 +108,12 @@ inline constexpr FieldKind angular_impulse{"angular_impulse", Rank::axial, Role:
 
 inline constexpr Field Field::position{field_kind::position};
 inline constexpr Field Field::velocity{field_kind::velocity};
-inline constexpr Field Field::density{field_kind::density};    ///< by continuity
-inline constexpr Field Field::stress{field_kind::stress};      ///< tension positive
-inline constexpr Field Field::energy{field_kind::energy};      ///< internal, by mass
-inline constexpr Field Field::work{field_kind::work};          ///< done on the particles by externals
-inline constexpr Field Field::heat{field_kind::heat};          ///< given to them by externals
-inline constexpr Field Field::impulse{field_kind::impulse};    ///< time integral of external forces
+inline constexpr Field Field::density{field_kind::density};  ///< by continuity
+inline constexpr Field Field::stress{field_kind::stress};    ///< tension positive
+inline constexpr Field Field::energy{field_kind::energy};    ///< internal, by mass
+inline constexpr Field Field::work{field_kind::work};        ///< done on the particles by externals
+inline constexpr Field Field::heat{field_kind::heat};        ///< given to them by externals
+inline constexpr Field Field::impulse{field_kind::impulse};  ///< time integral of external forces
 inline constexpr Field Field::angular_impulse{field_kind::angular_impulse};  ///< of their torques
 
 /// The fields that have options of their own (--atol-NAME) and columns in the studies of integrators.
