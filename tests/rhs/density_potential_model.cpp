@@ -316,20 +316,6 @@ BOOST_AUTO_TEST_CASE(states_without_meaning_are_named) {
     BOOST_TEST(model.failure().empty());
 }
 
-// Twice the masses in a law of twice the density: the same energies, pressures and forces.
-BOOST_AUTO_TEST_CASE(what_neighbours_exchange_counts_masses_once) {
-    const auto forces = [](double factor) {
-        DensityPotentials p{.kernel = Kernel::w5, .range = 2.3};
-        p.state = EmbeddedAtom{1.3, 0.9 * factor};
-        auto particles = jittered_particles<2>(8, 98);
-        for (double& m : particles.mass) m *= factor;
-        const DensityPotentialModel<2> model(std::move(particles), p);
-        return model.neighbour_forces(random_state(model, 99));
-    };
-    BOOST_TEST(forces(1.0) > 1.0);
-    BOOST_TEST(forces(2.0) == forces(1.0), boost::test_tools::tolerance(1e-13));
-}
-
 BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto with = [](const auto& change) {
         DensityPotentials p = everything<2>();

@@ -4,6 +4,8 @@
 #include "support/random_state.hpp"
 #include <spam/core/error.hpp>
 #include <spam/kernel/lucy.hpp>
+#include <spam/material/embedded_atom.hpp>
+#include <spam/rhs/density_potential_model.hpp>
 #include <spam/rhs/pair_potential_model.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -85,4 +87,18 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto particles = jittered_particles<2>(8, 83);
     BOOST_CHECK_THROW(PairPotentialModel<2>(particles, 0.9), InputError);
     BOOST_CHECK_THROW(PairPotentialModel<2>(particles, 4.1, Box<2>({8.0, 8.0})), InputError);
+}
+
+// Twice the masses in a law of twice the density: the same energies, pressures and forces.
+BOOST_AUTO_TEST_CASE(what_neighbours_exchange_counts_masses_once) {
+    const auto forces = [](double factor) {
+        DensityPotentials p{.kernel = Kernel::w5, .range = 2.3};
+        p.state = EmbeddedAtom{1.3, 0.9 * factor};
+        auto particles = jittered_particles<2>(8, 98);
+        for (double& m : particles.mass) m *= factor;
+        const DensityPotentialModel<2> model(std::move(particles), p);
+        return model.neighbour_forces(random_state(model, 99));
+    };
+    BOOST_TEST(forces(1.0) > 1.0);
+    BOOST_TEST(forces(2.0) == forces(1.0), boost::test_tools::tolerance(1e-13));
 }
