@@ -41,7 +41,8 @@ SideBySide::SideBySide(std::vector<std::unique_ptr<Model<2>>> parts)
     : Model<2>(together(parts), parts.front()->box(), fields_of(parts)),
       parts_(std::move(parts)) {
     for (const auto& part : parts_) {
-        if (!part->events().empty()) throw std::invalid_argument("models side by side have no events");
+        if (!part->events().empty())
+            throw std::invalid_argument("models side by side have no events");
         y_.emplace_back(part->layout().size());
         y_dot_.emplace_back(part->layout().size());
         for (const auto& block : part->layout().blocks())

@@ -6,7 +6,6 @@
 #include <spam/external/external.hpp>
 #include <spam/kernel/lucy.hpp>
 
-
 #include <cstdint>
 #include <vector>
 

@@ -16,9 +16,9 @@ void FieldLayout<Dim>::add(Field field) {
     const std::size_t components = field.components<Dim>();
     if (has(field) || components == 0) return;
     const std::size_t size = field.role() == Role::account ? components : components * particles_;
-    const auto behind = std::upper_bound(
-        blocks_.begin(), blocks_.end(), field.place(),
-        [](int place, const Block& block) { return place < block.field.place(); });
+    const auto behind =
+        std::upper_bound(blocks_.begin(), blocks_.end(), field.place(),
+                         [](int place, const Block& block) { return place < block.field.place(); });
     blocks_.insert(behind, {field, components, 0, size, 1.0});
     size_ = 0;
     for (Block& block : blocks_) {

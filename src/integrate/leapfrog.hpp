@@ -23,8 +23,8 @@ class Leapfrog final : public FixedSteps {
     void forget() override { known_ = false; }
 
     SeparableBlocks at_;
-    Vector a_, a_end_;       ///< rates at y_ and z_, of which the accelerations count
-    bool known_ = false;     ///< a_ is that of y_
+    Vector a_, a_end_;    ///< rates at y_ and z_, of which the accelerations count
+    bool known_ = false;  ///< a_ is that of y_
 };
 
 }  // namespace spam

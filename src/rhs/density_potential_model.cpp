@@ -217,7 +217,8 @@ std::unique_ptr<PackedParticles<Dim>> DensityPotentialModel<Dim>::packed_with(Li
 
 /// The order that the equations force: rho, g and D; their slopes; forces.
 template <int Dim>
-void DensityPotentialModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
+void DensityPotentialModel<Dim>::pair_rates(double, std::span<const double> y,
+                                            std::span<double> y_dot) {
     this->failure_.clear();
     PackedParticles<Dim>& packed = *parts_->packed;
     if (!packed.follow(this->particles().size(), fields(*this, y))) {

@@ -52,10 +52,9 @@ void check(const Fluid& fluid, const FluidScheme& scheme, int dim) {
 }
 
 template <int Dim>
-FluidSweeps<Dim> best_sweeps(const Fluid& fluid, const FluidScheme& scheme) {
+FluidSweeps<Dim> best_sweeps(const Fluid& fluid) {
     return at_level(instruction_set(), [&](auto level) {
-        FluidSweeps<Dim> sweeps =
-            fluid_sweeps<Dim, level>(has_gradients(fluid), scheme.kernel, scheme.mean_density);
+        FluidSweeps<Dim> sweeps = fluid_sweeps<Dim, level>(has_gradients(fluid));
         sweeps.pack = pack_for<Dim, level>();
         return sweeps;
     });
@@ -79,7 +78,7 @@ FluidModel<Dim>::FluidModel(Particles<Dim> particles, const Fluid& fluid, const 
       fluid_(fluid),
       scheme_(scheme),
       weight_(scheme.kernel, scheme.range),
-      sweeps_(std::make_unique<const FluidSweeps<Dim>>(best_sweeps<Dim>(fluid, scheme))),
+      sweeps_(std::make_unique<const FluidSweeps<Dim>>(best_sweeps<Dim>(fluid))),
       density_(this->particles().size()),
       pressure_(density_.size()),
       temperature_(density_.size()) {

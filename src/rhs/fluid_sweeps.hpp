@@ -34,9 +34,8 @@ struct FluidSweeps {
     FluidSweep<Dim> force = nullptr;     ///< v_dot, rho_dot, e_dot
 };
 
-/// Defined in fluid_sweeps.lanes.cpp for every level: Lucy's own where the kernel and, for gradients, the
-/// arithmetic mean allow it. `conducting`: with friction or conduction.
+/// Defined in fluid_sweeps.lanes.cpp for every level. `conducting`: with friction or conduction.
 template <int Dim, InstructionSet Level>
-FluidSweeps<Dim> fluid_sweeps(bool conducting, Kernel kernel, MeanDensityKind mean);
+FluidSweeps<Dim> fluid_sweeps(bool conducting);
 
 }  // namespace spam

@@ -17,10 +17,10 @@ namespace {
 constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
 using T = LanesOf<W>;
 
-template <class Kind, int Dim>
+template <int Dim>
 void density(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<Kind, W, Dim, InviscidRecord<Dim>, DensitySum>(
+        sweep_clusters<GeneralSweep, W, Dim, InviscidRecord<Dim>, DensitySum>(
             in, begin, end, [&](std::size_t slot, const auto&, const auto& sums) {
                 for_each_lane<W>(in.list, slot,
                                  [&](int l, std::size_t i) { out.rho[i] = lane(sums.rho, l); });
@@ -28,14 +28,13 @@ void density(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     });
 }
 
-/// Records hold the number of `Mean` in place of the density: of EitherMean's arithmetic one the same.
-template <class Kind, int Dim, class Mean>
+template <int Dim>
 void gradient(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
         Mat<Dim> grad_v[clusters_per_block * W];
         Vec<Dim> grad_T[clusters_per_block * W];
-        sweep_clusters<Kind, W, Dim, GradientRecord<Dim>, VelocityGradient<Dim, Mean>,
-                       TemperatureGradient<Dim, Mean>>(
+        sweep_clusters<GeneralSweep, W, Dim, GradientRecord<Dim>, VelocityGradient<Dim, EitherMean>,
+                       TemperatureGradient<Dim, EitherMean>>(
             in, begin, end,
             [&](std::size_t slot, const auto&, const auto& velocity, const auto& temperature) {
                 const Mat<Dim, T> of_v = velocity.value();
@@ -64,10 +63,10 @@ SPAM_INLINE void store_rates(const SweepInput<Dim>& in, const FluidOutput<Dim>& 
     });
 }
 
-template <class Kind, int Dim>
+template <int Dim>
 void inviscid_force(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<Kind, W, Dim, InviscidRecord<Dim>, PressureForce<Dim>, Continuity>(
+        sweep_clusters<GeneralSweep, W, Dim, InviscidRecord<Dim>, PressureForce<Dim>, Continuity>(
             in, begin, end,
             [&](std::size_t slot, const auto&, const auto& force, const auto& continuity) {
                 store_rates(in, out, slot, force.v_dot, continuity.rho_dot, force.e_dot());
@@ -75,10 +74,10 @@ void inviscid_force(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     });
 }
 
-template <class Kind, int Dim>
+template <int Dim>
 void conducting_force(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        sweep_clusters<Kind, W, Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>,
+        sweep_clusters<GeneralSweep, W, Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>,
                        Continuity>(in, begin, end,
                                    [&](std::size_t slot, const auto&, const auto& force,
                                        const auto& heat, const auto& continuity) {
@@ -91,26 +90,16 @@ void conducting_force(const SweepInput<Dim>& in, const FluidOutput<Dim>& out) {
 }  // namespace
 
 template <int Dim, InstructionSet Level>
-FluidSweeps<Dim> fluid_sweeps(bool conducting, Kernel kernel, MeanDensityKind mean) {
-    const auto of = [=](auto kind) {
-        using Kind = decltype(kind);
-        FluidSweeps<Dim> sweeps{W};
-        sweeps.density = density<Kind, Dim>;
-        sweeps.force = conducting ? conducting_force<Kind, Dim> : inviscid_force<Kind, Dim>;
-        if (conducting) sweeps.gradient = gradient<Kind, Dim, EitherMean>;
-        if (std::is_same_v<Kind, LucysSweep> && conducting && mean == MeanDensityKind::arithmetic)
-            sweeps.gradient = gradient<LucysSweep, Dim, ArithmeticMean>;
-        return sweeps;
-    };
-    return kernel == Kernel::lucy ? of(LucysSweep()) : of(GeneralSweep());
+FluidSweeps<Dim> fluid_sweeps(bool conducting) {
+    FluidSweeps<Dim> sweeps{W};
+    sweeps.density = density<Dim>;
+    sweeps.force = conducting ? conducting_force<Dim> : inviscid_force<Dim>;
+    if (conducting) sweeps.gradient = gradient<Dim>;
+    return sweeps;
 }
 
-#define SPAM_INSTANTIATE(Dim)                                                             \
-    template FluidSweeps<Dim> fluid_sweeps<Dim, InstructionSet::SPAM_LEVEL>(bool, Kernel, \
-                                                                            MeanDensityKind);
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
-#undef SPAM_INSTANTIATE
+template FluidSweeps<1> fluid_sweeps<1, InstructionSet::SPAM_LEVEL>(bool);
+template FluidSweeps<2> fluid_sweeps<2, InstructionSet::SPAM_LEVEL>(bool);
+template FluidSweeps<3> fluid_sweeps<3, InstructionSet::SPAM_LEVEL>(bool);
 
 }  // namespace spam

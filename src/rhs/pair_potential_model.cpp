@@ -44,7 +44,8 @@ std::unique_ptr<PackedParticles<Dim>> PairPotentialModel<Dim>::packed_with(ListU
 }
 
 template <int Dim>
-void PairPotentialModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
+void PairPotentialModel<Dim>::pair_rates(double, std::span<const double> y,
+                                         std::span<double> y_dot) {
     this->failure_.clear();
     if (!packed_->follow(this->particles().size(), fields(*this, y))) {
         this->fail(y_dot, "a position is not finite");

@@ -152,7 +152,8 @@ ViscosityConstants SmoothParticleModel<Dim>::viscosity() {
 /// The order that the physics forces: pairs - density if summed - A - everything that needs one
 /// sweep - constitutive law - torque balance per body - what needs u or the balance.
 template <int Dim>
-void SmoothParticleModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
+void SmoothParticleModel<Dim>::pair_rates(double, std::span<const double> y,
+                                          std::span<double> y_dot) {
     this->failure_.clear();
     if (!load(y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
@@ -287,10 +288,10 @@ std::vector<double> SmoothParticleModel<Dim>::pair_density(std::span<const doubl
 template <int Dim>
 std::vector<Event> SmoothParticleModel<Dim>::pair_events() const {
     if (scheme_.closest_approach == 0.0) return {};
-    return {closest_approach_event<Dim>(
-        {this->particles().mass, this->box(), scheme_.closest_approach,
-         scheme_.transport == Transport::plain},
-        this->layout())};
+    return {
+        closest_approach_event<Dim>({this->particles().mass, this->box(), scheme_.closest_approach,
+                                     scheme_.transport == Transport::plain},
+                                    this->layout())};
 }
 
 template <int Dim>

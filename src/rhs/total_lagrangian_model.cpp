@@ -178,7 +178,8 @@ void TotalLagrangianModel<Dim>::load(std::span<const double> y,
 
 /// The order that the equations force: A, F, P - penalty and M, B - force.
 template <int Dim>
-void TotalLagrangianModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
+void TotalLagrangianModel<Dim>::pair_rates(double, std::span<const double> y,
+                                           std::span<double> y_dot) {
     this->failure_.clear();
     const State<Dim> rate(this->layout(), y_dot);
     load(y, records_);

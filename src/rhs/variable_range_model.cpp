@@ -81,7 +81,7 @@ template <int Dim>
 VariableRangeModel<Dim>::VariableRangeModel(Particles<Dim> particles, const Fluid& fluid,
                                             const VariableRangeScheme& scheme, const Box<Dim>& box)
     : ParticleModel<Dim>(std::move(particles), box,
-                 {Field::position, Field::velocity, Field::density, Field::energy}),
+                         {Field::position, Field::velocity, Field::density, Field::energy}),
       fluid_(fluid),
       scheme_(scheme),
       unit_(scheme.kernel, 1.0),
@@ -164,7 +164,8 @@ void VariableRangeModel<Dim>::fill(const Fill& fill) {
 }
 
 template <int Dim>
-void VariableRangeModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
+void VariableRangeModel<Dim>::pair_rates(double, std::span<const double> y,
+                                         std::span<double> y_dot) {
     this->failure_.clear();
     if (!find_ranges(y, y_dot)) return;
     make_room();

@@ -44,8 +44,7 @@ Outcome run(const Scheme& scheme, const IntegratorOptions& options, double t_end
     ode.failure = [&] { return model.failure(); };
     ode.entry_name = [](std::size_t k) { return std::to_string(k); };
     for (const auto& block : model.layout().blocks())
-        ode.absolute_tolerance.insert(ode.absolute_tolerance.end(),
-                                      block.size,
+        ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), block.size,
                                       options.atol * block.scale);
     Event event = model.events().front();
     event.apply = [&, apply = event.apply](double t, std::span<double> z) {

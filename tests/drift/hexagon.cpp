@@ -48,8 +48,7 @@ Outcome run(Model<2>& model, const IntegratorOptions& options, double t_end, dou
     ode.failure = [&] { return model.failure(); };
     ode.entry_name = [](std::size_t k) { return std::to_string(k); };
     for (const auto& block : model.layout().blocks())
-        ode.absolute_tolerance.insert(ode.absolute_tolerance.end(),
-                                      block.size,
+        ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), block.size,
                                       options.atol * block.scale);
     const auto integrator = make_integrator(options, ode, y, 0.0, context);
     Outcome out;

@@ -68,7 +68,7 @@ class Field {
     template <int Dim>
     std::string suffix(std::size_t component) const {
         constexpr std::string_view axes = "xyz";
-        if (rank() == Rank::scalar || components<Dim>() < 2) return {};
+        if (rank() == Rank::scalar || (rank() == Rank::axial && Dim < 3)) return {};
         if (rank() == Rank::vector || rank() == Rank::axial) return {'_', axes[component]};
         for (std::size_t a = 0; a < Dim; ++a)
             for (std::size_t b = 0; b < Dim; ++b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/field.hpp>
 #include <spam/integrate/integrator.hpp>
 #include <spam/io/options.hpp>
 
