@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) 
         {"invariant_drift", {"--turns", "9", "--problem", "wave"}, {"turns", "--problem wave"}},
         {"rotating_hexagon",
          {"--model", "md", "--speed", "1e30", "--t-end", "1"},
-         {"output-every"}},
+         {"which this case chooses"}},
         {"rotating_hexagon", {"--speed", "1", "--size="}, {"size", "--size= is missing"}},
         {"plane_wave", {"--range", "1e308"}, {"range", "10000"}},
         {"tensile_instability", {"--range", "1e9"}, {"range"}},
