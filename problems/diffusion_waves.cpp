@@ -16,7 +16,7 @@
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
-#include <spam/rhs/fluid_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ struct Parameters {
     double attraction = 0.5, excluded = 0.2;  // a and b
     int cells = 24;
     double amplitude = 1e-4, temperature = 1.0, conductivity = 1.0, viscosity = 1.0;
-    FluidScheme scheme{};
+    Scheme scheme{.density = Density::summed};
 
     double k() const { return 2.0 * std::numbers::pi / cells; }
     SquareLatticeDiffusion exact() const {

@@ -27,7 +27,7 @@
 #include <spam/external/friction.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
-#include <spam/rhs/density_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
 

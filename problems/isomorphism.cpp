@@ -20,9 +20,9 @@
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/lucy_gas.hpp>
-#include <spam/rhs/density_potential_model.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
 
@@ -75,8 +75,8 @@ Experiment prepare(const Parameters& p, Law law) {
             particles, DensityPotentials{.state = EmbeddedAtom{}, .range = p.range}, box);
     };
     const Fluid matter = law == Law::lucy ? Fluid{LucyGas{}} : Fluid{EmbeddedAtom{}};
-    auto smooth =
-        std::make_unique<FluidModel<2>>(particles, matter, FluidScheme{.range = p.range}, box);
+    auto smooth = std::make_unique<FluidModel<2>>(
+        particles, matter, Scheme{.density = Density::summed, .range = p.range}, box);
     const Points<2> v = random_velocities(particles.reference_position.cols(), p.speed);
     const auto y_fluid = smooth->state(particles.reference_position, v);
 

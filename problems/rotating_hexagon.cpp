@@ -24,7 +24,7 @@
 // With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
 #include "rotating_hexagon/hexagon.hpp"
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 
 #include <fmt/format.h>
 

@@ -28,7 +28,7 @@
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/neighbors/pair_list.hpp>
-#include <spam/rhs/density_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>
 

@@ -15,7 +15,7 @@
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/run_in_memory.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -9,8 +9,7 @@
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/problem/session.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>

@@ -7,8 +7,8 @@
 #include <spam/kernel/weight_integrals.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/variable_range_model.hpp>
+#include <spam/rhs/own_ranges.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/drawn.hpp>
 
 #include <fmt/format.h>
@@ -53,7 +53,8 @@ std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>> begun(Particles<Dim>
         return started(std::make_unique<VariableRangeModel<Dim>>(
             std::move(particles), matter, VariableRangeScheme{p.range, p.kernel}, box));
     return started(std::make_unique<FluidModel<Dim>>(
-        std::move(particles), matter, FluidScheme{Density::summed, p.kernel, p.range}, box));
+        std::move(particles), matter,
+        Scheme{.density = Density::summed, .kernel = p.kernel, .range = p.range}, box));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "polar_stress.hpp"
 
 #include <spam/core/state.hpp>
-#include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/springs.hpp>
 
 using namespace spam;
 

@@ -35,7 +35,9 @@ double Integrator::step(double t_stop) {
             fmt::format("too many steps: {} have come to t = {:.6g}, --max-steps allows "
                         "no more",
                         statistics_.steps, t_));
-    return take_step(t_stop);
+    const double t = take_step(t_stop);
+    if (ode_.settle && ode_.settle(t, y_.span())) reset(t);
+    return t;
 }
 
 void Integrator::guard(std::span<const double> z, double t) const {

@@ -45,6 +45,12 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
     options.validate();
     require_fields(options, ode);
     const IntegrationMethod& method = integration_method(options.method);
+    if (method.multistep && ode.settle)
+        throw InputError(fmt::format(
+            "integrator: {} makes steps from earlier ones, which a material that changes its stress "
+            "after every step makes worthless; use a one-step method such as rk4 or "
+            "arkode:DORMAND_PRINCE_7_4_5",
+            method.name));
     if (method.multistep && !ode.events.empty())
         throw InputError(
             fmt::format("integrator: {} builds on earlier steps and cannot end one at {}, which "

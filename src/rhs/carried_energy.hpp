@@ -24,13 +24,13 @@ double carried_energy(const Model<Dim>& model, std::span<const double> y) {
     return sum;
 }
 
-/// y of a fluid at `position` with these velocities and densities `rho` (N), and the energies of
-/// temperature T or the law's own; sets the scales of the layout. Throws InputError naming a particle
-/// outside the law.
-template <int Dim>
-std::vector<double> fluid_start(Model<Dim>& model, const AnyEquationOfState& law,
-                                const Points<Dim>& position, const Points<Dim>& velocity,
-                                const std::vector<double>& rho, double T) {
+/// y of fluids at `position` with these velocities and densities `rho` (N), and the energies of
+/// temperature T or the law's own, law_of(i); sets the scales of the layout. Throws InputError naming a
+/// particle outside the law.
+template <int Dim, class LawOf>
+std::vector<double> fluid_start(Model<Dim>& model, const LawOf& law_of, const Points<Dim>& position,
+                                const Points<Dim>& velocity, const std::vector<double>& rho,
+                                double T) {
     std::vector<double> y(model.layout().size(), 0.0);
     const State<Dim> state(model.layout(), y);
     state.position() = position;
@@ -38,6 +38,7 @@ std::vector<double> fluid_start(Model<Dim>& model, const AnyEquationOfState& law
     double fastest = 0.0, most = 0.0, mean = 0.0;
     for (std::size_t i = 0; i < rho.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);
+        const AnyEquationOfState& law = law_of(i);
         const double e = law.starting_energy(rho[i], T);
         if (!std::isfinite(law.pressure(rho[i], e)))
             throw InputError(fmt::format(

@@ -6,7 +6,7 @@
 namespace spam {
 namespace {
 
-Vec<2> column(const double* field, std::size_t i) { return {{field[2 * i], field[2 * i + 1]}}; }
+Vec<2> vector_at(const double* field, std::size_t i) { return {{field[2 * i], field[2 * i + 1]}}; }
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void GaussForces::measure(const Groups& groups, const double* x, const double* v
         }
     });
     each([&](std::size_t i, double m, Sums& s) {
-        const Vec<2> r = column(x, i) - s.centre(), w = column(v, i) - s.velocity();
+        const Vec<2> r = vector_at(x, i) - s.centre(), w = vector_at(v, i) - s.velocity();
         s.inertia += m * dot(r, r);
         s.L += m * cross(r, w);
         s.twice_K += m * dot(w, w);
@@ -36,8 +36,8 @@ void GaussForces::constrain(const Groups& groups, const double* x, const double*
     measure(groups, x, v);
     for (std::size_t i = 0; i < groups.mass.size(); ++i) {
         Sums& s = sums_[static_cast<std::size_t>(groups.group[i])];
-        s.L_dot += groups.mass[i] * (cross(column(u, i), column(v, i)) +
-                                     cross(column(x, i) - s.centre(), column(v_dot, i)));
+        s.L_dot += groups.mass[i] * (cross(vector_at(u, i), vector_at(v, i)) +
+                                     cross(vector_at(x, i) - s.centre(), vector_at(v_dot, i)));
     }
     multipliers_.clear();
     for (const Sums& s : sums_)
@@ -45,7 +45,7 @@ void GaussForces::constrain(const Groups& groups, const double* x, const double*
     for (std::size_t i = 0; i < groups.mass.size(); ++i) {
         const auto g = static_cast<std::size_t>(groups.group[i]);
         const Sums& s = sums_[g];
-        const Vec<2> r = column(x, i) - s.centre(), w = column(v, i) - s.velocity();
+        const Vec<2> r = vector_at(x, i) - s.centre(), w = vector_at(v, i) - s.velocity();
         v_dot[2 * i] -= multipliers_[g].alpha * w[0] + multipliers_[g].beta * r[1];
         v_dot[2 * i + 1] -= multipliers_[g].alpha * w[1] - multipliers_[g].beta * r[0];
     }

@@ -1,48 +1,78 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any weight function and any mean density, each chosen at run time: compiled once for all of them.
-#include "solid_sweeps.hpp"
+#include "scheme_sweeps.hpp"
 
 namespace spam {
 namespace {
 
-constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
-
-/// The scheme's second sweep. The chain rule costs next to nothing: with a viscous force it is always
-/// there, and asked for or not (SweepOutput::rho_dot).
-template <int Dim>
+/// The scheme's second sweep, of TransportRecord or ViscousRecord. The chain rule costs next to nothing:
+/// with a viscous force it is always there, and asked for or not (SweepOutput::rho_dot).
+template <int Dim, class R>
 struct SecondSweeps {
     using Viscous = ViscousForce<Dim, EitherMean>;
 
     template <class... Passes>
-    static constexpr Sweep<Dim> with = second_sweep<GeneralSweep, W, Dim, Passes...>;
+    static constexpr Sweep<Dim> with = run_sweep<GeneralSweep, W, Dim, R, Passes...>;
 
-    static Sweep<Dim> of(const Scheme& scheme) {
-        const bool viscous = scheme.viscosity > 0.0;
+    static Sweep<Dim> viscous(const Scheme& scheme) {
+        if constexpr (Dim == 2)
+            if (balances(scheme)) return with<ChainRuleContinuity, BalancedStressForce, Viscous>;
+        return with<ChainRuleContinuity, Viscous>;
+    }
+    static Sweep<Dim> inviscid(const Scheme& scheme) {
         const bool chain_rule = scheme.density == Density::chain_rule;
         if constexpr (Dim == 2)
             if (balances(scheme))
-                return viscous      ? with<ChainRuleContinuity, BalancedStressForce, Viscous>
-                       : chain_rule ? with<ChainRuleContinuity, BalancedStressForce>
-                                    : with<BalancedStressForce>;
-        if (viscous) return with<ChainRuleContinuity, Viscous>;
+                return chain_rule ? with<ChainRuleContinuity, BalancedStressForce>
+                                  : with<BalancedStressForce>;
         return chain_rule ? with<ChainRuleContinuity> : nullptr;
     }
 };
 
+template <int Dim>
+Sweep<Dim> second_sweep(const Scheme& scheme, Matter matter) {
+    if (!(scheme.viscosity > 0.0)) return SecondSweeps<Dim, TransportRecord<Dim>>::inviscid(scheme);
+    return matter == Matter::conducting ? SecondSweeps<Dim, ViscousRecord<Dim>>::viscous(scheme)
+                                        : SecondSweeps<Dim, TransportRecord<Dim>>::viscous(scheme);
+}
+
+template <int Dim>
+constexpr int numbers_of(Matter matter, bool second) {
+    const int first = matter == Matter::inviscid     ? InviscidRecord<Dim>::numbers
+                      : matter == Matter::conducting ? ConductingRecord<Dim>::numbers
+                                                     : Record<Dim>::numbers;
+    const int later =
+        matter == Matter::conducting ? ViscousRecord<Dim>::numbers : TransportRecord<Dim>::numbers;
+    return second ? std::max(first, later) : first;
+}
+
 }  // namespace
 
 template <int Dim, InstructionSet Level>
-Sweeps<Dim> general_sweeps(const Scheme& scheme) {
-    Sweeps<Dim> sweeps{W};
+Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
+    Sweeps<Dim> sweeps{W, 0};
     if (scheme.density == Density::summed)
-        sweeps.density = density_sweep<GeneralSweep, W, Dim, Record<Dim>>;
-    sweeps.first = FirstSweeps<GeneralSweep, W, Dim, EitherMean>::of(scheme);
-    sweeps.second = SecondSweeps<Dim>::of(scheme);
+        sweeps.density = run_sweep<GeneralSweep, W, Dim, MotionRecord<Dim>, DensitySum>;
+    if (matter == Matter::inviscid) {
+        sweeps.pack = pack<Dim, InviscidRecord<Dim>>;
+        sweeps.force = run_sweep<GeneralSweep, W, Dim, InviscidRecord<Dim>, PlainTransport<Dim>,
+                                 PressureForce<Dim>, Continuity>;
+    } else {
+        using Forces = ForceSweeps<GeneralSweep, Dim, EitherMean>;
+        sweeps.pack = pack<Dim, Record<Dim>>;
+        sweeps.second = second_sweep<Dim>(scheme, matter);
+        sweeps.force = matter == Matter::solid ? Forces::solid(scheme) : Forces::conducting(scheme);
+    }
+    if (matter == Matter::conducting)
+        sweeps.gradient =
+            run_sweep<GeneralSweep, W, Dim, ConductingRecord<Dim>,
+                      VelocityGradient<Dim, EitherMean>, TemperatureGradient<Dim, EitherMean>>;
+    sweeps.numbers = numbers_of<Dim>(matter, sweeps.second != nullptr);
     return sweeps;
 }
 
-template Sweeps<1> general_sweeps<1, InstructionSet::SPAM_LEVEL>(const Scheme&);
-template Sweeps<2> general_sweeps<2, InstructionSet::SPAM_LEVEL>(const Scheme&);
-template Sweeps<3> general_sweeps<3, InstructionSet::SPAM_LEVEL>(const Scheme&);
+template Sweeps<1> general_sweeps<1, InstructionSet::SPAM_LEVEL>(const Scheme&, Matter);
+template Sweeps<2> general_sweeps<2, InstructionSet::SPAM_LEVEL>(const Scheme&, Matter);
+template Sweeps<3> general_sweeps<3, InstructionSet::SPAM_LEVEL>(const Scheme&, Matter);
 
 }  // namespace spam

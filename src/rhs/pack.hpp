@@ -1,43 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// For *.lanes.cpp: what makes the records of a sweep.
 #pragma once
 
-#include <spam/core/instruction_set.hpp>
-#include <spam/neighbors/box.hpp>
-#include <spam/neighbors/displacement.hpp>
-#include <spam/physics/scheme.hpp>
-
-#include <cstddef>
-#include <cstdint>
+#include <spam/core/parallel.hpp>
+#include <spam/physics/mean_density.hpp>
+#include <spam/physics/record.hpp>
+#include <spam/rhs/sweeps.hpp>
 
 namespace spam {
+inline namespace SPAM_LANES {
 
-/// Fields by number of particle, and the slots that their records go to.
-template <int Dim>
-struct PackInput {
-    const std::uint32_t* order;  ///< slot -> particle
-    std::size_t slots;
-    const double *x, *v, *m;
-    const double* rho;    ///< null where it is not known yet
-    const double* sigma;  ///< D(D+1)/2 each
-    const Box<Dim>* box;
-    Displacement<Dim> displacement;
-    std::size_t stride;
-    MeanDensityKind mean_density;
-};
+/// Density and stress of one particle. Returns 1 where the density is not positive.
+template <int Dim, class R>
+SPAM_INLINE std::size_t pack_density(const PackInput<Dim>& in, std::size_t i, double* record) {
+    constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
+    const double rho = in.rho[i], scale = 1.0 / (rho * rho);
+    record[R::template at<column::Density>] = EitherMean::number(in.mean_density, rho);
+    if (in.sigma != nullptr)
+        for (std::size_t k = 0; k < n; ++k)
+            record[R::template at<column::Stress> + static_cast<int>(k)] =
+                scale * in.sigma[i * n + k];
+    return static_cast<std::size_t>(!(rho > 0.0));
+}
 
-/// How many particles ...
-struct PackCount {
-    std::size_t far = 0;      ///< have gone too far for the list
-    std::size_t invalid = 0;  ///< have a density that is not positive
-};
+/// Position, velocity and mass of one particle. Returns 1 where it has gone too far for the list.
+template <int Dim, class R>
+SPAM_INLINE std::size_t pack_motion(const PackInput<Dim>& in, std::size_t i, double* record) {
+    // Read before anything is written: for all the compiler knows that may change what is read.
+    const double* const from = in.x + Dim * i;
+    double x[Dim];
+    for (std::size_t a = 0; a < Dim; ++a) x[a] = from[a];
+    const std::size_t far = in.displacement.too_far(i, x);
+    for (std::size_t a = 0; a < Dim; ++a) record[a] = x[a];
+    if constexpr (R::template has<column::Velocity>)
+        for (int a = 0; a < Dim; ++a)
+            record[R::template at<column::Velocity> + a] =
+                in.v[Dim * i + static_cast<std::size_t>(a)];
+    record[R::template at<column::Mass>] = in.m[i];
+    return far;
+}
 
-/// Writes the records: x (wrapped), v, m, rho (or EitherMean's number) and A = sigma/rho^2
-/// (physics/record.hpp). Without rho the last two are left alone; with `density_only` the others are.
-template <int Dim>
-using Pack = PackCount (*)(const PackInput<Dim>&, bool density_only, double* records);
+/// Both numbers of a PackCount from one, `far` in the lower half: fewer than 2^32 particles have slots.
+template <class Body>
+PackCount pack_count(std::size_t slots, const Body& body) {
+    const std::size_t both = parallel_count(slots, body);
+    return {both & 0xffffffffU, both >> 32};
+}
 
-/// Defined in pack.lanes.cpp for every level.
-template <int Dim, InstructionSet Level>
-Pack<Dim> pack_for();
+template <int Dim, class R>
+PackCount pack(const PackInput<Dim>& whole, bool density_only, double* records) {
+    const PackInput<Dim> in = whole;  // a copy that the stores below cannot be suspected to change
+    const auto motion = [=](std::size_t slot) {
+        return pack_motion<Dim, R>(in, in.order[slot], records + slot * in.stride);
+    };
+    PackCount counted;
+    if constexpr (R::template has<column::Density>) {
+        if (density_only)
+            return pack_count(in.slots, [=](std::size_t slot) {
+                return pack_density<Dim, R>(in, in.order[slot], records + slot * in.stride) << 32;
+            });
+        if (in.rho != nullptr)
+            counted = pack_count(in.slots, [=](std::size_t slot) {
+                const std::size_t i = in.order[slot];
+                double* const record = records + slot * in.stride;
+                return pack_motion<Dim, R>(in, i, record) +
+                       (pack_density<Dim, R>(in, i, record) << 32);
+            });
+        else
+            counted = pack_count(in.slots, motion);
+    } else {
+        if (density_only) return {};
+        counted = pack_count(in.slots, motion);
+    }
+    if (in.box->periodic())
+        parallel_for(in.slots, [=](std::size_t slot) {
+            for (int a = 0; a < Dim; ++a) {
+                double& x = records[slot * in.stride + static_cast<std::size_t>(a)];
+                if (in.box->periodic(a)) x = in.box->wrap(a, x);
+            }
+        });
+    return counted;
+}
 
+}  // namespace SPAM_LANES
 }  // namespace spam

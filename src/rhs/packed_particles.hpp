@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "pack.hpp"
-#include "sweeps.hpp"
 #include <spam/neighbors/cluster_list.hpp>
+#include <spam/rhs/sweeps.hpp>
 
 #include <vector>
 
@@ -24,15 +23,15 @@ enum class ListUse { once, again_and_again };
 template <int Dim>
 class PackedParticles {
   public:
-    /// `stride`: numbers in a record; `make_records` writes them; the rest as for ClusterList. A list
-    /// that is used again looks a little beyond the range, so that it lasts some right-hand sides.
-    PackedParticles(const GeneralWeight<Dim>& weight, ListUse use, const Box<Dim>& box, int width,
-                    std::size_t stride, Pack<Dim> make_records)
+    /// Records for these sweeps. A list that is used again looks a little beyond the range, so that it
+    /// lasts some right-hand sides.
+    PackedParticles(const GeneralWeight<Dim>& weight, ListUse use, const Box<Dim>& box,
+                    const Sweeps<Dim>& sweeps)
         : list_(weight.range(), use == ListUse::once ? 0.0 : skin(weight.range(), first_share, box),
-                box, width, stride),
+                box, sweeps.width, static_cast<std::size_t>(sweeps.numbers)),
           weight_(weight),
-          stride_(stride),
-          make_records_(make_records) {}
+          stride_(static_cast<std::size_t>(sweeps.numbers)),
+          make_records_(sweeps.pack) {}
 
     /// List and records for n particles. False where a position is not finite: nothing may be swept.
     bool follow(std::size_t n, const PackedFields& fields);
@@ -44,6 +43,7 @@ class PackedParticles {
     void load_density(const PackedFields& fields);
 
     const ClusterList<Dim>& list() const { return list_; }
+    int numbers() const { return static_cast<int>(stride_); }  ///< in a record
     double* record(std::size_t slot) { return &records_[slot * stride_]; }
     SweepInput<Dim> input() const {
         return {list_.view(), {records_.data(), stride_}, weight_.range(), &list_.box(), &weight_};

@@ -4,6 +4,7 @@
 #include <spam/rhs/particle_model.hpp>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -21,6 +22,33 @@ auto moment(const Point<Dim>& r, const Point<Dim>& f) {
 }  // namespace
 
 template <int Dim>
+ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
+    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}) {}
+
+template <int Dim>
+void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
+    for (const auto& other : terms_) {
+        for (const Field field : term->fields())
+            for (const Field taken : other->fields())
+                if (field == taken)
+                    throw InputError(fmt::format(
+                        "model: '{}' and '{}' both integrate the {} of a particle; leave "
+                        "one of the two out",
+                        other->describe(), term->describe(), field.name()));
+        const Term<Dim>& averaged = term->moves_with_velocity() ? *other : *term;
+        const Term<Dim>& fixed = term->moves_with_velocity() ? *term : *other;
+        if (!averaged.moves_with_velocity() && fixed.potential())
+            throw InputError(fmt::format(
+                "transport: particles that move with an averaged velocity gain energy without limit "
+                "from a potential of their positions ({}), whose forces push what the average does "
+                "not move; use --transport plain, or leave the potential out",
+                fixed.describe()));
+    }
+    for (const Field field : term->fields()) this->layout().add(field);
+    terms_.push_back(std::move(term));
+}
+
+template <int Dim>
 void ParticleModel<Dim>::add(std::unique_ptr<External<Dim>> external) {
     externals_.push_back(std::move(external));
     for (const Field field : {Field::work, Field::heat, Field::impulse, Field::angular_impulse})
@@ -29,13 +57,38 @@ void ParticleModel<Dim>::add(std::unique_ptr<External<Dim>> external) {
 }
 
 template <int Dim>
+bool ParticleModel<Dim>::moves_with_velocity() const {
+    return std::all_of(terms_.begin(), terms_.end(),
+                       [](const auto& term) { return term->moves_with_velocity(); });
+}
+
+/// In their order: the first sets the rates, the others add to them.
+template <int Dim>
+bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::span<double> y_dot) {
+    const ConstState<Dim> state(this->layout(), y);
+    const State<Dim> rate(this->layout(), y_dot);
+    bool moved = false, on_top = false;
+    for (const auto& term : terms_) {
+        if (auto reason = term->rates({t, state, rate, on_top}); !reason.empty()) {
+            this->fail(y_dot, std::move(reason));
+            return false;
+        }
+        moved = moved || term->moves();
+        on_top = true;
+    }
+    if (!moved) rate.position() = state.velocity();
+    if (!on_top) rate.velocity().setZero();
+    return true;
+}
+
+template <int Dim>
 void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
-    pair_rates(t, y, y_dot);
-    if (externals_.empty() || !this->failure_.empty()) return;
+    if (!term_rates(t, y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
     for (const auto& b : this->layout().blocks())
-        if (b.field.role() == Role::account) rate.field(b.field).setZero();
+        if (b.field.role() != Role::integrated) rate.field(b.field).setZero();
+    if (externals_.empty()) return;
     const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
     for (const auto& external : externals_) {
         external->prepare(now);
@@ -105,7 +158,8 @@ void ParticleModel<Dim>::book(const External<Dim>& external, const Given& given,
 
 template <int Dim>
 double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
-    double energy = pair_energy(y);
+    double energy = 0.0;
+    for (const auto& term : terms_) energy += term->energy(y);
     for (const auto& external : externals_)
         if (has_energy(*external))
             energy += external->energy(this->particles(), {this->layout(), y});
@@ -114,20 +168,20 @@ double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
 
 template <int Dim>
 std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const {
-    std::vector<double> rho = pair_density(y);
+    std::vector<double> rho;
+    for (const auto& term : terms_)
+        if (rho.empty()) rho = term->density(y);
+    if (rho.empty()) rho = Model<Dim>::density(y);
     if (!rho.empty())
         for (const auto& external : externals_) external->add_density({this->layout(), y}, rho);
     return rho;
 }
 
 template <int Dim>
-std::vector<double> ParticleModel<Dim>::pair_density(std::span<const double> y) const {
-    return Model<Dim>::density(y);
-}
-
-template <int Dim>
 std::vector<Event> ParticleModel<Dim>::events() const {
-    std::vector<Event> events = pair_events();
+    std::vector<Event> events;
+    for (const auto& term : terms_)
+        for (Event& event : term->events()) events.push_back(std::move(event));
     if (events.empty()) return events;
     const std::size_t n = this->particles().size();
     std::size_t held = 0;
@@ -143,9 +197,28 @@ std::vector<Event> ParticleModel<Dim>::events() const {
 }
 
 template <int Dim>
+Promises ParticleModel<Dim>::promises() const {
+    Promises weakest;
+    weakest.angular_momentum = Promise::integrator_error;
+    const auto weaken = [](Promise& promise, Promise of_term) {
+        promise = std::max(promise, of_term);
+    };
+    for (const auto& term : terms_) {
+        const Promises p = term->promises();
+        weaken(weakest.mass, p.mass);
+        weaken(weakest.momentum, p.momentum);
+        weaken(weakest.angular_momentum, p.angular_momentum);
+        weaken(weakest.energy, p.energy);
+    }
+    return this->in_box(weakest);
+}
+
+template <int Dim>
 std::string ParticleModel<Dim>::describe() const {
-    std::string words = pair_description();
-    for (const auto& external : externals_) words += "; " + external->describe();
+    std::string words;
+    for (const auto& term : terms_) words += (words.empty() ? "" : "; ") + term->describe();
+    for (const auto& external : externals_)
+        words += (words.empty() ? "" : "; ") + external->describe();
     return words;
 }
 
@@ -158,17 +231,72 @@ std::string ParticleModel<Dim>::inseparable() const {
 
 template <int Dim>
 double ParticleModel<Dim>::fastest_damping() const {
-    double damping = pair_damping();
+    double damping = 0.0;
+    for (const auto& term : terms_) damping += term->fastest_damping();
     for (const auto& external : externals_) damping += external->damping();
     return damping;
 }
 
+/// Potentials of externals are no forces between neighbours.
 template <int Dim>
 double ParticleModel<Dim>::neighbour_forces(std::span<const double> y) const {
-    const bool potential = !this->layout().has(Field::energy) && !this->layout().has(Field::stress);
-    // Potentials of externals are no forces between neighbours.
-    return potential ? std::abs(pair_energy(y)) / this->particles().spacing
-                     : Model<Dim>::neighbour_forces(y);
+    double sum = 0.0;
+    for (const auto& term : terms_) sum += term->neighbour_forces(y);
+    return sum;
+}
+
+template <int Dim>
+bool ParticleModel<Dim>::smooth() const {
+    return std::all_of(terms_.begin(), terms_.end(),
+                       [](const auto& term) { return term->smooth(); });
+}
+
+template <int Dim>
+std::size_t ParticleModel<Dim>::pairs() const {
+    std::size_t pairs = 0;
+    for (const auto& term : terms_) pairs = std::max(pairs, term->pairs());
+    return pairs;
+}
+
+template <int Dim>
+double ParticleModel<Dim>::reach() const {
+    double reach = 0.0;
+    for (const auto& term : terms_) reach = std::max(reach, term->reach());
+    return reach;
+}
+
+template <int Dim>
+std::size_t ParticleModel<Dim>::list_builds() const {
+    std::size_t builds = 0;
+    for (const auto& term : terms_) builds += term->list_builds();
+    return builds;
+}
+
+template <int Dim>
+std::vector<Remark> ParticleModel<Dim>::watch(double t, std::span<const double> y) {
+    std::vector<Remark> remarks;
+    for (const auto& term : terms_)
+        for (Remark& remark : term->watch(t, y)) remarks.push_back(std::move(remark));
+    return remarks;
+}
+
+template <int Dim>
+void ParticleModel<Dim>::set_bodies(std::vector<std::int32_t> bodies) {
+    Model<Dim>::set_bodies(std::move(bodies));
+    for (const auto& term : terms_) term->set_bodies();
+}
+
+template <int Dim>
+void ParticleModel<Dim>::remember(Archive& archive) {
+    Model<Dim>::remember(archive);
+    for (const auto& term : terms_) term->remember(archive);
+}
+
+template <int Dim>
+bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
+    bool changed = false;
+    for (const auto& term : terms_) changed = term->settle(t, {this->layout(), y}) || changed;
+    return changed;
 }
 
 template class ParticleModel<1>;

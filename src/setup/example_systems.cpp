@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/setup/example_systems.hpp>
 #include <spam/setup/initial_state.hpp>

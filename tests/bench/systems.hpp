@@ -3,8 +3,8 @@
 #pragma once
 
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <benchmark/benchmark.h>
 

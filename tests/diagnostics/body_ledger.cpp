@@ -3,7 +3,7 @@
 #include <spam/diagnostics/body_ledger.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

@@ -6,7 +6,7 @@
 #include <spam/diagnostics/outline.hpp>
 #include <spam/diagnostics/roundness.hpp>
 #include <spam/diagnostics/shape.hpp>
-#include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

@@ -5,7 +5,7 @@
 #include <spam/diagnostics/shape.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

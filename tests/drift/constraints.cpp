@@ -4,7 +4,7 @@
 #include <spam/integrate/integrator.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/problem/run_in_memory.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

@@ -8,8 +8,8 @@
 #include <spam/diagnostics/shape.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

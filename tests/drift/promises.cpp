@@ -6,10 +6,10 @@
 #include <spam/material/harmonic_spring.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/problem/run_in_memory.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/density_potential_model.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 #include <spam/setup/periodic_solid.hpp>
@@ -96,7 +96,8 @@ Begun stretched_solid(double speed) {
 
 template <class Law>
 Begun fluid(const Law& law, double speed) {
-    auto model = std::make_unique<FluidModel<2>>(lattice(), Fluid{law}, FluidScheme{}, box);
+    auto model = std::make_unique<FluidModel<2>>(lattice(), Fluid{law},
+                                                 Scheme{.density = Density::summed}, box);
     const Points<2> x = model->particles().reference_position;
     Points<2> v = x;
     for (Eigen::Index i = 0; i < x.cols(); ++i) v.col(i) = wave(x.col(i), speed);

@@ -10,7 +10,7 @@
 #include <spam/diagnostics/shape.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

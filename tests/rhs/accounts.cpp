@@ -15,13 +15,12 @@
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/motion.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/density_potential_model.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
-#include <spam/rhs/variable_range_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/own_ranges.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
@@ -53,7 +52,10 @@ const std::vector<std::pair<std::string, std::function<std::unique_ptr<ParticleM
          return std::make_unique<SmoothParticleModel<2>>(strip(), ElasticSolid{0.43, 0.43}, scheme);
      }},
     {"fluid",
-     [] { return std::make_unique<FluidModel<2>>(strip(), Fluid{IdealGas{}}, FluidScheme{}); }},
+     [] {
+         return std::make_unique<FluidModel<2>>(strip(), Fluid{IdealGas{}},
+                                                Scheme{.density = Density::summed});
+     }},
     {"ranges by density",
      [] {
          return std::make_unique<VariableRangeModel<2>>(strip(), Fluid{IdealGas{}},

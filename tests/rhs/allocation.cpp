@@ -5,8 +5,8 @@
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 
 #include <boost/test/unit_test.hpp>
 

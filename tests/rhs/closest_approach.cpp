@@ -9,7 +9,7 @@
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/physics/closest_approach.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

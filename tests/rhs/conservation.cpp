@@ -4,7 +4,7 @@
 #include "support/oracle_model.hpp"
 #include "support/random_state.hpp"
 #include <spam/physics/torque_balance.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -3,7 +3,7 @@
 // fails.
 #include "support/oracle_model.hpp"
 #include "support/random_state.hpp"
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>

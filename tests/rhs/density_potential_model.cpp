@@ -12,7 +12,7 @@
 #include <spam/physics/curvature_strength.hpp>
 #include <spam/physics/embedded_energy.hpp>
 #include <spam/physics/surface_tension.hpp>
-#include <spam/rhs/density_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
 
 #include <boost/test/unit_test.hpp>
 #include <fmt/format.h>

@@ -10,7 +10,7 @@
 #include <spam/external/gravity.hpp>
 #include <spam/external/thermostat.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

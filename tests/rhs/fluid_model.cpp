@@ -12,8 +12,8 @@
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -63,7 +63,7 @@ std::vector<double> random_fluid(FluidModel<Dim>& model, unsigned seed) {
 
 /// Rates against the oracle; rates of what is kept against the sums of their parts' sizes.
 template <int Dim>
-void check(const Fluid& fluid, const FluidScheme& scheme, int cells, const Box<Dim>& box) {
+void check(const Fluid& fluid, const Scheme& scheme, int cells, const Box<Dim>& box) {
     FluidModel<Dim> model(jittered_particles<Dim>(cells, 21, 0.15, box), fluid, scheme, box);
     const auto y = random_fluid(model, 22);
     const auto y_dot = rates_of(model, y);
@@ -93,21 +93,22 @@ void check_all(int cells, double length) {
             for (const bool closed : {false, true}) {
                 const Box<Dim> box = closed ? periodic<Dim>(length) : Box<Dim>{};
                 const auto mean = closed ? MeanDensityKind::geometric : MeanDensityKind::arithmetic;
-                const FluidScheme scheme{density, Kernel::lucy, 2.6, mean};
-                BOOST_TEST_CONTEXT(fluid.describe() << "; " << scheme.describe(true)
-                                                    << (closed ? ", closed" : ", open"))
+                const Scheme scheme{
+                    .density = density, .mean_density = mean, .kernel = Kernel::lucy, .range = 2.6};
+                BOOST_TEST_CONTEXT(fluid.describe()
+                                   << "; " << scheme.describe() << (closed ? ", closed" : ", open"))
                 check<Dim>(fluid, scheme, cells, box);
             }
     for (const Kernel kernel : all_kernels()) {
-        const FluidScheme scheme{Density::summed, kernel, 2.6};
-        BOOST_TEST_CONTEXT(scheme.describe(true)) {
+        const Scheme scheme{.density = Density::summed, .kernel = kernel, .range = 2.6};
+        BOOST_TEST_CONTEXT(scheme.describe()) {
             check<Dim>(all_fluids(Dim)[7], scheme, cells, {});
             check<Dim>(all_fluids(Dim)[0], scheme, cells, periodic<Dim>(length));
         }
     }
 }
 
-std::string why_refused(const Fluid& fluid, const FluidScheme& scheme, const Box<2>& box = {}) {
+std::string why_refused(const Fluid& fluid, const Scheme& scheme, const Box<2>& box = {}) {
     try {
         FluidModel<2>(jittered_particles<2>(8, 31, 0.1, box), fluid, scheme, box);
     } catch (const InputError& error) {
@@ -128,7 +129,8 @@ BOOST_AUTO_TEST_CASE(in_space) { check_all<3>(6, 6.0); }
 
 BOOST_AUTO_TEST_CASE(what_is_wrong_is_noticed) {
     const Fluid fluid = all_fluids(2)[7];
-    FluidModel<2> model(jittered_particles<2>(10, 21), fluid, {.range = 2.6});
+    FluidModel<2> model(jittered_particles<2>(10, 21), fluid,
+                        {.density = Density::summed, .range = 2.6});
     const auto y = random_fluid(model, 22), y_dot = rates_of(model, y);
     BOOST_TEST(relative_difference(y_dot, fluid_rates(model, y)) < 1e-12);
     for (const auto mutation : {FluidMutation::printed_work, FluidMutation::work_not_shared,
@@ -139,7 +141,8 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_noticed) {
 BOOST_AUTO_TEST_CASE(the_rates_of_energies_show_wrong_laws) {
     // What the exactness above is worth: with the work not shared, or heat that only leaves, the sum is
     // not zero.
-    FluidModel<2> model(jittered_particles<2>(10, 21), all_fluids(2)[7], {.range = 2.6});
+    FluidModel<2> model(jittered_particles<2>(10, 21), all_fluids(2)[7],
+                        {.density = Density::summed, .range = 2.6});
     const auto y = random_fluid(model, 22);
     const ConstState<2> state(model.layout(), y);
     for (const auto mutation : {FluidMutation::printed_work, FluidMutation::work_not_shared,
@@ -161,7 +164,7 @@ BOOST_AUTO_TEST_CASE(no_bit_depends_on_threads) {
     const Box<2> box = periodic<2>(48.0);
     const auto particles = jittered_particles<2>(48, 51, 0.15, box);
     for (const Fluid& fluid : {all_fluids(2)[0], all_fluids(2)[8]}) {
-        FluidModel<2> model(particles, fluid, {.range = 3.0}, box);
+        FluidModel<2> model(particles, fluid, {.density = Density::summed, .range = 3.0}, box);
         const auto y = random_fluid(model, 52);
         set_threads(1);
         const auto alone = rates_of(model, y);
@@ -178,7 +181,7 @@ BOOST_AUTO_TEST_CASE(the_gas_of_the_weight_function_moves_like_molecules) {
     // m^2 w, whatever the masses.
     const Box<2> box = periodic<2>(20.0);
     const auto particles = jittered_particles<2>(20, 61, 0.15, box);
-    FluidModel<2> gas(particles, {LucyGas{}}, {.range = 3.0}, box);
+    FluidModel<2> gas(particles, {LucyGas{}}, {.density = Density::summed, .range = 3.0}, box);
     PairPotentialModel<2> molecules(particles, 3.0, box);
     const auto y = random_fluid(gas, 62);
     std::vector<double> z(molecules.layout().size());
@@ -194,7 +197,8 @@ BOOST_AUTO_TEST_CASE(the_gas_of_the_weight_function_moves_like_molecules) {
 BOOST_AUTO_TEST_CASE(the_density_that_is_integrated_is_the_one_that_is_summed) {
     FluidModel<2> model(jittered_particles<2>(10, 71), {LucyGas{}},
                         {.density = Density::continuity, .range = 2.6});
-    FluidModel<2> sums(jittered_particles<2>(10, 71), {LucyGas{}}, {.range = 2.6});
+    FluidModel<2> sums(jittered_particles<2>(10, 71), {LucyGas{}},
+                       {.density = Density::summed, .range = 2.6});
     const auto& x = model.particles().reference_position;
     const Points<2> v = Points<2>::Random(2, x.cols());
     const auto y = model.state(x, v);
@@ -210,7 +214,8 @@ BOOST_AUTO_TEST_CASE(the_density_that_is_integrated_is_the_one_that_is_summed) {
 
 BOOST_AUTO_TEST_CASE(states_outside_the_law_name_the_particle) {
     const auto failure = [](const Fluid& fluid, const auto& spoil) {
-        FluidModel<2> model(jittered_particles<2>(8, 31), fluid, {.range = 2.6});
+        FluidModel<2> model(jittered_particles<2>(8, 31), fluid,
+                            {.density = Density::summed, .range = 2.6});
         auto y = random_fluid(model, 32);
         BOOST_TEST(std::isfinite(rates_of(model, y).front()));
         spoil(State<2>(model.layout(), y));
@@ -224,7 +229,8 @@ BOOST_AUTO_TEST_CASE(states_outside_the_law_name_the_particle) {
     BOOST_TEST(says(
         failure({VanDerWaals{0.5, 0.2, 2}}, [](const State<2>& s) { s.energy()(0, 17) = -3.0; }),
         "van der Waals"));
-    FluidModel<2> dense(jittered_particles<2>(8, 31), {VanDerWaals{0.5, 3.0, 2}}, {.range = 2.6});
+    FluidModel<2> dense(jittered_particles<2>(8, 31), {VanDerWaals{0.5, 3.0, 2}},
+                        {.density = Density::summed, .range = 2.6});
     std::vector<double> y(dense.layout().size(), 1.0);
     State<2>(dense.layout(), y).position() = dense.particles().reference_position;
     rates_of(dense, y);
@@ -239,7 +245,8 @@ BOOST_AUTO_TEST_CASE(states_outside_the_law_name_the_particle) {
 
 BOOST_AUTO_TEST_CASE(a_gas_may_be_as_cold_as_can_be) {
     for (const Fluid& fluid : {Fluid{IdealGas{}}, Fluid{VanDerWaals{0.5, 0.2, 2}}}) {
-        FluidModel<2> model(jittered_particles<2>(8, 31), fluid, {.range = 2.6});
+        FluidModel<2> model(jittered_particles<2>(8, 31), fluid,
+                            {.density = Density::summed, .range = 2.6});
         const auto& x = model.particles().reference_position;
         auto y = model.state(x, Points<2>::Zero(2, x.cols()), 0.0);
         BOOST_TEST(std::isfinite(rates_of(model, y).front()), model.failure());
@@ -249,7 +256,8 @@ BOOST_AUTO_TEST_CASE(a_gas_may_be_as_cold_as_can_be) {
 
 BOOST_AUTO_TEST_CASE(friction_alone_costs_the_angular_momentum) {
     const auto promise = [](const Fluid& fluid) {
-        return FluidModel<2>(jittered_particles<2>(8, 31), fluid, {.range = 2.6})
+        return FluidModel<2>(jittered_particles<2>(8, 31), fluid,
+                             {.density = Density::summed, .range = 2.6})
             .promises()
             .angular_momentum;
     };
@@ -259,7 +267,8 @@ BOOST_AUTO_TEST_CASE(friction_alone_costs_the_angular_momentum) {
 }
 
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
-    FluidModel<2> dense(jittered_particles<2>(8, 31), {VanDerWaals{0.5, 3.0, 2}}, {.range = 2.6});
+    FluidModel<2> dense(jittered_particles<2>(8, 31), {VanDerWaals{0.5, 3.0, 2}},
+                        {.density = Density::summed, .range = 2.6});
     const Points<2> x = dense.particles().reference_position;
     try {
         dense.state(x, Points<2>::Zero(2, x.cols()), 1.0);

@@ -5,8 +5,7 @@
 #include <spam/diagnostics/diffusion_waves.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 
 #include <boost/test/unit_test.hpp>

@@ -5,8 +5,8 @@
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/neighbors/pair_list.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 

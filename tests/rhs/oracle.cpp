@@ -2,7 +2,7 @@
 // The pipeline against loops over all pairs written straight from the papers.
 #include "support/oracle_model.hpp"
 #include "support/random_state.hpp"
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -5,8 +5,8 @@
 #include <spam/core/error.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/material/embedded_atom.hpp>
-#include <spam/rhs/density_potential_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
 
 #include <boost/test/unit_test.hpp>
 

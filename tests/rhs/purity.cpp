@@ -4,9 +4,9 @@
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/pair_potential_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>

@@ -5,7 +5,7 @@
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 
 #include <boost/test/unit_test.hpp>
 

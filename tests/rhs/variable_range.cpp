@@ -10,8 +10,8 @@
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
-#include <spam/rhs/fluid_model.hpp>
-#include <spam/rhs/variable_range_model.hpp>
+#include <spam/rhs/own_ranges.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <spam/kernel/any_weight.hpp>
-#include <spam/rhs/fluid_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -24,7 +24,7 @@ template <int Dim>
 std::vector<double> fluid_rates(const FluidModel<Dim>& model, std::span<const double> y,
                                 FluidMutation mutation = FluidMutation::none) {
     const Fluid& fluid = model.fluid();
-    const FluidScheme& scheme = model.scheme();
+    const Scheme& scheme = model.scheme();
     const auto weight = weight_function<Dim>(to_string(scheme.kernel), scheme.range);
     const ConstState<Dim> s(model.layout(), y);
     const auto& mass = model.particles().mass;

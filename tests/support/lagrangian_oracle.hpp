@@ -3,7 +3,7 @@
 
 #include <spam/core/sums.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 
 #include <Eigen/Dense>
 

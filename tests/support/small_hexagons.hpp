@@ -4,8 +4,8 @@
 #include "model_ode.hpp"
 #include <spam/integrate/methods.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/bonded_model.hpp>
-#include <spam/rhs/smooth_particle_model.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
 #include <spam/setup/lattices.hpp>
 
 #include <cmath>

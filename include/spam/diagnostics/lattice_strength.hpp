@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/rhs/density_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
 
 #include <Eigen/Core>
 

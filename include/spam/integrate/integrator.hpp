@@ -28,6 +28,9 @@ struct Ode {
     std::vector<double> absolute_tolerance;
     /// What changes y at single times.
     std::vector<Event> events{};
+    /// After every accepted step (events applied): may change y, and returns whether it did; the integrator
+    /// then begins anew from there. Null where nothing is ever changed. Not with multistep methods.
+    std::function<bool(double t, std::span<double> y)> settle{};
     /// Entries of y that belong together, in order: "position", "velocity", ...
     struct Block {
         std::string name;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace spam {
 
@@ -28,6 +29,14 @@ class Material {
     }
     std::string describe() const { return loop_->describe(); }
 
+    /// The history fields of the law, which y holds for it; none where it has no memory.
+    std::vector<Field> history() const { return loop_->history(); }
+    /// After an accepted step: the law changes stress and history of the particles [first, first + count)
+    /// where it has something to change (a plastic return, damage). Returns whether it did.
+    bool settle(double t, std::size_t first, std::size_t count, const State<Dim>& state) const {
+        return loop_->settle(t, first, count, state);
+    }
+
     /// Longitudinal, where the law has a sound_speed(density).
     std::optional<double> sound_speed(double density) const { return loop_->sound_speed(density); }
 
@@ -38,6 +47,9 @@ class Material {
                          const ConstState<Dim>&, const State<Dim>&) const = 0;
         virtual std::string describe() const = 0;
         virtual std::optional<double> sound_speed(double density) const = 0;
+        virtual std::vector<Field> history() const = 0;
+        virtual bool settle(double t, std::size_t first, std::size_t count,
+                            const State<Dim>& state) const = 0;
     };
 
     template <class Law>
@@ -65,6 +77,19 @@ class Material {
         std::optional<double> sound_speed(double density) const override {
             if constexpr (requires { law.sound_speed(density); }) return law.sound_speed(density);
             return {};
+        }
+        std::vector<Field> history() const override {
+            if constexpr (LawWithHistory<Law, Dim>) return law.history();
+            return {};
+        }
+        bool settle([[maybe_unused]] double t, [[maybe_unused]] std::size_t first,
+                    [[maybe_unused]] std::size_t count,
+                    [[maybe_unused]] const State<Dim>& state) const override {
+            bool changed = false;
+            if constexpr (LawWithHistory<Law, Dim>)
+                for (std::size_t i = first; i < first + count; ++i)
+                    changed = law.settle(t, i, state) || changed;
+            return changed;
         }
         Law law;
     };

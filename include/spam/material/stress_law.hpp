@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/state.hpp>
 #include <spam/core/tensor.hpp>
 
 #include <concepts>
 #include <string>
+#include <vector>
 
 namespace spam {
 
@@ -16,6 +18,15 @@ template <class Law, int Dim>
 concept StressLaw = requires(const Law law, Mat<Dim> grad_v, SymTensor<Dim> stress) {
     { law.stress_rate(grad_v, stress) } -> std::same_as<SymTensor<Dim>>;
     { law.describe() } -> std::convertible_to<std::string>;
+};
+
+/// One with a memory: `history` names the fields that y holds for it (Role::history), and `settle` looks at
+/// particle i after every accepted step and may change its stress and history; it returns whether it did.
+template <class Law, int Dim>
+concept LawWithHistory = StressLaw<Law, Dim> &&
+    requires(const Law law, double t, std::size_t i, const State<Dim>& state) {
+    { law.history() } -> std::convertible_to<std::vector<Field>>;
+    { law.settle(t, i, state) } -> std::same_as<bool>;
 };
 
 }  // namespace spam

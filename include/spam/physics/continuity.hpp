@@ -16,6 +16,10 @@ struct Continuity {
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
         sums.rho_dot -= j.m * dot(pair.v_ji, pair.grad_w);
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.set(to.out.rho_dot, sums.rho_dot);
+    }
 };
 
 /// The chain rule for particles that move with u: rho_dot_i = sum_j m_j (u_i - u_j) . grad_i w_ij,
@@ -28,6 +32,10 @@ struct ChainRuleContinuity {
     template <int Dim, class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.rho_dot -= j.m * dot(j.u - i.u, pair.grad_w);
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.set(to.out.rho_dot, sums.rho_dot);
     }
 };
 

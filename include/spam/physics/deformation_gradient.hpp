@@ -20,6 +20,14 @@ struct DeformationGradient {
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         add_outer(sums.A, present_separation(pair, i, j), j.volume * pair.grad_w);
     }
+    template <class T, class Record>
+    static Mat<Dim, T> result(const Record& i, const Sums<T>& sums) {
+        return sums.A * i.K;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Mat<Dim, T>& F) {
+        to.template write<DeformedRecord<Dim>, column::Deformation>(F);
+    }
 };
 
 }  // namespace spam

@@ -5,6 +5,7 @@
 #include <spam/neighbors/pair.hpp>
 #include <spam/physics/core_potential.hpp>
 #include <spam/physics/density_potential.hpp>
+#include <spam/physics/pass_constants.hpp>
 #include <spam/physics/record.hpp>
 
 #include <tuple>
@@ -14,34 +15,23 @@
 /// once: the derivatives of the weight function are formed once a pair.
 namespace spam {
 
-/// f(number) for the numbers of a field of the density: the field itself, a Vec's or a SymTensor's.
-template <class Field, class F>
-constexpr void for_each_number(Field& field, const F& f) {
-    if constexpr (requires { field.c; })
-        for (auto& number : field.c) f(number);
-    else
-        f(field);
-}
+namespace column {
 
-/// A point, and the slopes of its potentials for a unit of mass, S_i = G_i/m_i.
-template <int Dim, class T, class... Terms>
-struct SlopeRecord : PointRecord<Dim, T> {
-    template <class U>
-    using With = SlopeRecord<Dim, U, Terms...>;
-    static constexpr int slopes_at = PointRecord<Dim, T>::numbers;
-    static constexpr int numbers =
-        slopes_at + (0 + ... + int(sizeof(typename Terms::template Field<Dim>) / sizeof(double)));
-
-    std::tuple<typename Terms::template Field<Dim, T>...> slopes;
-
-    template <class F>
-    constexpr void visit(const F& f) {
-        PointRecord<Dim, T>::visit(f);
-        int k = slopes_at;
-        const auto one = [&](T& number) { f(number, k++); };
-        std::apply([&](auto&... slope) { (for_each_number(slope, one), ...); }, slopes);
-    }
+/// The fields of the density that potentials depend on, then the slopes of the potentials for a unit of
+/// mass, S_i = G_i/m_i.
+template <class... Terms>
+struct Slopes {
+    template <int Dim, class T>
+    struct In {
+        std::tuple<typename Terms::template Field<Dim, T>...> slopes;
+        static constexpr auto member = &In::slopes;
+    };
 };
+
+}  // namespace column
+
+template <int Dim, class T, class... Terms>
+using SlopeRecord = typename PointRecord<Dim, T>::template And<column::Slopes<Terms...>>;
 
 /// The weight function of a pair, seen from i.
 template <int Dim, class T>
@@ -54,6 +44,9 @@ template <int Dim, class... Terms>
 struct DensityFields {
     static constexpr bool light = sizeof...(Terms) == 1;  // sweep.hpp
     GeneralWeight<Dim> weight;
+    static DensityFields with(const PassConstants&, const GeneralWeight<Dim>& weight) {
+        return {weight};
+    }
 
     template <class T>
     struct Sums {
@@ -65,6 +58,11 @@ struct DensityFields {
         std::apply([&](auto&... f) { ((f = f + j.m * Terms::template weigh<Dim>(at)), ...); },
                    sums.fields);
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.template write<SlopeRecord<Dim, double, Terms...>, column::Slopes<Terms...>>(
+            sums.fields);
+    }
 };
 
 /// v_dot_i = -sum_j m_j (S_i +- S_j) . grad_i K(r_ij), + for even K, - for odd K, and the force of the
@@ -73,6 +71,9 @@ template <int Dim, class... Terms>
 struct DensityForces {
     GeneralWeight<Dim> weight;
     CorePotential core;
+    static DensityForces with(const PassConstants& c, const GeneralWeight<Dim>& weight) {
+        return {weight, {c.core_energy, c.core_range}};
+    }
 
     template <class T>
     struct Sums {
@@ -83,6 +84,14 @@ struct DensityForces {
         const WeightAt<Dim, T> at = weight_at(weight, pair);
         add_terms(at, i, j, sums, std::index_sequence_for<Terms...>());
         sums.core_force -= core.force_over_r(pair.r2) * pair.r_ji;
+    }
+    template <class T, class Record>
+    static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
+        return sums.v_dot + (T(1.0) / i.m) * sums.core_force;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Vec<Dim, T>& v_dot) {
+        to.accelerate(v_dot);
     }
 
   private:
@@ -96,11 +105,38 @@ struct DensityForces {
     }
 };
 
-/// sum_j of the core's energy of the pair: each is found from both ends, a particle itself once.
+/// The force of a core alone, and half of its pairs' energy.
+template <int Dim>
+struct CoreForce {
+    static constexpr bool light = true;  // sweep.hpp
+    CorePotential core;
+    static CoreForce with(const PassConstants& c) { return {{c.core_energy, c.core_range}}; }
+
+    template <class T>
+    struct Sums {
+        Vec<Dim, T> force;
+    };
+    template <class T, class Record>
+    void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) const {
+        sums.force -= core.force_over_r(pair.r2) * pair.r_ji;
+    }
+    template <class T, class Record>
+    static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
+        return (T(1.0) / i.m) * sums.force;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Vec<Dim, T>& v_dot) {
+        to.accelerate(v_dot);
+    }
+};
+
+/// sum_j of half of the core's energy of the pair: each pair is found from both ends. A particle itself
+/// is counted once, and taken off.
 template <int Dim>
 struct CoreEnergy {
     static constexpr bool light = true;  // sweep.hpp
     CorePotential core;
+    static CoreEnergy with(const PassConstants& c) { return {{c.core_energy, c.core_range}}; }
 
     template <class T>
     struct Sums {
@@ -109,6 +145,14 @@ struct CoreEnergy {
     template <class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) const {
         sums.energy += core.energy(pair.r2);
+    }
+    template <class T, class Record>
+    T result(const Record&, const Sums<T>& sums) const {
+        return T(0.5) * (sums.energy - T(core.e_c));
+    }
+    template <class To, class T>
+    static void store(const To& to, const T& energy) {
+        to.set(to.out.energy, energy);
     }
 };
 

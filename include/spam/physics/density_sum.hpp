@@ -17,6 +17,10 @@ struct DensitySum {
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
         sums.rho += j.m * pair.w;
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.set(to.out.rho, sums.rho);
+    }
 };
 
 }  // namespace spam

@@ -15,6 +15,8 @@ struct TemperatureGradient {
         return {MeanDensity::of(c.mean_density)};
     }
 
+    using Kept = Vec<Dim>;
+
     template <class T>
     struct Sums {
         Vec<Dim, T> grad_T;  ///< by `factor`
@@ -24,6 +26,10 @@ struct TemperatureGradient {
     void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
         const T volume = mean.over(j.m, i.rho, j.rho);
         sums.grad_T += (volume * (j.temperature - i.temperature)) * pair.grad_w;
+    }
+    template <class T, class Record>
+    static Vec<Dim, T> result(const Record&, const Sums<T>& sums) {
+        return sums.value();
     }
 };
 
@@ -38,6 +44,11 @@ struct HeatFlow {
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.e_dot -= j.m * dot(i.q + j.q, pair.grad_w);
+    }
+    /// On top of the work that a pass before it has stored.
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.add(to.out.e_dot, sums.e_dot);
     }
 };
 

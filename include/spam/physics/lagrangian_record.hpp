@@ -1,69 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/tensor.hpp>
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/record.hpp>
 
 namespace spam {
 
-/// Records of a total-Lagrangian solid (record.hpp). Pairs are pairs of reference positions, so that
-/// in the passes over them r_ji is X_j - X_i and w, grad_w are the initial weights. Each sweep reads
-/// what the one before it found, one record is the beginning of the next.
-template <int Dim, class T = double>
-struct ReferenceRecord {
-    template <class U>
-    using With = ReferenceRecord<Dim, U>;
-    static constexpr int present_at = Dim, volume_at = 2 * Dim, K_at = volume_at + 1,
-                         numbers = K_at + symmetric_size(Dim);
+namespace column {
 
-    Vec<Dim, T> x;        ///< X, the reference position, wrapped into the box where it is periodic
-    Vec<Dim, T> present;  ///< the position now, moved by as many periods as X was
-    T volume{};           ///< V = m/rho_0
-    SymTensor<Dim, T> K;  ///< symmetric, because grad w_ij is along X_ij
-
-    template <class F>
-    constexpr void visit(const F& f) {
-        int k = 0;
-        for (T& c : x.c) f(c, k++);
-        for (T& c : present.c) f(c, k++);
-        f(volume, k++);
-        for (T& c : K.c) f(c, k++);
-    }
+struct Present {
+    template <int Dim, class T>
+    struct In {
+        Vec<Dim, T> present;  ///< the position now, moved by as many periods as X was
+        static constexpr auto member = &In::present;
+    };
+};
+struct Volume {
+    template <int Dim, class T>
+    struct In {
+        T volume{};  ///< V = m/rho_0
+        static constexpr auto member = &In::volume;
+    };
+};
+struct Correction {
+    template <int Dim, class T>
+    struct In {
+        SymTensor<Dim, T> K;  ///< symmetric, because grad w_ij is along X_ij
+        static constexpr auto member = &In::K;
+    };
+};
+struct Deformation {
+    template <int Dim, class T>
+    struct In {
+        Mat<Dim, T> F;  ///< F = A K
+        static constexpr auto member = &In::F;
+    };
+};
+struct ReferenceStress {
+    template <int Dim, class T>
+    struct In {
+        Mat<Dim, T> B;  ///< what pairs feel, (P - M/V) K^t; P before that is known
+        static constexpr auto member = &In::B;
+    };
 };
 
-/// With the deformation gradient F = A K.
+}  // namespace column
+
+/// Records of a total-Lagrangian solid. Pairs are pairs of reference positions, so that in the passes
+/// over them `x` is X, r_ji is X_j - X_i and w, grad_w are the initial weights. Each sweep reads what the
+/// one before it found, one record is the beginning of the next.
 template <int Dim, class T = double>
-struct DeformedRecord : ReferenceRecord<Dim, T> {
-    template <class U>
-    using With = DeformedRecord<Dim, U>;
-    static constexpr int F_at = ReferenceRecord<Dim, T>::numbers, numbers = F_at + Dim * Dim;
-
-    Mat<Dim, T> F;
-
-    template <class V>
-    constexpr void visit(const V& f) {
-        ReferenceRecord<Dim, T>::visit(f);
-        int k = F_at;
-        for (T& c : F.c) f(c, k++);
-    }
-};
-
-/// With the stress that pairs feel, B = (P - M/V) K^t.
+using ReferenceRecord =
+    RecordOf<Dim, T, column::Position, column::Present, column::Volume, column::Correction>;
 template <int Dim, class T = double>
-struct StressedRecord : DeformedRecord<Dim, T> {
-    template <class U>
-    using With = StressedRecord<Dim, U>;
-    static constexpr int B_at = DeformedRecord<Dim, T>::numbers, numbers = B_at + Dim * Dim;
-
-    Mat<Dim, T> B;
-
-    template <class F>
-    constexpr void visit(const F& f) {
-        DeformedRecord<Dim, T>::visit(f);
-        int k = B_at;
-        for (T& c : B.c) f(c, k++);
-    }
-};
+using DeformedRecord = typename ReferenceRecord<Dim, T>::template And<column::Deformation>;
+template <int Dim, class T = double>
+using StressedRecord = typename DeformedRecord<Dim, T>::template And<column::ReferenceStress>;
 
 /// x_j - x_i now, of the images whose reference positions are nearest: what is added is a multiple of
 /// the period, in open space an exact zero.

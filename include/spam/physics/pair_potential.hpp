@@ -19,6 +19,10 @@ struct PairPotential {
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
         sums.v_dot -= (j.m * pair.minus_slope) * pair.r_ji;
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.accelerate(sums.v_dot);
+    }
 };
 
 }  // namespace spam

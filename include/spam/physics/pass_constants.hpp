@@ -16,6 +16,10 @@ struct ViscosityConstants {
 struct PassConstants {
     MeanDensityKind mean_density = MeanDensityKind::arithmetic;
     ViscosityConstants viscosity{};
+    double inverse_density = 1.0;  ///< of a total-Lagrangian solid: 1/rho_0
+    double penalty = 0.0;          ///< its penalty times its stiffness, kappa lambda
+    double core_energy = 0.0;      ///< of CorePotential
+    double core_range = 1.0;
 };
 
 }  // namespace spam

@@ -16,6 +16,10 @@ struct PressureForce {
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.add(j.m, -(i.a + j.a) * pair.grad_w, pair.v_ji);
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        sums.store(to);
+    }
 };
 
 }  // namespace spam

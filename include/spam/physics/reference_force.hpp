@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/physics/lagrangian_record.hpp>
+#include <spam/physics/pass_constants.hpp>
 
 namespace spam {
 
@@ -14,6 +15,9 @@ template <int Dim>
 struct ReferenceForce {
     static constexpr bool light = true;  // sweep.hpp
 
+    double inverse_density = 1.0;  ///< 1/rho_0 = V_i/m_i
+    static ReferenceForce with(const PassConstants& c) { return {c.inverse_density}; }
+
     template <class T>
     struct Sums {
         Vec<Dim, T> force;
@@ -21,6 +25,15 @@ struct ReferenceForce {
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.force += j.volume * ((i.B + j.B) * pair.grad_w);
+    }
+    template <class T, class Record>
+    Vec<Dim, T> result(const Record&, const Sums<T>& sums) const {
+        return T(inverse_density) * sums.force;
+    }
+    /// On top of what the penalty has stored.
+    template <class To, class T>
+    static void store(const To& to, const Vec<Dim, T>& v_dot) {
+        to.add(to.out.v_dot, v_dot);
     }
 };
 

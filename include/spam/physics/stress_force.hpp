@@ -28,6 +28,18 @@ struct ForceSums {
         power += m_j * dot(f_ij, v_ji);
     }
     constexpr T e_dot() const { return T(0.5) * power; }
+
+    /// As the rates, or on top of what a pass or a sweep before has stored.
+    template <class To>
+    constexpr void store(const To& to) const {
+        to.accelerate(v_dot);
+        to.set(to.out.e_dot, e_dot());
+    }
+    template <class To>
+    constexpr void store_more(const To& to) const {
+        to.add(to.out.v_dot, v_dot);
+        to.add(to.out.e_dot, e_dot());
+    }
 };
 
 /// The stress force as it is.
@@ -39,6 +51,10 @@ struct StressForce {
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.add(j.m, stress_force(pair, i, j), pair.v_ji);
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        sums.store(to);
     }
 };
 

@@ -32,6 +32,11 @@ struct TorqueSums {
         sums.positive += positive_part(torque);
         sums.negative += positive_part(-torque);
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.set(to.out.positive_torque, sums.positive);
+        to.set(to.out.negative_torque, sums.negative);
+    }
 };
 
 /// What negative torques are multiplied by, and positive ones.
@@ -77,6 +82,10 @@ struct BalancedStressForce {
     template <class T, class Record>
     static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        sums.store(to);
     }
 };
 

@@ -16,8 +16,12 @@ struct PlainTransport {
     template <class T, class Record>
     static void add(const Pair<Dim, T>&, const Record&, const Record&, Sums<T>&) {}
     template <class T, class Record>
-    static Vec<Dim, T> velocity(const Record& i, const Sums<T>&) {
+    static Vec<Dim, T> result(const Record& i, const Sums<T>&) {
         return i.v;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Vec<Dim, T>& u) {
+        to.set(to.out.x_dot, u);
     }
 };
 
@@ -37,8 +41,12 @@ struct AverageTransport {
         sums.weight += m_w;
     }
     template <class T, class Record>
-    static Vec<Dim, T> velocity(const Record&, const Sums<T>& sums) {
+    static Vec<Dim, T> result(const Record&, const Sums<T>& sums) {
         return (T(1.0) / sums.weight) * sums.momentum;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Vec<Dim, T>& u) {
+        to.set(to.out.x_dot, u);
     }
 };
 
@@ -61,8 +69,12 @@ struct MonaghanTransport {
         sums.correction += pair.w * (volume * pair.v_ji);
     }
     template <class T, class Record>
-    static Vec<Dim, T> velocity(const Record& i, const Sums<T>& sums) {
+    static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
         return i.v + T(MeanDensity::factor) * sums.correction;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Vec<Dim, T>& u) {
+        to.set(to.out.x_dot, u);
     }
 };
 

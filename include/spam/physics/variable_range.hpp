@@ -4,6 +4,8 @@
 #include <spam/core/lanes.hpp>
 #include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/pass_constants.hpp>
+#include <spam/physics/record.hpp>
 
 /// Ranges that follow the density, h_i = eta (m_i/rho_i)^(1/D), so that every particle has about as many
 /// neighbours wherever the gas is thin. With the density of a particle summed with its own range,
@@ -16,38 +18,37 @@
 /// In terms of the weight function of range one, W(u), with -W'/u = S(u):
 ///     w(r; h) = W(r/h)/h^D,   grad_i w = S(r/h)/h^(D+2) r_ji,   dw/dh = (u^2 S - D W)/h^(D+1)
 namespace spam {
-inline namespace SPAM_LANES {
+namespace column {
 
-/// The first numbers are those of Record (record.hpp), so that the same code packs them.
-template <int Dim, class T = double>
-struct RangeRecord {
-    template <class U>
-    using With = RangeRecord<Dim, U>;
-    static constexpr int inverse_range_at = 2 * Dim + 1;
-    static constexpr int pull_at = inverse_range_at + 1;
-    static constexpr int numbers = pull_at + 1;
-
-    Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
-    Vec<Dim, T> v;
-    T m{};
-    T inverse_range{};  ///< 1/h
-    T pull{};           ///< a/h^(D+2)
-
-    template <class F>
-    constexpr void visit(const F& f) {
-        int k = 0;
-        for (T& c : x.c) f(c, k++);
-        for (T& c : v.c) f(c, k++);
-        f(m, k++);
-        f(inverse_range, k++);
-        f(pull, k++);
-    }
+struct InverseRange {
+    template <int Dim, class T>
+    struct In {
+        T inverse_range{};  ///< 1/h
+        static constexpr auto member = &In::inverse_range;
+    };
 };
+struct Pull {
+    template <int Dim, class T>
+    struct In {
+        T pull{};  ///< a/h^(D+2)
+        static constexpr auto member = &In::pull;
+    };
+};
+
+}  // namespace column
+
+template <int Dim, class T = double>
+using RangeRecord = typename MotionRecord<Dim, T>::template And<column::InverseRange, column::Pull>;
+
+inline namespace SPAM_LANES {
 
 /// What Omega and rho_dot are made of: the particle's own range alone.
 template <int Dim>
 struct OwnRangeSums {
     GeneralWeight<Dim> unit;  ///< of range 1
+    static OwnRangeSums with(const PassConstants&, const GeneralWeight<Dim>& unit) {
+        return {unit};
+    }
 
     template <class T>
     struct Sums {
@@ -61,12 +62,20 @@ struct OwnRangeSums {
         sums.spread += j.m * (T(double(Dim)) * unit.value(u) - u * u * S);
         sums.approach += j.m * S * dot(pair.v_ji, pair.r_ji);
     }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.set(to.out.spread, sums.spread);
+        to.set(to.out.approach, sums.approach);
+    }
 };
 
 /// Both ranges: the force of the pair, equal and opposite to the last bit.
 template <int Dim>
 struct BothRangesForce {
     GeneralWeight<Dim> unit;
+    static BothRangesForce with(const PassConstants&, const GeneralWeight<Dim>& unit) {
+        return {unit};
+    }
 
     template <class T>
     struct Sums {
@@ -79,6 +88,10 @@ struct BothRangesForce {
         const T own = rounded(i.pull * unit.minus_slope_over_r(pair.r * i.inverse_range));
         const T other = rounded(j.pull * unit.minus_slope_over_r(pair.r * j.inverse_range));
         sums.v_dot -= (j.m * (own + other)) * pair.r_ji;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        to.accelerate(sums.v_dot);
     }
 };
 

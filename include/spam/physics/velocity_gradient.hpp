@@ -16,6 +16,8 @@ struct VelocityGradient {
         return {MeanDensity::of(c.mean_density)};
     }
 
+    using Kept = Mat<Dim>;
+
     template <class T>
     struct Sums {
         Mat<Dim, T> grad_v;  ///< by `factor`
@@ -27,6 +29,10 @@ struct VelocityGradient {
         const Vec<Dim, T> v = volume * pair.v_ji;
         for (int a = 0; a < Dim; ++a)
             for (int b = 0; b < Dim; ++b) sums.grad_v(a, b) += pair.grad_w[a] * v[b];
+    }
+    template <class T, class Record>
+    static Mat<Dim, T> result(const Record&, const Sums<T>& sums) {
+        return sums.value();
     }
 };
 

@@ -23,19 +23,31 @@ struct ViscousForce {
         return {c.viscosity, MeanDensity::of(c.mean_density)};
     }
 
+    /// Of the pair: the mean of both particles', where records hold them.
+    template <class T, class Record>
+    T sound_speed(const Record& i, const Record& j) const {
+        if constexpr (requires { i.c; })
+            return T(0.5) * (i.c + j.c);
+        else
+            return T(constants.sound_speed);
+    }
     template <class T, class Record>
     Vec<Dim, T> force(const Pair<Dim, T>& pair, const Record& i, const Record& j) const {
         const double l = constants.length;
         const T approach = positive_part(-dot(pair.v_ji, pair.r_ji));
         const T mu = T(l) * approach / (pair.r2 + T(0.01 * l * l));
-        const T Pi = mean.over(T(constants.alpha * MeanDensity::factor) * mu *
-                                   (T(constants.sound_speed) + T(2.0) * mu),
-                               i.rho, j.rho);
+        const T Pi = mean.over(
+            T(constants.alpha * MeanDensity::factor) * mu * (sound_speed<T>(i, j) + T(2.0) * mu),
+            i.rho, j.rho);
         return -Pi * pair.grad_w;
     }
     template <class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
         sums.add(j.m, force(pair, i, j), pair.v_ji);
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        sums.store_more(to);
     }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/physics/lagrangian_record.hpp>
+#include <spam/physics/pass_constants.hpp>
 
 namespace spam {
 
@@ -28,10 +29,19 @@ template <int Dim>
 struct ZeroEnergyPenalty {
     static constexpr bool light = true;  // sweep.hpp
 
+    double stiffness = 0.0;        ///< kappa lambda
+    double inverse_density = 1.0;  ///< 1/rho_0
+    static ZeroEnergyPenalty with(const PassConstants& c) { return {c.penalty, c.inverse_density}; }
+
     template <class T>
     struct Sums {
         Vec<Dim, T> force;
         Mat<Dim, T> M;
+    };
+    template <class T>
+    struct Result {
+        Vec<Dim, T> v_dot;
+        Mat<Dim, T> B;
     };
     template <class T, class Record>
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
@@ -40,12 +50,25 @@ struct ZeroEnergyPenalty {
         sums.force += f;
         add_outer(sums.M, T(0.5) * f, pair.r_ji);
     }
+    /// `i.B` is P as the law has told it.
+    template <class T, class Record>
+    Result<T> result(const Record& i, const Sums<T>& sums) const {
+        return {T(stiffness * inverse_density) * sums.force, (i.B + T(-stiffness) * sums.M) * i.K};
+    }
+    template <class To, class T>
+    static void store(const To& to, const Result<T>& result) {
+        to.accelerate(result.v_dot);
+        to.template write<StressedRecord<Dim>, column::ReferenceStress>(result.B);
+    }
 };
 
 /// Half of the energies k_ij |d_ij|^2/2 of a particle's pairs, by kappa lambda V_i.
 template <int Dim>
 struct PenaltyEnergy {
     static constexpr bool light = true;  // sweep.hpp
+
+    double stiffness = 0.0;  ///< kappa lambda
+    static PenaltyEnergy with(const PassConstants& c) { return {c.penalty}; }
 
     template <class T>
     struct Sums {
@@ -55,6 +78,14 @@ struct PenaltyEnergy {
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         const UnseenStretch<Dim, T> unseen(pair, i, j);
         sums.energy += T(0.25) * unseen.k * dot(unseen.d_ji, unseen.d_ji);
+    }
+    template <class T, class Record>
+    T result(const Record& i, const Sums<T>& sums) const {
+        return T(stiffness) * i.volume * sums.energy;
+    }
+    template <class To, class T>
+    static void store(const To& to, const T& energy) {
+        to.set(to.out.energy, energy);
     }
 };
 

@@ -57,6 +57,11 @@ class Model {
     /// rates.
     virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
 
+    /// After every accepted step, before anybody looks at it: what is not integrated may be changed here
+    /// (a plastic return: history fields, and the stress that goes with them). Returns whether y was; the
+    /// integrator is told.
+    virtual bool settle(double, std::span<double>) { return false; }
+
     /// Gives every particle its body anew, 0, 1, ... as connected_parts() does. The integrator must be
     /// reset where rates depend on it.
     virtual void set_bodies(std::vector<std::int32_t> bodies) {

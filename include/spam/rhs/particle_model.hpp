@@ -2,21 +2,46 @@
 #pragma once
 
 #include <spam/external/external.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/term.hpp>
 
 #include <memory>
+#include <type_traits>
 
 namespace spam {
 
-/// Particles that act on each other by the law of a derived class and on which externals act. Every
-/// external works with every law: friction, gravity or a clamp are written once.
+/// Particles that act on each other by terms (term.hpp) and on which externals act (external.hpp). Every
+/// term goes with every other and with every external, unless physics forbids it: friction, gravity, a
+/// clamp or a core are written once.
 template <int Dim>
 class ParticleModel : public Model<Dim> {
   public:
+    using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
     using Externals = std::vector<std::unique_ptr<External<Dim>>>;
 
-    /// Adds an external behind those there are. y grows by the accounts (external.hpp): add externals
-    /// before a state is made.
+    /// Without a term nothing moves but by externals.
+    explicit ParticleModel(Particles<Dim> particles, const Box<Dim>& box = {});
+
+    /// One more term, Law(*this, arguments...). y grows by its fields: add terms and externals before a
+    /// state is made. Throws InputError where it does not go with those that are there: two that find the
+    /// rate of the same field of y, a potential of positions beside particles that move with an averaged
+    /// velocity.
+    template <class Law, class... Arguments>
+    Law& add_term(Arguments&&... arguments) {
+        auto term = std::make_unique<Law>(*this, std::forward<Arguments>(arguments)...);
+        Law& law = *term;
+        take(std::move(term));
+        return law;
+    }
+    const Terms& terms() const { return terms_; }
+    /// The first term that is a Law; null where there is none.
+    template <class Law>
+    const Law* term() const {
+        for (const auto& term : terms_)
+            if (const auto* law = dynamic_cast<const Law*>(term.get())) return law;
+        return nullptr;
+    }
+
+    /// Adds an external behind those there are. y grows by the accounts (external.hpp).
     void add(std::unique_ptr<External<Dim>> external);
     const Externals& externals() const { return externals_; }
 
@@ -27,28 +52,22 @@ class ParticleModel : public Model<Dim> {
     /// Throws InputError where some particles are held and others are reflected: a reflection would move
     /// what is held.
     std::vector<Event> events() const final;
-    /// The law's own: what externals give is in the accounts.
-    Promises promises() const final { return pair_promises(); }
+    /// The weakest of the terms' promises; what externals give is in the accounts.
+    Promises promises() const final;
     std::string describe() const final;
     std::string inseparable() const final;
     double fastest_damping() const final;
-    double neighbour_forces(std::span<const double> y) const override;
+    double neighbour_forces(std::span<const double> y) const final;
+    bool smooth() const final;
+    std::size_t pairs() const final;
+    double reach() const final;
+    std::vector<Remark> watch(double t, std::span<const double> y) final;
+    void set_bodies(std::vector<std::int32_t> bodies) final;
+    void remember(Archive& archive) final;
+    bool settle(double t, std::span<double> y) final;
 
-  protected:
-    ParticleModel(Particles<Dim> particles, const Box<Dim>& box, const std::vector<Field>& fields)
-        : Model<Dim>(std::move(particles), box, fields) {}
-
-    // The law of the particles alone: what Model's functions of the same names say of the whole.
-    virtual void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) = 0;
-    virtual double pair_energy(std::span<const double> y) const = 0;
-    virtual std::vector<double> pair_density(std::span<const double> y) const;
-    virtual std::vector<Event> pair_events() const { return {}; }
-    virtual Promises pair_promises() const = 0;
-    virtual std::string pair_description() const = 0;
-    virtual double pair_damping() const { return 0.0; }
-    /// Whether x_dot = v: else a potential changes at another rate than its forces do work, and the work is
-    /// booked instead.
-    virtual bool moves_with_velocity() const { return true; }
+    /// Neighbour lists built so far, of all terms.
+    std::size_t list_builds() const;
 
   private:
     /// What one external gives to the particles of a block, per time.
@@ -60,15 +79,21 @@ class ParticleModel : public Model<Dim> {
     };
     static constexpr Eigen::Index block = 256;  ///< particles whose rates are changed at a time
 
+    void take(std::unique_ptr<Term<Dim>> term);
+    bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
     Given apply_to(const External<Dim>& external, const typename External<Dim>::Now& now,
                    Eigen::Index first, Eigen::Index last) const;
     void book(const External<Dim>& external, const Given& given, const State<Dim>& rate) const;
 
+    bool moves_with_velocity() const;
+    /// Where x_dot is not v a potential changes at another rate than its forces do work: the work is booked
+    /// instead.
     bool has_energy(const External<Dim>& external) const {
         return external.potential() && moves_with_velocity();
     }
 
+    Terms terms_;
     Externals externals_;
     std::vector<Given> given_;  ///< by block
 };

@@ -2,7 +2,7 @@
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/neighbors/pair_list.hpp>
-#include <spam/rhs/bonded_model.hpp>
+#include <spam/rhs/springs.hpp>
 
 #include <fmt/format.h>
 
@@ -11,12 +11,11 @@
 namespace spam {
 
 template <int Dim>
-BondedModel<Dim>::BondedModel(Particles<Dim> particles, const HarmonicSpring& spring,
-                              const Box<Dim>& box)
-    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+Springs<Dim>::Springs(Model<Dim>& model, const HarmonicSpring& spring)
+    : Term<Dim>(model),
       spring_(spring),
       bond_reach_(1.2 * this->particles().spacing) {
-    const PairList<Dim> list(this->particles().reference_position, bond_reach_, box);
+    const PairList<Dim> list(this->particles().reference_position, bond_reach_, this->box());
     start_.push_back(0);
     for (std::size_t i = 0; i < list.size(); ++i) {
         for (const std::uint32_t j : list.neighbours(i))
@@ -28,7 +27,7 @@ BondedModel<Dim>::BondedModel(Particles<Dim> particles, const HarmonicSpring& sp
 /// Nearest image of x_i - x_j.
 template <int Dim>
 template <class View>
-Point<Dim> BondedModel<Dim>::bond(const View& x, std::size_t i, std::size_t j) const {
+Point<Dim> Springs<Dim>::bond(const View& x, std::size_t i, std::size_t j) const {
     Point<Dim> r;
     for (int a = 0; a < Dim; ++a) {
         const auto ci = static_cast<Eigen::Index>(i), cj = static_cast<Eigen::Index>(j);
@@ -41,13 +40,10 @@ Point<Dim> BondedModel<Dim>::bond(const View& x, std::size_t i, std::size_t j) c
 }
 
 template <int Dim>
-void BondedModel<Dim>::pair_rates(double, std::span<const double> y, std::span<double> y_dot) {
-    this->failure_.clear();
-    const ConstState<Dim> state(this->layout(), y);
-    const State<Dim> rate(this->layout(), y_dot);
-    const auto x = state.position();
-    rate.position() = state.velocity();
-    auto v_dot = rate.velocity();
+std::string Springs<Dim>::rates(const Now& now) {
+    const auto x = now.state.position();
+    auto v_dot = now.rate.velocity();
+    if (!now.on_top) v_dot.setZero();
     parallel_for(this->particles().size(), [&](std::size_t i) {
         Point<Dim> force = Point<Dim>::Zero();
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
@@ -55,12 +51,13 @@ void BondedModel<Dim>::pair_rates(double, std::span<const double> y, std::span<d
             const double r = r_ij.norm();
             force += (spring_.force(r) / r) * r_ij;
         }
-        v_dot.col(static_cast<Eigen::Index>(i)) = force / this->particles().mass[i];
+        v_dot.col(static_cast<Eigen::Index>(i)) += force / this->particles().mass[i];
     });
+    return {};
 }
 
 template <int Dim>
-double BondedModel<Dim>::pair_energy(std::span<const double> y) const {
+double Springs<Dim>::energy(std::span<const double> y) const {
     const auto x = ConstState<Dim>(this->layout(), y).position();
     CompensatedSum sum;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
@@ -70,7 +67,7 @@ double BondedModel<Dim>::pair_energy(std::span<const double> y) const {
 }
 
 template <int Dim>
-double BondedModel<Dim>::neighbour_forces(std::span<const double> y) const {
+double Springs<Dim>::neighbour_forces(std::span<const double> y) const {
     const auto x = ConstState<Dim>(this->layout(), y).position();
     double sum = 0.0;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
@@ -80,8 +77,7 @@ double BondedModel<Dim>::neighbour_forces(std::span<const double> y) const {
 }
 
 template <int Dim>
-std::vector<SymTensor<Dim>> BondedModel<Dim>::stress(std::span<const double> y,
-                                                     double volume) const {
+std::vector<SymTensor<Dim>> Springs<Dim>::stress(std::span<const double> y, double volume) const {
     const auto x = ConstState<Dim>(this->layout(), y).position();
     std::vector<SymTensor<Dim>> all(this->particles().size());
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -95,22 +91,15 @@ std::vector<SymTensor<Dim>> BondedModel<Dim>::stress(std::span<const double> y,
 }
 
 template <int Dim>
-Promises BondedModel<Dim>::pair_promises() const {
-    Promises p;
-    p.angular_momentum = Promise::integrator_error;
-    return this->in_box(p);
-}
-
-template <int Dim>
-std::string BondedModel<Dim>::pair_description() const {
+std::string Springs<Dim>::describe() const {
     return fmt::format(
         "molecular dynamics, {} harmonic springs kappa = {:g}, rest length {:g}, between initial "
         "neighbours",
         pairs(), spring_.kappa, spring_.rest_length);
 }
 
-template class BondedModel<1>;
-template class BondedModel<2>;
-template class BondedModel<3>;
+template class Springs<1>;
+template class Springs<2>;
+template class Springs<3>;
 
 }  // namespace spam

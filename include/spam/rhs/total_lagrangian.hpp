@@ -12,7 +12,7 @@ namespace spam {
 template <int Dim>
 struct SweepInput;
 template <int Dim>
-struct LagrangianSweeps;
+struct Sweeps;
 
 /// How a total-Lagrangian solid is summed.
 struct TotalLagrangianScheme {
@@ -28,15 +28,23 @@ struct TotalLagrangianScheme {
 /// unchanged: p is kept exactly, E and in open space L to integrator error, and there is no tensile
 /// instability. It cannot flow or break: who are neighbours stays so.
 template <int Dim>
-class TotalLagrangianModel final : public ParticleModel<Dim> {
+class TotalLagrangian final : public Term<Dim> {
   public:
     /// `material`: any hyperelastic law (hyperelastic_law.hpp). In a periodic box the lattice closes on
     /// itself as in the reference configuration. Throws InputError for a density, range or penalty
     /// that makes no sense, a periodic box not wider than twice the range, and a particle whose
     /// neighbours do not span space.
-    TotalLagrangianModel(Particles<Dim> particles, const HyperelasticMaterial<Dim>& material,
-                         const TotalLagrangianScheme& scheme, const Box<Dim>& box = {});
-    ~TotalLagrangianModel() override;
+    TotalLagrangian(Model<Dim>& model, const HyperelasticMaterial<Dim>& material,
+                    const TotalLagrangianScheme& scheme);
+    ~TotalLagrangian() override;
+
+    using typename Term<Dim>::Now;
+    std::string rates(const Now& now) override;
+    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair.
+    double energy(std::span<const double> y) const override;
+    /// rho_0/det F; negative where a particle is turned inside out.
+    std::vector<double> density(std::span<const double> y) const override;
+    std::string describe() const override;
 
     std::size_t pairs() const override { return list_.pairs(); }
     double reach() const override { return scheme_.range; }
@@ -46,31 +54,40 @@ class TotalLagrangianModel final : public ParticleModel<Dim> {
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
 
   private:
-    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair.
-    double pair_energy(std::span<const double> y) const override;
-    /// rho_0/det F; negative where a particle is turned inside out.
-    std::vector<double> pair_density(std::span<const double> y) const override;
-    Promises pair_promises() const override;
-    std::string pair_description() const override;
-
     struct Stresses;
     SweepInput<Dim> input(const std::vector<double>& records) const;
     void pack_reference();
     void find_corrections();
-    void load(std::span<const double> y, std::vector<double>& records) const;
+    void load(const ConstState<Dim>& state, std::vector<double>& records) const;
     std::vector<double> deformed(std::span<const double> y) const;
-    void fail_stress(std::span<double> y_dot);
+    std::string complaint() const;
 
     HyperelasticMaterial<Dim> material_;
     TotalLagrangianScheme scheme_;
-    std::unique_ptr<const LagrangianSweeps<Dim>> sweeps_;
+    std::unique_ptr<const Sweeps<Dim>> sweeps_;
     ClusterList<Dim> list_;        ///< of the reference positions
     std::vector<double> records_;  ///< StressedRecord by slot
 };
 
-extern template class TotalLagrangianModel<1>;
-extern template class TotalLagrangianModel<2>;
-extern template class TotalLagrangianModel<3>;
+extern template class TotalLagrangian<1>;
+extern template class TotalLagrangian<2>;
+extern template class TotalLagrangian<3>;
+
+/// A total-Lagrangian solid and nothing else.
+template <int Dim>
+class TotalLagrangianModel final : public ParticleModel<Dim> {
+  public:
+    TotalLagrangianModel(Particles<Dim> particles, const HyperelasticMaterial<Dim>& material,
+                         const TotalLagrangianScheme& scheme, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<TotalLagrangian<Dim>>(material, scheme)) {}
+
+    const TotalLagrangianScheme& scheme() const { return law.scheme(); }
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const {
+        return law.deformation_gradients(y);
+    }
+
+    TotalLagrangian<Dim>& law;
+};
 
 }  // namespace spam

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../core/levels.hpp"
-#include "density_potential_sweeps.hpp"
 #include "packed_particles.hpp"
+#include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/physics/curvature_strength.hpp>
+#include <spam/physics/record.hpp>
 #include <spam/physics/surface_tension.hpp>
-#include <spam/rhs/density_potential_model.hpp>
+#include <spam/rhs/density_potentials.hpp>
 
 #include <fmt/format.h>
 
@@ -60,23 +60,18 @@ DensityPotentials validated(const DensityPotentials& p, const Particles<Dim>& pa
 bool has_shape(const DensityPotentials& p) { return p.surface_tension > 0.0 || p.strength > 0.0; }
 
 template <int Dim>
-DensityPotentialSweeps<Dim> best_sweeps(bool shape) {
-    return at_level(instruction_set(),
-                    [&](auto level) { return density_potential_sweeps<Dim, level>(shape); });
+PackedFields fields(const Particles<Dim>& particles, const ConstState<Dim>& state) {
+    return {state.position().data(), nullptr, particles.mass.data()};
 }
 
-/// Of points, which know neither velocity nor stress.
+/// Where in a record what begins: x and m, then rho and, where anything but the density and the core acts,
+/// g and D (not on a line, where D is zero). The first sweep writes these; the slopes that the sweep of
+/// forces reads are put in their place.
 template <int Dim>
-Pack<Dim> point_pack() {
-    return at_level(instruction_set(),
-                    [](auto level) { return potential_sweeps<Dim, level>().pack; });
-}
-
-template <int Dim>
-PackedFields fields(const Model<Dim>& model, std::span<const double> y) {
-    const ConstState<Dim> state(model.layout(), y);
-    return {state.position().data(), nullptr, model.particles().mass.data()};
-}
+struct Places {
+    static constexpr std::size_t mass = Dim, rho = PointRecord<Dim>::numbers, g = rho + 1,
+                                 D = g + Dim;
+};
 
 }  // namespace
 
@@ -90,22 +85,28 @@ std::string DensityPotentials::describe() const {
 }
 
 template <int Dim>
-struct DensityPotentialModel<Dim>::Parts {
-    using At = DensityRecordPlaces<Dim>;
+struct DensityPotentialTerm<Dim>::Parts {
+    using At = Places<Dim>;
 
     /// Without a core its range is any but zero, by whose square is divided.
     explicit Parts(const DensityPotentials& p)
         : potentials(p),
           shape(has_shape(p)),
-          sweeps(best_sweeps<Dim>(shape)),
+          sweeps(best_sweeps(
+              [this](auto level) { return density_potential_sweeps<Dim, level>(shape); })),
           weight(p.kernel, p.range),
           core(p.core.e_c > 0.0 ? p.core : CorePotential{0.0, p.range}) {}
 
-    DensityPotentialOutput<Dim> output(PackedParticles<Dim>& particles) const {
-        return {weight, core, particles.record(0)};
+    SweepInput<Dim> input(const PackedParticles<Dim>& particles) const {
+        SweepInput<Dim> in = particles.input();
+        in.constants.core_energy = core.e_c;
+        in.constants.core_range = core.s;
+        return in;
     }
     void find_fields(PackedParticles<Dim>& particles) const {
-        sweeps.fields(particles.input(), output(particles));
+        SweepOutput<Dim> out;
+        out.records = particles.record(0);
+        sweeps.density(input(particles), out);
     }
     std::size_t make_slopes();
     void make_slopes(double* record, double P) const;
@@ -113,7 +114,7 @@ struct DensityPotentialModel<Dim>::Parts {
 
     DensityPotentials potentials;
     bool shape;  ///< whether g and D are wanted
-    DensityPotentialSweeps<Dim> sweeps;
+    Sweeps<Dim> sweeps;
     GeneralWeight<Dim> weight;
     CorePotential core;
     std::unique_ptr<PackedParticles<Dim>> packed{};
@@ -141,7 +142,7 @@ bool within_law(double rho, double P) { return rho > 0.0 && std::isfinite(P); }
 
 /// S = G/m in place of the fields: P/rho^2 for the density.
 template <int Dim>
-void DensityPotentialModel<Dim>::Parts::make_slopes(double* record, double P) const {
+void DensityPotentialTerm<Dim>::Parts::make_slopes(double* record, double P) const {
     double& rho = record[At::rho];
     rho = P / (rho * rho);
     if (!shape) return;
@@ -157,7 +158,7 @@ void DensityPotentialModel<Dim>::Parts::make_slopes(double* record, double P) co
 
 /// Of all slots, some hundred at a time. Returns how many densities are outside the law.
 template <int Dim>
-std::size_t DensityPotentialModel<Dim>::Parts::make_slopes() {
+std::size_t DensityPotentialTerm<Dim>::Parts::make_slopes() {
     constexpr std::size_t block = 256;
     const std::size_t slots = packed->list().size();
     densities.resize(slots);
@@ -183,7 +184,7 @@ std::size_t DensityPotentialModel<Dim>::Parts::make_slopes() {
 
 /// Of the fields of one particle.
 template <int Dim>
-double DensityPotentialModel<Dim>::Parts::energy(double m, const double* record) const {
+double DensityPotentialTerm<Dim>::Parts::energy(double m, const double* record) const {
     double energy = potentials.state ? m * potentials.state->cold_energy(record[At::rho]) : 0.0;
     if (!shape) return energy;
     energy += SurfaceTension{potentials.surface_tension}.energy<Dim>(
@@ -195,53 +196,42 @@ double DensityPotentialModel<Dim>::Parts::energy(double m, const double* record)
 }
 
 template <int Dim>
-DensityPotentialModel<Dim>::DensityPotentialModel(Particles<Dim> particles,
-                                                  const DensityPotentials& potentials,
-                                                  const Box<Dim>& box)
-    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+DensityPotentialTerm<Dim>::DensityPotentialTerm(Model<Dim>& model,
+                                                const DensityPotentials& potentials)
+    : Term<Dim>(model),
       potentials_(validated(potentials, this->particles())),
       parts_(std::make_unique<Parts>(potentials_)) {
     parts_->packed = packed_with(ListUse::again_and_again);
 }
 
 template <int Dim>
-DensityPotentialModel<Dim>::~DensityPotentialModel() = default;
+DensityPotentialTerm<Dim>::~DensityPotentialTerm() = default;
 
 template <int Dim>
-std::unique_ptr<PackedParticles<Dim>> DensityPotentialModel<Dim>::packed_with(ListUse use) const {
-    using At = DensityRecordPlaces<Dim>;
-    return std::make_unique<PackedParticles<Dim>>(
-        parts_->weight, use, this->box(), parts_->sweeps.width,
-        parts_->shape ? At::of_all : At::of_density, point_pack<Dim>());
+std::unique_ptr<PackedParticles<Dim>> DensityPotentialTerm<Dim>::packed_with(ListUse use) const {
+    return std::make_unique<PackedParticles<Dim>>(parts_->weight, use, this->box(), parts_->sweeps);
 }
 
 /// The order that the equations force: rho, g and D; their slopes; forces.
 template <int Dim>
-void DensityPotentialModel<Dim>::pair_rates(double, std::span<const double> y,
-                                            std::span<double> y_dot) {
-    this->failure_.clear();
+std::string DensityPotentialTerm<Dim>::rates(const Now& now) {
     PackedParticles<Dim>& packed = *parts_->packed;
-    if (!packed.follow(this->particles().size(), fields(*this, y))) {
-        this->fail(y_dot, "a position is not finite");
-        return;
-    }
+    if (!packed.follow(this->particles().size(), fields(this->particles(), now.state)))
+        return "a position is not finite";
     if (parts_->shape || potentials_.state) {
         parts_->find_fields(packed);
-        if (parts_->make_slopes() > 0) {
-            fail_density(y_dot);
-            return;
-        }
+        if (parts_->make_slopes() > 0) return complaint();
     }
-    const State<Dim> rate(this->layout(), y_dot);
-    rate.position() = ConstState<Dim>(this->layout(), y).velocity();
-    DensityPotentialOutput<Dim> out = parts_->output(packed);
-    out.v_dot = rate.velocity().data();
-    parts_->sweeps.forces(packed.input(), out);
+    SweepOutput<Dim> out;
+    out.v_dot = now.rate.velocity().data();
+    out.on_top = now.on_top;
+    parts_->sweeps.force(parts_->input(packed), out);
+    return {};
 }
 
 /// Names the first particle whose density is outside the law.
 template <int Dim>
-void DensityPotentialModel<Dim>::fail_density(std::span<double> y_dot) {
+std::string DensityPotentialTerm<Dim>::complaint() const {
     const auto order = parts_->packed->list().order();
     std::size_t first = this->particles().size(), at = 0;
     for (std::size_t slot = 0; slot < parts_->densities.size(); ++slot)
@@ -250,39 +240,39 @@ void DensityPotentialModel<Dim>::fail_density(std::span<double> y_dot) {
             at = slot;
         }
     const std::string law = potentials_.state ? potentials_.state->describe() : "a density";
-    this->fail(y_dot, fmt::format("density {} of particle {} is outside the law '{}'",
-                                  parts_->densities[at], this->particles().id[first], law));
+    return fmt::format("density {} of particle {} is outside the law '{}'", parts_->densities[at],
+                       this->particles().id[first], law);
 }
 
 template <int Dim>
-void DensityPotentialModel<Dim>::remember(Archive& archive) {
-    Model<Dim>::remember(archive);
+void DensityPotentialTerm<Dim>::remember(Archive& archive) {
     if (archive.reading()) parts_->packed = packed_with(ListUse::again_and_again);
 }
 
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as
 /// it is.
 template <int Dim>
-std::vector<double> DensityPotentialModel<Dim>::pair_density(std::span<const double> y) const {
+std::vector<double> DensityPotentialTerm<Dim>::density(std::span<const double> y) const {
     const auto own = packed_with(ListUse::once);
     std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
-    if (!own->follow(rho.size(), fields(*this, y))) return rho;
+    if (!own->follow(rho.size(), fields(this->particles(), this->state_of(y)))) return rho;
     parts_->find_fields(*own);
     for (std::size_t slot = 0; slot < rho.size(); ++slot)
-        rho[own->list().order()[slot]] = own->record(slot)[DensityRecordPlaces<Dim>::rho];
+        rho[own->list().order()[slot]] = own->record(slot)[Places<Dim>::rho];
     return rho;
 }
 
 template <int Dim>
-double DensityPotentialModel<Dim>::pair_energy(std::span<const double> y) const {
+double DensityPotentialTerm<Dim>::energy(std::span<const double> y) const {
     const auto own = packed_with(ListUse::once);
     const std::size_t n = this->particles().size();
-    if (!own->follow(n, fields(*this, y))) return std::numeric_limits<double>::quiet_NaN();
+    if (!own->follow(n, fields(this->particles(), this->state_of(y))))
+        return std::numeric_limits<double>::quiet_NaN();
     std::vector<double> energy(n, 0.0);
     if (potentials_.core.e_c > 0.0) {
-        DensityPotentialOutput<Dim> out = parts_->output(*own);
+        SweepOutput<Dim> out;
         out.energy = energy.data();
-        parts_->sweeps.energy(own->input(), out);
+        parts_->sweeps.energy(parts_->input(*own), out);
     }
     parts_->find_fields(*own);
     for (std::size_t slot = 0; slot < n; ++slot) {
@@ -295,10 +285,10 @@ double DensityPotentialModel<Dim>::pair_energy(std::span<const double> y) const 
 }
 
 template <int Dim>
-double DensityPotentialModel<Dim>::neighbour_forces(std::span<const double> y) const {
-    double sum = std::abs(pair_energy(y));
+double DensityPotentialTerm<Dim>::neighbour_forces(std::span<const double> y) const {
+    double sum = std::abs(energy(y));
     if (potentials_.state) {
-        const auto rho = pair_density(y);
+        const auto rho = density(y);
         std::vector<double> P(rho.size());
         potentials_.state->pressures(rho, rho, P);
         for (std::size_t i = 0; i < P.size(); ++i)
@@ -308,24 +298,17 @@ double DensityPotentialModel<Dim>::neighbour_forces(std::span<const double> y) c
 }
 
 template <int Dim>
-Promises DensityPotentialModel<Dim>::pair_promises() const {
-    Promises p;
-    p.angular_momentum = Promise::integrator_error;
-    return this->in_box(p);
-}
-
-template <int Dim>
-std::string DensityPotentialModel<Dim>::pair_description() const {
+std::string DensityPotentialTerm<Dim>::describe() const {
     return fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
 }
 
 template <int Dim>
-std::size_t DensityPotentialModel<Dim>::pairs() const {
+std::size_t DensityPotentialTerm<Dim>::pairs() const {
     return parts_->packed->list().pairs();
 }
 
-template class DensityPotentialModel<1>;
-template class DensityPotentialModel<2>;
-template class DensityPotentialModel<3>;
+template class DensityPotentialTerm<1>;
+template class DensityPotentialTerm<2>;
+template class DensityPotentialTerm<3>;
 
 }  // namespace spam

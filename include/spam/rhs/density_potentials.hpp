@@ -30,15 +30,22 @@ struct DensityPotentials {
 /// Molecular dynamics with potentials of the density: y = (x, v), m v_dot = -d Phi/d r. Keeps p
 /// exactly, E to integrator error, and in open space L as well.
 template <int Dim>
-class DensityPotentialModel final : public ParticleModel<Dim> {
+class DensityPotentialTerm final : public Term<Dim> {
   public:
     /// Throws InputError where nothing acts, the law is not cold, the weight function is not smooth
     /// enough for a potential (physics/density_potential.hpp), a potential needs more dimensions, a
     /// strength, energy or range makes no sense (the core's must be below the range), or a periodic box
     /// is not wider than twice the range.
-    DensityPotentialModel(Particles<Dim> particles, const DensityPotentials& potentials,
-                          const Box<Dim>& box = {});
-    ~DensityPotentialModel() override;
+    DensityPotentialTerm(Model<Dim>& model, const DensityPotentials& potentials);
+    ~DensityPotentialTerm() override;
+
+    using typename Term<Dim>::Now;
+    std::string rates(const Now& now) override;
+    /// Phi
+    double energy(std::span<const double> y) const override;
+    /// sum_j m_j w_ij, self included
+    std::vector<double> density(std::span<const double> y) const override;
+    std::string describe() const override;
 
     double neighbour_forces(std::span<const double> y) const override;
     std::size_t pairs() const override;
@@ -48,24 +55,30 @@ class DensityPotentialModel final : public ParticleModel<Dim> {
     const DensityPotentials& potentials() const { return potentials_; }
 
   private:
-    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    /// Phi
-    double pair_energy(std::span<const double> y) const override;
-    /// sum_j m_j w_ij, self included
-    std::vector<double> pair_density(std::span<const double> y) const override;
-    Promises pair_promises() const override;
-    std::string pair_description() const override;
-
     struct Parts;
-    void fail_density(std::span<double> y_dot);
+    std::string complaint() const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
 
     DensityPotentials potentials_;
     std::unique_ptr<Parts> parts_;  ///< sweeps, records and fields
 };
 
-extern template class DensityPotentialModel<1>;
-extern template class DensityPotentialModel<2>;
-extern template class DensityPotentialModel<3>;
+extern template class DensityPotentialTerm<1>;
+extern template class DensityPotentialTerm<2>;
+extern template class DensityPotentialTerm<3>;
+
+/// Potentials of the density and nothing else.
+template <int Dim>
+class DensityPotentialModel final : public ParticleModel<Dim> {
+  public:
+    DensityPotentialModel(Particles<Dim> particles, const DensityPotentials& potentials,
+                          const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<DensityPotentialTerm<Dim>>(potentials)) {}
+
+    const DensityPotentials& potentials() const { return law.potentials(); }
+
+    DensityPotentialTerm<Dim>& law;
+};
 
 }  // namespace spam

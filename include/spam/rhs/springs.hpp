@@ -12,10 +12,16 @@ namespace spam {
 /// paper's reference solution, [HHM04] VI: y = (x, v). Keeps p exactly, L and E to integrator
 /// error.
 template <int Dim>
-class BondedModel final : public ParticleModel<Dim> {
+class Springs final : public Term<Dim> {
   public:
     /// Bonds every pair closer than 1.2 spacings in the reference configuration.
-    BondedModel(Particles<Dim> particles, const HarmonicSpring& spring, const Box<Dim>& box = {});
+    using typename Term<Dim>::Now;
+
+    Springs(Model<Dim>& model, const HarmonicSpring& spring);
+
+    std::string rates(const Now& now) override;
+    double energy(std::span<const double> y) const override;
+    std::string describe() const override;
 
     /// Stress of every particle from its own bonds (virial), tension-positive:
     /// sigma_i = -1/(2 V) sum_j r_ij (x) F_ij, V the volume of a particle.
@@ -26,11 +32,6 @@ class BondedModel final : public ParticleModel<Dim> {
     double reach() const override { return bond_reach_; }
 
   private:
-    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double pair_energy(std::span<const double> y) const override;
-    Promises pair_promises() const override;
-    std::string pair_description() const override;
-
     template <class View>
     Point<Dim> bond(const View& x, std::size_t i, std::size_t j) const;
 
@@ -40,8 +41,24 @@ class BondedModel final : public ParticleModel<Dim> {
     std::vector<std::uint32_t> partner_;  ///< every bond from both its ends, ascending
 };
 
-extern template class BondedModel<1>;
-extern template class BondedModel<2>;
-extern template class BondedModel<3>;
+extern template class Springs<1>;
+extern template class Springs<2>;
+extern template class Springs<3>;
+
+/// Springs and nothing else.
+template <int Dim>
+class BondedModel final : public ParticleModel<Dim> {
+  public:
+    BondedModel(Particles<Dim> particles, const HarmonicSpring& spring, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<Springs<Dim>>(spring)) {}
+
+    /// Springs::stress()
+    std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const {
+        return law.stress(y, volume);
+    }
+
+    Springs<Dim>& law;
+};
 
 }  // namespace spam

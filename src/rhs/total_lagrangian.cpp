@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../core/levels.hpp"
-#include "lagrangian_sweeps.hpp"
 #include "packed_particles.hpp"
+#include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/physics/lagrangian_record.hpp>
-#include <spam/rhs/total_lagrangian_model.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -23,23 +22,18 @@ namespace {
 template <int Dim>
 constexpr std::size_t stride = StressedRecord<Dim>::numbers;
 template <int Dim>
-constexpr std::size_t present_at = StressedRecord<Dim>::present_at;
+constexpr std::size_t present_at = StressedRecord<Dim>::template at<column::Present>;
 template <int Dim>
-constexpr std::size_t volume_at = StressedRecord<Dim>::volume_at;
+constexpr std::size_t volume_at = StressedRecord<Dim>::template at<column::Volume>;
 template <int Dim>
-constexpr std::size_t K_at = StressedRecord<Dim>::K_at;
+constexpr std::size_t K_at = StressedRecord<Dim>::template at<column::Correction>;
 template <int Dim>
-constexpr std::size_t F_at = StressedRecord<Dim>::F_at;
+constexpr std::size_t F_at = StressedRecord<Dim>::template at<column::Deformation>;
 template <int Dim>
-constexpr std::size_t B_at = StressedRecord<Dim>::B_at;
+constexpr std::size_t B_at = StressedRecord<Dim>::template at<column::ReferenceStress>;
 
 template <int Dim>
 using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
-
-template <int Dim>
-LagrangianSweeps<Dim> best_sweeps() {
-    return at_level(instruction_set(), [](auto level) { return lagrangian_sweeps<Dim, level>(); });
-}
 
 template <int Dim>
 TotalLagrangianScheme validated(const TotalLagrangianScheme& scheme,
@@ -72,15 +66,16 @@ Mat<Dim> tensor_at(const double* numbers) {
 
 /// The material as the sweep calls it.
 template <int Dim>
-struct TotalLagrangianModel<Dim>::Stresses {
+struct TotalLagrangian<Dim>::Stresses {
     const HyperelasticMaterial<Dim>& material;
     std::vector<double>& records;
     bool penalised;  ///< the sweep of the penalty makes B of P
-    std::atomic<bool> finite = true;
+    mutable std::atomic<bool> finite = true;
 
-    static void call(void* context, std::size_t first_slot, std::size_t count) {
-        auto& self = *static_cast<Stresses*>(context);
-        double* const record = self.records.data() + first_slot * stride<Dim>;
+    static void call(const void* context, const SweptBlock& block) {
+        const auto& self = *static_cast<const Stresses*>(context);
+        const std::size_t count = block.count;
+        double* const record = self.records.data() + block.first_slot * stride<Dim>;
         double* const B = record + B_at<Dim>;
         if (!self.material.stresses(count, stride<Dim>, record + F_at<Dim>, B)) self.finite = false;
         if (self.penalised) return;
@@ -94,18 +89,17 @@ struct TotalLagrangianModel<Dim>::Stresses {
 };
 
 template <int Dim>
-TotalLagrangianModel<Dim>::~TotalLagrangianModel() = default;
+TotalLagrangian<Dim>::~TotalLagrangian() = default;
 
 template <int Dim>
-TotalLagrangianModel<Dim>::TotalLagrangianModel(Particles<Dim> particles,
-                                                const HyperelasticMaterial<Dim>& material,
-                                                const TotalLagrangianScheme& scheme,
-                                                const Box<Dim>& box)
-    : ParticleModel<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+TotalLagrangian<Dim>::TotalLagrangian(Model<Dim>& model, const HyperelasticMaterial<Dim>& material,
+                                      const TotalLagrangianScheme& scheme)
+    : Term<Dim>(model),
       material_(material),
       scheme_(validated(scheme, this->particles(), material.stiffness())),
-      sweeps_(std::make_unique<const LagrangianSweeps<Dim>>(best_sweeps<Dim>())),
-      list_(scheme.range, 0.0, box, sweeps_->width, stride<Dim>) {
+      sweeps_(std::make_unique<const Sweeps<Dim>>(
+          best_sweeps([](auto level) { return lagrangian_sweeps<Dim, level>(); }))),
+      list_(scheme.range, 0.0, this->box(), sweeps_->width, stride<Dim>) {
     if (!this->particles().reference_position.allFinite())
         throw InputError("particles: a reference position is not finite");
     list_.build(this->particles().reference_position);
@@ -114,13 +108,16 @@ TotalLagrangianModel<Dim>::TotalLagrangianModel(Particles<Dim> particles,
 }
 
 template <int Dim>
-SweepInput<Dim> TotalLagrangianModel<Dim>::input(const std::vector<double>& records) const {
-    return {list_.view(), {records.data(), stride<Dim>}, scheme_.range, &this->box()};
+SweepInput<Dim> TotalLagrangian<Dim>::input(const std::vector<double>& records) const {
+    SweepInput<Dim> in{list_.view(), {records.data(), stride<Dim>}, scheme_.range, &this->box()};
+    in.constants.inverse_density = 1.0 / scheme_.density;
+    in.constants.penalty = scheme_.penalty * material_.stiffness();
+    return in;
 }
 
 /// What stays: X and V; and K = 1 to begin with.
 template <int Dim>
-void TotalLagrangianModel<Dim>::pack_reference() {
+void TotalLagrangian<Dim>::pack_reference() {
     const auto order = list_.order();
     records_.assign(order.size() * stride<Dim>, 0.0);
     for (std::size_t slot = 0; slot < order.size(); ++slot) {
@@ -136,8 +133,9 @@ void TotalLagrangianModel<Dim>::pack_reference() {
 
 /// K_i = [sum_j V_j (X_j - X_i) (x) grad_i W_ij]^-1, by the sweep that will multiply with it.
 template <int Dim>
-void TotalLagrangianModel<Dim>::find_corrections() {
-    LagrangianOutput<Dim> out{records_.data()};
+void TotalLagrangian<Dim>::find_corrections() {
+    SweepOutput<Dim> out;
+    out.records = records_.data();
     sweeps_->gradient(input(records_), out);
     for (std::size_t slot = 0; slot < list_.size(); ++slot) {
         double* const record = &records_[slot * stride<Dim>];
@@ -161,10 +159,9 @@ void TotalLagrangianModel<Dim>::find_corrections() {
 
 /// The positions now, moved by the periods that wrapping took off X.
 template <int Dim>
-void TotalLagrangianModel<Dim>::load(std::span<const double> y,
-                                     std::vector<double>& records) const {
+void TotalLagrangian<Dim>::load(const ConstState<Dim>& state, std::vector<double>& records) const {
     constexpr auto d = static_cast<std::size_t>(Dim);
-    const double* const x = ConstState<Dim>(this->layout(), y).position().data();
+    const double* const x = state.position().data();
     const double* const X = this->particles().reference_position.data();
     const auto order = list_.order();
     parallel_for(order.size(), [&](std::size_t slot) {
@@ -178,36 +175,30 @@ void TotalLagrangianModel<Dim>::load(std::span<const double> y,
 
 /// The order that the equations force: A, F, P - penalty and M, B - force.
 template <int Dim>
-void TotalLagrangianModel<Dim>::pair_rates(double, std::span<const double> y,
-                                           std::span<double> y_dot) {
-    this->failure_.clear();
-    const State<Dim> rate(this->layout(), y_dot);
-    load(y, records_);
-    rate.position() = ConstState<Dim>(this->layout(), y).velocity();
-
+std::string TotalLagrangian<Dim>::rates(const Now& now) {
+    load(now.state, records_);
     const SweepInput<Dim> in = input(records_);
-    LagrangianOutput<Dim> out{records_.data()};
-    out.v_dot = rate.velocity().data();
-    out.inverse_density = 1.0 / scheme_.density;
-    out.penalty = scheme_.penalty * material_.stiffness();
-    Stresses stresses{material_, records_, scheme_.penalty > 0.0};
-    out.stresses = Stresses::call;
+    SweepOutput<Dim> out;
+    out.records = records_.data();
+    out.v_dot = now.rate.velocity().data();
+    out.on_top = now.on_top;
+    const Stresses stresses{material_, records_, scheme_.penalty > 0.0};
+    out.close = Stresses::call;
     out.context = &stresses;
     sweeps_->gradient(in, out);
-    if (!stresses.finite) {
-        fail_stress(y_dot);
-        return;
-    }
+    if (!stresses.finite) return complaint();
+    out.close = nullptr;
     if (stresses.penalised)
-        sweeps_->penalty(in, out);
-    else
-        rate.velocity().setZero();
+        sweeps_->second(in, out);
+    else if (!now.on_top)
+        now.rate.velocity().setZero();
     sweeps_->force(in, out);
+    return {};
 }
 
 /// Names the first particle, in the order of the slots, whose stress has no meaning.
 template <int Dim>
-void TotalLagrangianModel<Dim>::fail_stress(std::span<double> y_dot) {
+std::string TotalLagrangian<Dim>::complaint() const {
     const auto order = list_.order();
     const auto finite = [&](std::size_t slot, std::size_t at) {
         const double* const first = &records_[slot * stride<Dim> + at];
@@ -215,23 +206,24 @@ void TotalLagrangianModel<Dim>::fail_stress(std::span<double> y_dot) {
     };
     std::size_t slot = 0;
     while (slot + 1 < list_.size() && finite(slot, B_at<Dim>)) ++slot;
-    this->fail(y_dot, fmt::format("the {} of particle {} is not finite",
-                                  finite(slot, F_at<Dim>) ? "stress" : "deformation gradient",
-                                  this->particles().id[order[slot]]));
+    return fmt::format("the {} of particle {} is not finite",
+                       finite(slot, F_at<Dim>) ? "stress" : "deformation gradient",
+                       this->particles().id[order[slot]]);
 }
 
 /// For observers: records of their own, so that those of the right-hand side stay as they are.
 template <int Dim>
-std::vector<double> TotalLagrangianModel<Dim>::deformed(std::span<const double> y) const {
+std::vector<double> TotalLagrangian<Dim>::deformed(std::span<const double> y) const {
     std::vector<double> records = records_;
-    load(y, records);
-    sweeps_->gradient(input(records), {records.data()});
+    load(this->state_of(y), records);
+    SweepOutput<Dim> out;
+    out.records = records.data();
+    sweeps_->gradient(input(records), out);
     return records;
 }
 
 template <int Dim>
-std::vector<Mat<Dim>> TotalLagrangianModel<Dim>::deformation_gradients(
-    std::span<const double> y) const {
+std::vector<Mat<Dim>> TotalLagrangian<Dim>::deformation_gradients(std::span<const double> y) const {
     const std::vector<double> records = deformed(y);
     std::vector<Mat<Dim>> F(list_.size());
     for (std::size_t slot = 0; slot < F.size(); ++slot)
@@ -240,7 +232,7 @@ std::vector<Mat<Dim>> TotalLagrangianModel<Dim>::deformation_gradients(
 }
 
 template <int Dim>
-std::vector<double> TotalLagrangianModel<Dim>::pair_density(std::span<const double> y) const {
+std::vector<double> TotalLagrangian<Dim>::density(std::span<const double> y) const {
     std::vector<double> rho;
     for (const Mat<Dim>& F : deformation_gradients(y))
         rho.push_back(scheme_.density / Eigen::Map<const Tensor<Dim>>(F.c.data()).determinant());
@@ -248,13 +240,12 @@ std::vector<double> TotalLagrangianModel<Dim>::pair_density(std::span<const doub
 }
 
 template <int Dim>
-double TotalLagrangianModel<Dim>::pair_energy(std::span<const double> y) const {
+double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
     std::vector<double> records = deformed(y);
     std::vector<double> penalty(list_.size(), 0.0);
     if (scheme_.penalty > 0.0) {
-        LagrangianOutput<Dim> out{records.data()};
+        SweepOutput<Dim> out;
         out.energy = penalty.data();
-        out.penalty = scheme_.penalty * material_.stiffness();
         sweeps_->energy(input(records), out);
     }
     CompensatedSum sum;
@@ -267,22 +258,15 @@ double TotalLagrangianModel<Dim>::pair_energy(std::span<const double> y) const {
 }
 
 template <int Dim>
-Promises TotalLagrangianModel<Dim>::pair_promises() const {
-    Promises p;
-    p.angular_momentum = Promise::integrator_error;
-    return this->in_box(p);
-}
-
-template <int Dim>
-std::string TotalLagrangianModel<Dim>::pair_description() const {
+std::string TotalLagrangian<Dim>::describe() const {
     return fmt::format(
         "total Lagrangian, {}, density {:.6g}, lucy weight of range {} between reference "
         "positions, penalty kappa = {}",
         material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
 }
 
-template class TotalLagrangianModel<1>;
-template class TotalLagrangianModel<2>;
-template class TotalLagrangianModel<3>;
+template class TotalLagrangian<1>;
+template class TotalLagrangian<2>;
+template class TotalLagrangian<3>;
 
 }  // namespace spam

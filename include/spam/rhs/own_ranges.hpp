@@ -10,7 +10,7 @@
 namespace spam {
 
 template <int Dim>
-struct RangeSweeps;
+struct Sweeps;
 template <int Dim>
 class PackedParticles;
 
@@ -30,13 +30,21 @@ struct VariableRangeScheme {
 /// then integrated, so that ranges are a function of y and no equation is solved in the rates. Keeps m, p
 /// and sum m (e + v^2/2) exactly, in open space L as well.
 template <int Dim>
-class VariableRangeModel final : public ParticleModel<Dim> {
+class OwnRanges final : public Term<Dim> {
   public:
     /// Throws InputError where eta is so small that a particle would be its own only neighbour, and for a
     /// law with friction or conduction.
-    VariableRangeModel(Particles<Dim> particles, const Fluid& fluid,
-                       const VariableRangeScheme& scheme, const Box<Dim>& box = {});
-    ~VariableRangeModel() override;
+    OwnRanges(Model<Dim>& model, const Fluid& fluid, const VariableRangeScheme& scheme);
+    ~OwnRanges() override;
+
+    using typename Term<Dim>::Now;
+    std::vector<Field> fields() const override { return {Field::density, Field::energy}; }
+    /// A range that has grown to half of a periodic length ends the run.
+    std::string rates(const Now& now) override;
+    bool potential() const override { return false; }
+    double energy(std::span<const double> y) const override;
+    double neighbour_forces(std::span<const double> y) const override;
+    std::string describe() const override;
 
     std::size_t pairs() const override;
     /// The largest range of the latest rates().
@@ -51,21 +59,15 @@ class VariableRangeModel final : public ParticleModel<Dim> {
     /// y at `position` (Dim x N) with these velocities: densities and ranges that belong to each other, by
     /// Newton's method; energies as FluidModel::state(). Throws InputError where a range would have to
     /// reach half of a periodic length.
-    std::vector<double> state(const Points<Dim>& position, const Points<Dim>& velocity,
-                              double T = 0.0);
+    std::vector<double> start(const Points<Dim>& position, const Points<Dim>& velocity, double T);
     /// N densities, each summed with its particle's own range, of particles at `position`.
     std::vector<double> solve_densities(const Points<Dim>& position) const;
 
   private:
-    /// A range that has grown to half of a periodic length ends the run: failure() says so.
-    void pair_rates(double t, std::span<const double> y, std::span<double> y_dot) override;
-    double pair_energy(std::span<const double> y) const override;
-    Promises pair_promises() const override;
-    std::string pair_description() const override;
-
     double range_of(std::size_t i, double rho) const;
     double most_range() const;
-    bool find_ranges(std::span<const double> y, std::span<double> y_dot);
+    std::string find_ranges(const ConstState<Dim>& state);
+    std::size_t close_own_sums(const Now& now);
     void make_room();
     template <class Fill>
     void fill(const Fill& fill);
@@ -73,14 +75,38 @@ class VariableRangeModel final : public ParticleModel<Dim> {
     Fluid fluid_;
     VariableRangeScheme scheme_;
     GeneralWeight<Dim> unit_;
-    std::unique_ptr<const RangeSweeps<Dim>> sweeps_;
+    std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;  ///< null before the first rates()
     double packed_reach_ = 0.0, reach_ = 0.0;
     std::vector<double> range_, pressure_, pull_, rho_dot_;
 };
 
-extern template class VariableRangeModel<1>;
-extern template class VariableRangeModel<2>;
-extern template class VariableRangeModel<3>;
+extern template class OwnRanges<1>;
+extern template class OwnRanges<2>;
+extern template class OwnRanges<3>;
+
+/// A fluid of such particles and nothing else.
+template <int Dim>
+class VariableRangeModel final : public ParticleModel<Dim> {
+  public:
+    VariableRangeModel(Particles<Dim> particles, const Fluid& fluid,
+                       const VariableRangeScheme& scheme, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<OwnRanges<Dim>>(fluid, scheme)) {}
+
+    const Fluid& fluid() const { return law.fluid(); }
+    const VariableRangeScheme& scheme() const { return law.scheme(); }
+    /// As OwnRanges::ranges(), start(), solve_densities().
+    std::vector<double> ranges(std::span<const double> y) const { return law.ranges(y); }
+    std::vector<double> state(const Points<Dim>& position, const Points<Dim>& velocity,
+                              double T = 0.0) {
+        return law.start(position, velocity, T);
+    }
+    std::vector<double> solve_densities(const Points<Dim>& position) const {
+        return law.solve_densities(position);
+    }
+
+    OwnRanges<Dim>& law;
+};
 
 }  // namespace spam

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../core/levels.hpp"
 #include "carried_energy.hpp"
 #include "packed_particles.hpp"
-#include "range_sweeps.hpp"
+#include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/variable_range.hpp>
-#include <spam/rhs/variable_range_model.hpp>
+#include <spam/rhs/own_ranges.hpp>
 
 #include <fmt/format.h>
 
@@ -24,15 +23,6 @@ double power(double h) {
     double p = h;
     for (int a = 1; a < Dim; ++a) p *= h;
     return p;
-}
-
-template <int Dim>
-RangeSweeps<Dim> best_sweeps() {
-    return at_level(instruction_set(), [](auto level) {
-        RangeSweeps<Dim> sweeps = range_sweeps<Dim, level>();
-        sweeps.pack = pack_for<Dim, level>();
-        return sweeps;
-    });
 }
 
 /// Masses and distances of one particle's neighbours.
@@ -75,17 +65,16 @@ std::string VariableRangeScheme::describe() const {
 }
 
 template <int Dim>
-VariableRangeModel<Dim>::~VariableRangeModel() = default;
+OwnRanges<Dim>::~OwnRanges() = default;
 
 template <int Dim>
-VariableRangeModel<Dim>::VariableRangeModel(Particles<Dim> particles, const Fluid& fluid,
-                                            const VariableRangeScheme& scheme, const Box<Dim>& box)
-    : ParticleModel<Dim>(std::move(particles), box,
-                         {Field::position, Field::velocity, Field::density, Field::energy}),
+OwnRanges<Dim>::OwnRanges(Model<Dim>& model, const Fluid& fluid, const VariableRangeScheme& scheme)
+    : Term<Dim>(model),
       fluid_(fluid),
       scheme_(scheme),
       unit_(scheme.kernel, 1.0),
-      sweeps_(std::make_unique<const RangeSweeps<Dim>>(best_sweeps<Dim>())),
+      sweeps_(std::make_unique<const Sweeps<Dim>>(
+          best_sweeps([](auto level) { return own_range_sweeps<Dim, level>(); }))),
       range_(this->particles().size()),
       pressure_(range_.size()),
       pull_(range_.size()) {
@@ -105,7 +94,7 @@ VariableRangeModel<Dim>::VariableRangeModel(Particles<Dim> particles, const Flui
 }
 
 template <int Dim>
-double VariableRangeModel<Dim>::range_of(std::size_t i, double rho) const {
+double OwnRanges<Dim>::range_of(std::size_t i, double rho) const {
     const double volume = this->particles().mass[i] / rho;
     if constexpr (Dim == 1) return scheme_.range * volume;
     if constexpr (Dim == 2) return scheme_.range * std::sqrt(volume);
@@ -114,82 +103,99 @@ double VariableRangeModel<Dim>::range_of(std::size_t i, double rho) const {
 
 /// Half of the shortest periodic length.
 template <int Dim>
-double VariableRangeModel<Dim>::most_range() const {
+double OwnRanges<Dim>::most_range() const {
     double most = std::numeric_limits<double>::infinity();
     for (int a = 0; a < Dim; ++a)
         if (this->box().periodic(a)) most = std::min(most, 0.5 * this->box().length(a));
     return most;
 }
 
-/// range_ and reach_. Returns whether they make sense.
+/// range_ and reach_. Returns why they make no sense.
 template <int Dim>
-bool VariableRangeModel<Dim>::find_ranges(std::span<const double> y, std::span<double> y_dot) {
-    const auto rho = ConstState<Dim>(this->layout(), y).density();
+std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
+    const auto rho = state.density();
     std::size_t widest = 0;
     for (std::size_t i = 0; i < range_.size(); ++i) {
         const double r = rho(0, static_cast<Eigen::Index>(i));
-        if (!(r > 0.0)) {
-            this->fail(y_dot,
-                       fmt::format("density {} of particle {} is not positive (it is integrated: "
-                                   "a smaller step may keep it)",
-                                   r, this->particles().id[i]));
-            return false;
-        }
+        if (!(r > 0.0))
+            return fmt::format(
+                "density {} of particle {} is not positive (it is integrated: "
+                "a smaller step may keep it)",
+                r, this->particles().id[i]);
         range_[i] = range_of(i, r);
         if (range_[i] > range_[widest]) widest = i;
     }
     reach_ = range_[widest];
-    if (reach_ < most_range()) return true;
-    this->fail(y_dot, fmt::format("range {:g} of particle {} has grown to half of the periodic box",
-                                  reach_, this->particles().id[widest]));
-    return false;
+    if (reach_ < most_range()) return {};
+    return fmt::format("range {:g} of particle {} has grown to half of the periodic box", reach_,
+                       this->particles().id[widest]);
 }
 
 /// A list that reaches as far as the longest range, and some way further as long as ranges grow.
 template <int Dim>
-void VariableRangeModel<Dim>::make_room() {
+void OwnRanges<Dim>::make_room() {
     if (packed_ && reach_ <= packed_reach_ && reach_ > 0.7 * packed_reach_) return;
     packed_reach_ = std::min(1.1 * reach_, 0.5 * (reach_ + most_range()));
-    packed_ = std::make_unique<PackedParticles<Dim>>(
-        GeneralWeight<Dim>(scheme_.kernel, packed_reach_), ListUse::again_and_again, this->box(),
-        sweeps_->width, static_cast<std::size_t>(RangeRecord<Dim>::numbers), sweeps_->pack);
+    packed_ =
+        std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, packed_reach_),
+                                               ListUse::again_and_again, this->box(), *sweeps_);
 }
 
 template <int Dim>
 template <class Fill>
-void VariableRangeModel<Dim>::fill(const Fill& fill) {
+void OwnRanges<Dim>::fill(const Fill& fill) {
     const auto order = packed_->list().order();
     parallel_for(order.size(),
                  [&](std::size_t slot) { fill(std::size_t{order[slot]}, packed_->record(slot)); });
 }
 
 template <int Dim>
-void VariableRangeModel<Dim>::pair_rates(double, std::span<const double> y,
-                                         std::span<double> y_dot) {
-    this->failure_.clear();
-    if (!find_ranges(y, y_dot)) return;
+std::string OwnRanges<Dim>::rates(const Now& now) {
+    using R = RangeRecord<Dim>;
+    if (auto reason = find_ranges(now.state); !reason.empty()) return reason;
     make_room();
-    const ConstState<Dim> state(this->layout(), y);
-    const State<Dim> rate(this->layout(), y_dot);
     const std::size_t n = range_.size();
-    if (!packed_->follow(
-            n, {state.position().data(), state.velocity().data(), this->particles().mass.data()}))
-        return this->fail(y_dot, "a position is not finite");
+    if (!packed_->follow(n, {now.state.position().data(), now.state.velocity().data(),
+                             this->particles().mass.data()}))
+        return "a position is not finite";
     fill([&](std::size_t i, double* record) {
-        record[RangeRecord<Dim>::inverse_range_at] = 1.0 / range_[i];
+        record[R::template at<column::InverseRange>] = 1.0 / range_[i];
     });
-    const RangeInput<Dim> in{packed_->list().view(),
-                             {packed_->record(0), std::size_t{RangeRecord<Dim>::numbers}},
-                             &unit_,
-                             &this->box()};
-    RangeOutput<Dim> out{rate.energy().data(), rate.density().data(), rate.velocity().data()};
-    sweeps_->own_sums(in, out);
+    SweepInput<Dim> in = packed_->input();
+    in.weight = &unit_;
+    SweepOutput<Dim> out;
+    out.spread = now.rate.energy().data();
+    out.approach = now.rate.density().data();
+    out.v_dot = now.rate.velocity().data();
+    out.on_top = now.on_top;
+    sweeps_->density(in, out);
+    if (close_own_sums(now) > 0) {
+        std::size_t i = 0;
+        while (std::isfinite(pressure_[i]) && i + 1 < n) ++i;
+        return fmt::format(
+            "density {} and energy {} of particle {} are outside the law ({}), or its "
+            "range changes the wrong way",
+            now.state.density().data()[i], now.state.energy().data()[i], this->particles().id[i],
+            fluid_.state.describe());
+    }
+    fill([&](std::size_t i, double* record) { record[R::template at<column::Pull>] = pull_[i]; });
+    sweeps_->force(in, out);
+    return {};
+}
 
-    const std::span<const double> rho{state.density().data(), n}, e{state.energy().data(), n};
-    fluid_.state.pressures(rho, e, pressure_);
-    double* const spread = rate.energy().data();  // until they are the rates
-    double* const approach = rate.density().data();
-    const std::size_t bad = parallel_count(n, [&](std::size_t i) {
+/// Rates of density and energy in place of the sums they are made of. Returns how many have no meaning.
+template <int Dim>
+std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
+    const std::size_t n = range_.size();
+    const std::span<const double> rho{now.state.density().data(), n},
+        e{now.state.energy().data(), n};
+    parallel_blocks(n, [&](std::size_t first, std::size_t count) {
+        fluid_.state.pressures(rho.subspan(first, count), e.subspan(first, count),
+                               {pressure_.data() + first, count});
+    });
+    double* const spread = now.rate.energy().data();
+    double* const approach = now.rate.density().data();
+    return parallel_count(n, [&](std::size_t i) {
         const double h = range_[i], volume = power<Dim>(h);
         const double Omega =
             scheme_.without_gradients ? 1.0 : 1.0 - spread[i] / (Dim * rho[i] * volume);
@@ -201,22 +207,10 @@ void VariableRangeModel<Dim>::pair_rates(double, std::span<const double> y,
         spread[i] = P_rho2 * rho_dot;
         return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0)};
     });
-    if (bad > 0) {
-        std::size_t i = 0;
-        while (std::isfinite(pressure_[i]) && i + 1 < n) ++i;
-        return this->fail(
-            y_dot,
-            fmt::format("density {} and energy {} of particle {} are outside the law ({}), or its "
-                        "range changes the wrong way",
-                        rho[i], e[i], this->particles().id[i], fluid_.state.describe()));
-    }
-    fill([&](std::size_t i, double* record) { record[RangeRecord<Dim>::pull_at] = pull_[i]; });
-    sweeps_->force(in, out);
-    rate.position() = state.velocity();
 }
 
 template <int Dim>
-std::vector<double> VariableRangeModel<Dim>::solve_densities(const Points<Dim>& position) const {
+std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position) const {
     const auto& mass = this->particles().mass;
     const Points<Dim> x = this->box().wrapped(position);
     const double start = scheme_.range * this->particles().spacing, most = most_range();
@@ -250,13 +244,15 @@ std::vector<double> VariableRangeModel<Dim>::solve_densities(const Points<Dim>& 
 }
 
 template <int Dim>
-std::vector<double> VariableRangeModel<Dim>::state(const Points<Dim>& position,
-                                                   const Points<Dim>& velocity, double T) {
-    return fluid_start(*this, fluid_.state, position, velocity, solve_densities(position), T);
+std::vector<double> OwnRanges<Dim>::start(const Points<Dim>& position, const Points<Dim>& velocity,
+                                          double T) {
+    return fluid_start<Dim>(
+        this->model(), [&](std::size_t) -> const AnyEquationOfState& { return fluid_.state; },
+        position, velocity, solve_densities(position), T);
 }
 
 template <int Dim>
-std::vector<double> VariableRangeModel<Dim>::ranges(std::span<const double> y) const {
+std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
     const auto rho = ConstState<Dim>(this->layout(), y).density();
     std::vector<double> h(range_.size());
     for (std::size_t i = 0; i < h.size(); ++i)
@@ -265,36 +261,37 @@ std::vector<double> VariableRangeModel<Dim>::ranges(std::span<const double> y) c
 }
 
 template <int Dim>
-double VariableRangeModel<Dim>::pair_energy(std::span<const double> y) const {
-    return carried_energy(*this, y);
+double OwnRanges<Dim>::energy(std::span<const double> y) const {
+    return carried_energy(this->model(), y);
 }
 
 template <int Dim>
-Promises VariableRangeModel<Dim>::pair_promises() const {
-    Promises promises;
-    promises.angular_momentum = Promise::integrator_error;
-    return this->in_box(promises);
+double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
+    const auto e = this->state_of(y).energy();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < range_.size(); ++i)
+        sum += this->particles().mass[i] * std::abs(e(0, static_cast<Eigen::Index>(i)));
+    return sum / this->particles().spacing;
 }
 
 template <int Dim>
-void VariableRangeModel<Dim>::remember(Archive& archive) {
-    Model<Dim>::remember(archive);
+void OwnRanges<Dim>::remember(Archive& archive) {
     if (archive.reading()) packed_.reset();
 }
 
 template <int Dim>
-std::size_t VariableRangeModel<Dim>::pairs() const {
+std::size_t OwnRanges<Dim>::pairs() const {
     return packed_ ? packed_->list().pairs() : 0;
 }
 
 template <int Dim>
-std::string VariableRangeModel<Dim>::pair_description() const {
+std::string OwnRanges<Dim>::describe() const {
     return fmt::format("fluid of smooth particles, {}: density integrated, {}", fluid_.describe(),
                        scheme_.describe());
 }
 
-template class VariableRangeModel<1>;
-template class VariableRangeModel<2>;
-template class VariableRangeModel<3>;
+template class OwnRanges<1>;
+template class OwnRanges<2>;
+template class OwnRanges<3>;
 
 }  // namespace spam

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/fluid.hpp>
+#include <spam/material/material.hpp>
+#include <spam/physics/viscosity.hpp>
+#include <spam/rhs/particle_model.hpp>
+
+#include <memory>
+
+namespace spam {
+
+template <int Dim>
+struct Sweeps;
+template <int Dim>
+struct SweepInput;
+template <int Dim>
+struct SweepOutput;
+template <int Dim>
+class PackedParticles;
+enum class ListUse;
+struct PackedFields;
+struct Groups;
+class TorqueFactors;
+struct TorqueScale;
+class GaussForces;
+template <int Dim>
+class Constitution;
+
+/// Smooth particles with stress and energy, [HHM04] II, [HH07] 4: y = (x, v, [rho], [sigma], e). The scheme
+/// decides whether density is part of y, what velocity moves the particles, and what keeps the angular
+/// momentum. Solids and fluids differ in where the stress comes from alone: a solid's is part of y, a
+/// fluid's is made from density, energy and, with friction or conduction, gradients.
+template <int Dim>
+class SmoothParticles final : public Term<Dim> {
+  public:
+    using typename Term<Dim>::Now;
+
+    /// Solids of any stress law (stress_law.hpp), or fluids of any equation of state: the one at the place
+    /// of a particle's material (Particles::material). Throws InputError when the scheme makes no sense
+    /// here (Scheme::validate), the range does not reach a neighbour, pairs are to be reflected at the
+    /// spacing or beyond, a periodic box is not wider than twice the range, a particle's material is not
+    /// there, a solid's law tells no sound speed and the scheme has viscosity, a fluid has conduction
+    /// without temperature or negative coefficients (eta, bulk viscosity, kappa), or its density is summed
+    /// while its particles move with an averaged velocity.
+    SmoothParticles(Model<Dim>& model, std::vector<Material<Dim>> solids, const Scheme& scheme);
+    SmoothParticles(Model<Dim>& model, std::vector<Fluid> fluids, const Scheme& scheme);
+    SmoothParticles(Model<Dim>& model, const Material<Dim>& solid, const Scheme& scheme)
+        : SmoothParticles(model, std::vector<Material<Dim>>{solid}, scheme) {}
+    SmoothParticles(Model<Dim>& model, const Fluid& fluid, const Scheme& scheme)
+        : SmoothParticles(model, std::vector<Fluid>{fluid}, scheme) {}
+    ~SmoothParticles() override;
+
+    std::vector<Field> fields() const override;
+    std::string rates(const Now& now) override;
+    bool moves() const override { return true; }
+    bool moves_with_velocity() const override { return scheme_.transport == Transport::plain; }
+    bool potential() const override { return false; }
+    double energy(std::span<const double> y) const override;
+    std::vector<double> density(std::span<const double> y) const override;
+    double neighbour_forces(std::span<const double> y) const override;
+    /// The restriction of the distance of closest approach, where the scheme has one.
+    std::vector<Event> events() const override;
+    Promises promises() const override;
+    std::string describe() const override;
+    double fastest_damping() const override;
+    /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
+    /// sets in and out.
+    bool smooth() const override {
+        return scheme_.angular_momentum != AngularMomentum::torque_particle &&
+               scheme_.angular_momentum != AngularMomentum::gauss;
+    }
+    std::size_t pairs() const override;
+    double reach() const override { return scheme_.range; }
+    std::size_t list_builds() const override;
+    /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
+    /// denominator (physics/gauss_constraint.hpp).
+    std::vector<Remark> watch(double t, std::span<const double> y) override;
+    void set_bodies() override;
+    void remember(Archive& archive) override;
+    bool settle(double t, const State<Dim>& state) override;
+
+    const Scheme& scheme() const { return scheme_; }
+    /// R and 1/R of each body (of all with Balance::global) in the latest rates(); empty where torques
+    /// are left free.
+    std::span<const TorqueScale> torque_scales() const;
+
+    // Of fluids, as the functions of FluidModel (below). Precondition: the particles are fluid.
+    const Fluid& fluid() const;
+    std::vector<double> pressure(std::span<const double> y) const;
+    std::vector<double> temperature(std::span<const double> y) const;
+    std::vector<double> start(const Points<Dim>& position, const Points<Dim>& velocity, double T);
+
+  private:
+    SmoothParticles(Model<Dim>& model, std::unique_ptr<Constitution<Dim>> constitution,
+                    const Scheme& scheme);
+    std::string load(const Now& now);
+    std::string complaint(std::span<const double> rho) const;
+    void balance(const Now& now, const SweepInput<Dim>& in, SweepOutput<Dim>& out);
+    PackedFields fields_of(const ConstState<Dim>& state) const;
+    std::vector<double> summed_density(const PackedFields& fields) const;
+    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
+    void load_transport(const Now& now);
+    void estimate_viscosity();
+    Groups groups() const;
+
+    std::unique_ptr<Constitution<Dim>> constitution_;
+    Scheme scheme_;
+    std::unique_ptr<const Sweeps<Dim>> sweeps_;
+    std::unique_ptr<PackedParticles<Dim>> packed_;
+    ViscosityConstants viscosity_;
+    double viscous_damping_ = 0.0;
+    std::vector<double> summed_density_;
+    std::vector<double> heat_;         ///< by conduction, where work is found after it
+    std::vector<std::int32_t> group_;  ///< per particle, what keeps its angular momentum
+    std::size_t group_count_ = 1;
+    std::unique_ptr<TorqueFactors> torques_;
+    std::unique_ptr<GaussForces> gauss_;
+    bool gauss_works_ = false;           ///< at the latest accepted state
+    std::vector<double> watched_rates_;  ///< there
+};
+
+extern template class SmoothParticles<1>;
+extern template class SmoothParticles<2>;
+extern template class SmoothParticles<3>;
+
+/// A solid of smooth particles and nothing else.
+template <int Dim>
+class SmoothParticleModel final : public ParticleModel<Dim> {
+  public:
+    SmoothParticleModel(Particles<Dim> particles, const Material<Dim>& material,
+                        const Scheme& scheme, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<SmoothParticles<Dim>>(material, scheme)) {}
+
+    const Scheme& scheme() const { return law.scheme(); }
+    std::span<const TorqueScale> torque_scales() const { return law.torque_scales(); }
+
+    SmoothParticles<Dim>& law;
+};
+
+/// A fluid of smooth particles and nothing else.
+template <int Dim>
+class FluidModel final : public ParticleModel<Dim> {
+  public:
+    FluidModel(Particles<Dim> particles, const Fluid& fluid, const Scheme& scheme,
+               const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<SmoothParticles<Dim>>(fluid, scheme)) {}
+
+    const Fluid& fluid() const { return law.fluid(); }
+    const Scheme& scheme() const { return law.scheme(); }
+    /// N each; NaN outside the law. Precondition of temperature(): fluid().state.thermal.
+    std::vector<double> pressure(std::span<const double> y) const { return law.pressure(y); }
+    std::vector<double> temperature(std::span<const double> y) const { return law.temperature(y); }
+    /// y at `position` (Dim x N) with these velocities, densities summed there where y carries them, and
+    /// the energy of temperature T (thermal law) or the cold energy (T is then not read), else none.
+    /// Scales of the layout are set for the tolerances.
+    std::vector<double> state(const Points<Dim>& position, const Points<Dim>& velocity,
+                              double T = 0.0) {
+        return law.start(position, velocity, T);
+    }
+
+    SmoothParticles<Dim>& law;
+};
+
+}  // namespace spam

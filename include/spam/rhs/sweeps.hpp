@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/kernel/general_weight.hpp>
+#include <spam/neighbors/box.hpp>
+#include <spam/neighbors/cluster_view.hpp>
+#include <spam/neighbors/displacement.hpp>
+#include <spam/physics/pass_constants.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+/// Sweeps over pairs as functions of one type, whatever they sum: made by run_sweep.hpp in a *.lanes.cpp
+/// for every instruction set, called by the terms of a model.
+namespace spam {
+
+/// What a sweep reads ...
+template <int Dim>
+struct SweepInput {
+    ClusterView list;
+    Records records;
+    double range;  ///< of the weight function
+    const Box<Dim>* box;
+    const GeneralWeight<Dim>* weight = nullptr;  ///< not read by what is compiled for Lucy's
+    PassConstants constants{};
+};
+
+/// Some hundred particles whose sums are complete, for the law that makes rates or records of them.
+struct SweptBlock {
+    std::size_t first_slot;
+    const std::uint32_t* particle;  ///< their numbers, by slot
+    std::size_t count;              ///< without lanes that only fill up a cluster
+    const void* kept[2];            ///< by slot, what the first and the second pass that keep left
+
+    /// What pass `k` of those that keep their sums has found, `count` values.
+    template <class Value>
+    const Value* sums(std::size_t k) const {
+        return static_cast<const Value*>(kept[k]);
+    }
+};
+
+/// ... and what it writes: fields by number of particle, null where they are not wanted; numbers of
+/// records, by slot, that later sweeps read; and sums kept for a block, which `close` is given.
+template <int Dim>
+struct SweepOutput {
+    double* x_dot = nullptr;            ///< Dim x N, the transport velocity
+    double* v_dot = nullptr;            ///< Dim x N
+    double* rho_dot = nullptr;          ///< N
+    double* e_dot = nullptr;            ///< N
+    double* rho = nullptr;              ///< N, the summed density
+    double* energy = nullptr;           ///< N, a potential's
+    double* positive_torque = nullptr;  ///< N, TorqueSums
+    double* negative_torque = nullptr;  ///< N
+    double* spread = nullptr;           ///< N, OwnRangeSums
+    double* approach = nullptr;         ///< N
+    double* records = nullptr;          ///< those of SweepInput
+    bool on_top = false;                ///< v_dot is added to what other terms have given
+
+    /// Called once for every block, from any thread; null where nobody is interested.
+    void (*close)(const void* context, const SweptBlock&) = nullptr;
+    const void* context = nullptr;
+};
+
+template <int Dim>
+using Sweep = void (*)(const SweepInput<Dim>&, const SweepOutput<Dim>&);
+
+/// Fields by number of particle, as records are made from them, and the slots they go to.
+template <int Dim>
+struct PackInput {
+    const std::uint32_t* order;  ///< slot -> particle
+    std::size_t slots;
+    const double *x, *v, *m;
+    const double* rho;    ///< null where it is not known yet
+    const double* sigma;  ///< D(D+1)/2 each; null where A is not made of it
+    const Box<Dim>* box;
+    Displacement<Dim> displacement;
+    std::size_t stride;
+    MeanDensityKind mean_density;
+};
+
+/// How many particles ...
+struct PackCount {
+    std::size_t far = 0;      ///< have gone too far for the list
+    std::size_t invalid = 0;  ///< have a density that is not positive
+};
+
+/// Writes the columns of records that are known before any sweep: x (wrapped), v, m, and where rho is
+/// given the mean density's number of it and A = sigma/rho^2; with `density_only` these two alone.
+template <int Dim>
+using Pack = PackCount (*)(const PackInput<Dim>&, bool density_only, double* records);
+
+/// The sweeps of a term, compiled for an instruction set, in the order in which right-hand sides call
+/// them. What a term has no need of is null.
+template <int Dim>
+struct Sweeps {
+    int width;    ///< of the clusters they need
+    int numbers;  ///< in a record
+    Pack<Dim> pack = nullptr;
+    Sweep<Dim> density = nullptr;   ///< summed density, or whatever else is summed first
+    Sweep<Dim> gradient = nullptr;  ///< what stress and heat flux are made of
+    Sweep<Dim> second = nullptr;    ///< balanced torques, viscosity, chain rule; a penalty
+    Sweep<Dim> force = nullptr;
+    Sweep<Dim> energy = nullptr;  ///< of a potential
+};
+
+}  // namespace spam

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/rhs/model.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spam {
+
+/// One law by which the particles of a model act on each other: stress, a pair potential, springs. A
+/// model is a list of terms (particle_model.hpp); what they give adds up. Terms are called once a
+/// right-hand side, never per pair; what they do with pairs is a sweep (run_sweep.hpp).
+template <int Dim>
+class Term {
+  public:
+    /// What a term reads, and the rates it adds to.
+    struct Now {
+        double t;
+        ConstState<Dim> state;
+        State<Dim> rate;
+        bool on_top;  ///< v_dot holds what other terms give already: add to it; else set it
+    };
+
+    /// Of particles, box and layout of `model`, which must outlive the term.
+    explicit Term(Model<Dim>& model) : model_(model) {}
+    virtual ~Term() = default;
+    Term(const Term&) = delete;
+    Term& operator=(const Term&) = delete;
+
+    /// The fields of y, besides position and velocity, whose rates the term finds or which it keeps
+    /// (history). No two terms of a model may find the rate of the same one.
+    virtual std::vector<Field> fields() const { return {}; }
+
+    /// Forces by mass, and the rates of fields(). Pure, no allocation after warm-up except for new lists.
+    /// Returns why the state has no meaning; empty where it has one.
+    virtual std::string rates(const Now& now) = 0;
+
+    /// Whether rates() sets x_dot as well; else it is v.
+    virtual bool moves() const { return false; }
+    /// Whether x_dot = v.
+    virtual bool moves_with_velocity() const { return true; }
+    /// Whether energy() is a function of positions alone: its forces keep the total energy only where
+    /// particles move with their own velocity.
+    virtual bool potential() const { return true; }
+
+    /// The energy that is not kinetic.
+    virtual double energy(std::span<const double> y) const = 0;
+    /// Of all particles; empty where the term has no density of its own (then what is in y counts).
+    virtual std::vector<double> density(std::span<const double>) const { return {}; }
+    /// Model::neighbour_forces()
+    virtual double neighbour_forces(std::span<const double> y) const {
+        return std::abs(energy(y)) / particles().spacing;
+    }
+
+    virtual std::vector<Event> events() const { return {}; }
+    /// In open space.
+    virtual Promises promises() const {
+        Promises p;
+        p.angular_momentum = Promise::integrator_error;
+        return p;
+    }
+    virtual std::string describe() const = 0;
+    virtual double fastest_damping() const { return 0.0; }
+    virtual bool smooth() const { return true; }
+    virtual std::size_t pairs() const = 0;
+    virtual double reach() const = 0;
+    virtual std::size_t list_builds() const { return 0; }
+
+    /// As the model's functions of these names.
+    virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
+    virtual void set_bodies() {}
+    virtual void remember(Archive&) {}
+    /// After an accepted step, and before anybody looks at it: the term may change its history fields,
+    /// and the stress that goes with them. Returns whether it did.
+    virtual bool settle(double, const State<Dim>&) { return false; }
+
+  protected:
+    const Particles<Dim>& particles() const { return model_.particles(); }
+    const Box<Dim>& box() const { return model_.box(); }
+    const FieldLayout<Dim>& layout() const { return model_.layout(); }
+    Model<Dim>& model() const { return model_; }
+    ConstState<Dim> state_of(std::span<const double> y) const { return {layout(), y}; }
+
+  private:
+    Model<Dim>& model_;
+};
+
+}  // namespace spam

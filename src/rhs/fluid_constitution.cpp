@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "constitution.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/kernel/weight_integrals.hpp>
+#include <spam/physics/fluid_record.hpp>
+#include <spam/physics/mean_density.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spam {
+namespace {
+
+bool has_gradients(const Fluid& fluid) { return fluid.viscosity || fluid.conduction; }
+
+void check_fluid(const Fluid& fluid, int dim) {
+    const auto refuse_negative = [](const char* name, double value) {
+        if (!(value >= 0.0) || !std::isfinite(value))
+            throw InputError(fmt::format(
+                "{}: {:g} must be 0 or positive, or entropy would decrease", name, value));
+    };
+    if (fluid.viscosity) {
+        refuse_negative("shear viscosity", fluid.viscosity->eta);
+        const double bulk = fluid.viscosity->bulk_viscosity(dim);
+        // lambda = -eta in the plane is exactly no bulk viscosity, up to rounding.
+        if (std::abs(bulk) > 1e-14 * fluid.viscosity->eta) refuse_negative("bulk viscosity", bulk);
+    }
+    if (fluid.conduction) refuse_negative("conductivity", fluid.conduction->kappa);
+}
+
+}  // namespace
+
+template <int Dim>
+FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,
+                                          std::vector<Fluid> fluids)
+    : Constitution<Dim>(particles),
+      fluids_(std::move(fluids)),
+      thermal_(!fluids_.empty()),
+      gradients_(std::any_of(fluids_.begin(), fluids_.end(), has_gradients)),
+      pressure_(particles.size()),
+      temperature_(particles.size()) {
+    if (fluids_.empty()) throw InputError("material: none is given; give one at least");
+    for (const Fluid& fluid : fluids_) thermal_ = thermal_ && fluid.state.thermal;
+    const bool conducts = std::any_of(fluids_.begin(), fluids_.end(),
+                                      [](const Fluid& fluid) { return fluid.conduction; });
+    if (conducts && !thermal_)
+        for (const Fluid& fluid : fluids_)
+            if (!fluid.state.thermal)
+                throw InputError(fmt::format(
+                    "conduction: needs a temperature, and the law ({}) has none; use an ideal "
+                    "gas or van der Waals, or leave the conductivity out",
+                    fluid.state.describe()));
+}
+
+template <int Dim>
+void FluidConstitution<Dim>::check(const Scheme& scheme) const {
+    if (scheme.density == Density::summed && scheme.transport != Transport::plain)
+        throw InputError(
+            "density: a fluid whose density is summed gains energy without limit where its "
+            "particles move with an averaged velocity, because densities then change at another "
+            "rate than work is done; use --density continuity, or --transport plain");
+    for (const Fluid& fluid : fluids_) check_fluid(fluid, Dim);
+}
+
+/// What neither friction and conduction nor the scheme ask for is left out.
+template <int Dim>
+Matter FluidConstitution<Dim>::matter(const Scheme& scheme) const {
+    const bool plain = scheme.transport == Transport::plain && scheme.viscosity == 0.0 &&
+                       (scheme.angular_momentum == AngularMomentum::free ||
+                        scheme.angular_momentum == AngularMomentum::gauss);
+    return gradients_ || !plain ? Matter::conducting : Matter::inviscid;
+}
+
+template <int Dim>
+std::string FluidConstitution<Dim>::describe() const {
+    std::string words = "fluid of smooth particles, ";
+    for (const Fluid& fluid : fluids_)
+        words += (&fluid == fluids_.data() ? "" : " | ") + fluid.describe();
+    return words;
+}
+
+/// Pressures act along r_ij, viscous stresses do not; <v> moves particles without regard to where they are.
+template <int Dim>
+bool FluidConstitution<Dim>::central(const Scheme& scheme) const {
+    const bool stresses = std::any_of(fluids_.begin(), fluids_.end(),
+                                      [](const Fluid& fluid) { return fluid.viscosity; });
+    return !stresses && scheme.transport != Transport::average;
+}
+
+template <int Dim>
+const Fluid& FluidConstitution<Dim>::of(std::size_t i) const {
+    const auto& material = this->particles_.material;
+    return fluids_[material.empty() ? 0 : static_cast<std::size_t>(material[i])];
+}
+
+/// Pressure and temperature - A of an inviscid fluid, or gradients, then stress and heat flux.
+template <int Dim>
+std::string FluidConstitution<Dim>::prepare(const Now& now, std::span<const double> rho,
+                                            const SweepInput<Dim>& in, const Sweeps<Dim>& sweeps,
+                                            PackedParticles<Dim>& packed) {
+    const std::span<const double> e{now.state.energy().data(), rho.size()};
+    rho_ = rho, e_ = e;
+    find_pressures(rho, e);
+    if (auto reason = complaint(rho, e); !reason.empty()) return reason;
+    fill(rho, in.constants.mean_density, packed);
+    if (!gradients_) return {};
+    struct Context {
+        const FluidConstitution& self;
+        PackedParticles<Dim>& packed;
+    } const context{*this, packed};
+    SweepOutput<Dim> out;
+    out.context = &context;
+    out.close = [](const void* given, const SweptBlock& block) {
+        const auto& c = *static_cast<const Context*>(given);
+        c.self.close_gradients(block, c.self.rho_, c.packed);
+    };
+    sweeps.gradient(in, out);
+    return {};
+}
+
+template <int Dim>
+void FluidConstitution<Dim>::find_pressures(std::span<const double> rho,
+                                            std::span<const double> e) {
+    parallel_blocks(rho.size(), [&](std::size_t begin, std::size_t size) {
+        for_each_material(
+            this->particles_.material, begin, size,
+            [&](std::size_t m, std::size_t first, std::size_t count) {
+                const AnyEquationOfState& law = fluids_[m].state;
+                const auto of_rho = rho.subspan(first, count), of_e = e.subspan(first, count);
+                law.pressures(of_rho, of_e, {pressure_.data() + first, count});
+                if (thermal_) law.temperatures(of_rho, of_e, {temperature_.data() + first, count});
+            });
+    });
+}
+
+/// Names the first particle that is outside its law.
+template <int Dim>
+std::string FluidConstitution<Dim>::complaint(std::span<const double> rho,
+                                              std::span<const double> e) const {
+    const auto outside = [&](std::size_t i) {
+        return !(rho[i] > 0.0) || !std::isfinite(pressure_[i]) ||
+               (thermal_ && !(temperature_[i] >= 0.0));
+    };
+    if (parallel_count(rho.size(), [&](std::size_t i) { return std::size_t{outside(i)}; }) == 0)
+        return {};
+    std::size_t i = 0;
+    while (!outside(i)) ++i;
+    const auto id = this->particles_.id[i];
+    if (!(rho[i] > 0.0))
+        return fmt::format("density {} of particle {} is not positive", rho[i], id);
+    return fmt::format("density {} and energy {} of particle {} are outside the law ({}){}", rho[i],
+                       e[i], id, of(i).state.describe(),
+                       thermal_ ? ": no temperature above zero belongs to them" : "");
+}
+
+/// What the next sweep reads beyond x, v and m.
+template <int Dim>
+void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind mean,
+                                  PackedParticles<Dim>& packed) const {
+    using R = ConductingRecord<Dim>;
+    const auto order = packed.list().order();
+    const bool tensors = packed.numbers() != InviscidRecord<Dim>::numbers;
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t i = order[slot];
+        double* const record = packed.record(slot);
+        const double a = pressure_[i] / (rho[i] * rho[i]);
+        if (!tensors) {
+            record[InviscidRecord<Dim>::template at<column::Pressure>] = a;
+            return;
+        }
+        record[R::template at<column::Density>] = EitherMean::number(mean, rho[i]);
+        record[R::template at<column::Temperature>] = temperature_[i];
+        if (gradients_) return;
+        constexpr int A_at = R::template at<column::Stress>,
+                      q_at = R::template at<column::HeatFlux>;
+        for (int c = 0; c < symmetric_size(Dim); ++c) record[A_at + c] = c < Dim ? -a : 0.0;
+        for (int c = 0; c < Dim; ++c) record[q_at + c] = 0.0;
+    });
+}
+
+/// Stress and heat flux of some particles from their gradients, into their records.
+template <int Dim>
+void FluidConstitution<Dim>::close_gradients(const SweptBlock& block, std::span<const double> rho,
+                                             PackedParticles<Dim>& packed) const {
+    using R = ConductingRecord<Dim>;
+    const Mat<Dim>* const grad_v = block.sums<Mat<Dim>>(0);
+    const Vec<Dim>* const grad_T = block.sums<Vec<Dim>>(1);
+    for (std::size_t k = 0; k < block.count; ++k) {
+        const std::size_t i = block.particle[k];
+        const Fluid& fluid = of(i);
+        SymTensor<Dim> sigma;
+        Vec<Dim> Q;
+        if (fluid.viscosity) sigma = fluid.viscosity->viscous_stress(grad_v[k]);
+        if (fluid.conduction) Q = fluid.conduction->heat_flux(grad_T[k]);
+        for (int a = 0; a < Dim; ++a) sigma(a, a) -= pressure_[i];
+        const double scale = 1.0 / (rho[i] * rho[i]);
+        double* const record = packed.record(block.first_slot + k);
+        for (std::size_t c = 0; c < sigma.c.size(); ++c)
+            record[R::template at<column::Stress> + static_cast<int>(c)] = scale * sigma.c[c];
+        for (int a = 0; a < Dim; ++a) record[R::template at<column::HeatFlux> + a] = scale * Q[a];
+    }
+}
+
+template <int Dim>
+std::optional<double> FluidConstitution<Dim>::sound_speed(double density) const {
+    double fastest = 0.0;
+    for (const Fluid& fluid : fluids_) {
+        const double c =
+            fluid.state.sound_speed(density, fluid.state.starting_energy(density, 0.0));
+        if (c > fastest) fastest = c;
+    }
+    return fastest;
+}
+
+template <int Dim>
+double FluidConstitution<Dim>::sound_speed_of(std::size_t i) const {
+    return of(i).state.sound_speed(rho_[i], e_[i]);
+}
+
+/// By the shortest waves felt: momentum diffuses at (2 eta + lambda) k^2/rho or eta k^2/rho, heat at
+/// kappa k^2/(rho c_v), c_v = D/2 of a unit mass.
+template <int Dim>
+double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, double density) const {
+    const double k = steepest_wave<Dim>(weight);
+    double diffusion = 0.0;
+    for (const Fluid& fluid : fluids_) {
+        if (fluid.viscosity)
+            diffusion = std::max({diffusion, fluid.viscosity->eta,
+                                  2.0 * fluid.viscosity->eta + fluid.viscosity->lambda});
+        if (fluid.conduction) diffusion = std::max(diffusion, 2.0 / Dim * fluid.conduction->kappa);
+    }
+    return diffusion * k * k / density;
+}
+
+template <int Dim>
+double FluidConstitution<Dim>::stress_forces(const ConstState<Dim>& state,
+                                             std::span<const double> rho) const {
+    const auto P = pressures(rho, {state.energy().data(), rho.size()});
+    double sum = 0.0;
+    for (std::size_t i = 0; i < P.size(); ++i)
+        sum += this->particles_.mass[i] * std::abs(P[i]) / rho[i];
+    return sum;
+}
+
+template <int Dim>
+std::vector<double> FluidConstitution<Dim>::pressures(std::span<const double> rho,
+                                                      std::span<const double> e) const {
+    std::vector<double> P(rho.size());
+    for (std::size_t i = 0; i < P.size(); ++i) P[i] = of(i).state.pressure(rho[i], e[i]);
+    return P;
+}
+
+template <int Dim>
+std::vector<double> FluidConstitution<Dim>::temperatures(std::span<const double> rho,
+                                                         std::span<const double> e) const {
+    std::vector<double> T(rho.size());
+    for (std::size_t i = 0; i < T.size(); ++i) T[i] = of(i).state.temperature(rho[i], e[i]);
+    return T;
+}
+
+template class FluidConstitution<1>;
+template class FluidConstitution<2>;
+template class FluidConstitution<3>;
+
+}  // namespace spam

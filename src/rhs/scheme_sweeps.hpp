@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// For *.lanes.cpp: which passes a scheme of smooth particles needs.
+#pragma once
+
+#include "pack.hpp"
+#include "term_sweeps.hpp"
+#include <spam/physics/continuity.hpp>
+#include <spam/physics/density_sum.hpp>
+#include <spam/physics/fluid_record.hpp>
+#include <spam/physics/heat_flow.hpp>
+#include <spam/physics/mean_density.hpp>
+#include <spam/physics/pressure_force.hpp>
+#include <spam/physics/torque_balance.hpp>
+#include <spam/physics/transport.hpp>
+#include <spam/physics/velocity_gradient.hpp>
+#include <spam/physics/viscosity.hpp>
+#include <spam/rhs/run_sweep.hpp>
+
+namespace spam {
+inline namespace SPAM_LANES {
+
+inline constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
+
+/// Whether torques are balanced, by a second sweep.
+inline bool balances(const Scheme& scheme) {
+    return scheme.angular_momentum == AngularMomentum::torque_pair ||
+           scheme.angular_momentum == AngularMomentum::torque_particle;
+}
+
+/// The sweep that finds, with the transport velocity, the forces or, where torques are balanced, the
+/// torques; and what goes with them. A solid's velocity gradient is found on the way.
+template <class Kind, int Dim, class Mean>
+struct ForceSweeps {
+    static Sweep<Dim> solid(const Scheme& scheme) {
+        return by_transport<Record<Dim>>(scheme, [](auto transport, auto force) {
+            return run_sweep<Kind, W, Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity,
+                             decltype(transport), decltype(force)>;
+        });
+    }
+    static Sweep<Dim> conducting(const Scheme& scheme) {
+        return by_transport<ConductingRecord<Dim>>(scheme, [](auto transport, auto force) {
+            return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, decltype(transport),
+                             decltype(force), HeatFlow<Dim>, Continuity>;
+        });
+    }
+
+  private:
+    template <class R, class Make>
+    static Sweep<Dim> by_transport(const Scheme& scheme, const Make& make) {
+        switch (scheme.transport) {
+            case Transport::plain:
+                return by_force(scheme, make, PlainTransport<Dim>{});
+            case Transport::average:
+                return by_force(scheme, make, AverageTransport<Dim>{});
+            case Transport::monaghan:
+                break;
+        }
+        return by_force(scheme, make, MonaghanTransport<Dim, Mean>{});
+    }
+    template <class Make, class Velocity>
+    static Sweep<Dim> by_force(const Scheme& scheme, const Make& make, Velocity velocity) {
+        if constexpr (Dim == 2)
+            if (balances(scheme)) return make(velocity, TorqueSums{});
+        return make(velocity, StressForce<Dim>{});
+    }
+};
+
+}  // namespace SPAM_LANES
+}  // namespace spam

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is wanted most, as quick as it can be: Lucy's weight function, the arithmetic mean density.
+#include "scheme_sweeps.hpp"
+
+namespace spam {
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
+    Sweeps<Dim> sweeps = general_sweeps<Dim, Level>(scheme, matter);
+    if (scheme.kernel != Kernel::lucy) return sweeps;
+    // On a line a fluid's general sweeps are as quick.
+    if (sweeps.density != nullptr && (Dim > 1 || matter == Matter::solid))
+        sweeps.density = run_sweep<LucysSweep, W, Dim, MotionRecord<Dim>, DensitySum>;
+    if (Dim > 1 && matter == Matter::inviscid)
+        sweeps.force = run_sweep<LucysSweep, W, Dim, InviscidRecord<Dim>, PlainTransport<Dim>,
+                                 PressureForce<Dim>, Continuity>;
+    if (matter != Matter::solid || scheme.mean_density != MeanDensityKind::arithmetic)
+        return sweeps;
+    sweeps.force = ForceSweeps<LucysSweep, Dim, ArithmeticMean>::solid(scheme);
+    if constexpr (Dim == 2)
+        if (balances(scheme) && scheme.density != Density::chain_rule && scheme.viscosity == 0.0)
+            sweeps.second =
+                run_sweep<LucysSweep, W, Dim, TransportRecord<Dim>, BalancedStressForce>;
+    return sweeps;
+}
+
+template Sweeps<1> smooth_particle_sweeps<1, InstructionSet::SPAM_LEVEL>(const Scheme&, Matter);
+template Sweeps<2> smooth_particle_sweeps<2, InstructionSet::SPAM_LEVEL>(const Scheme&, Matter);
+template Sweeps<3> smooth_particle_sweeps<3, InstructionSet::SPAM_LEVEL>(const Scheme&, Matter);
+
+}  // namespace spam

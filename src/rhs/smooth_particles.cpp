@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "carried_energy.hpp"
+#include "constitution.hpp"
+#include "gauss_forces.hpp"
+#include "torque_factors.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/kernel/any_weight.hpp>
+#include <spam/neighbors/pair_list.hpp>
+#include <spam/physics/closest_approach.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace spam {
+namespace {
+
+Scheme validated(const Scheme& scheme, int dim) {
+    scheme.validate(dim);
+    return scheme;
+}
+
+template <int Dim>
+Sweeps<Dim> sweeps_of(const Scheme& scheme, Matter matter) {
+    return best_sweeps(
+        [&](auto level) { return smooth_particle_sweeps<Dim, level>(scheme, matter); });
+}
+
+void check_closest_approach(double distance, double spacing) {
+    if (distance > 0.0 && distance < 1e-3 * spacing)
+        throw InputError(
+            fmt::format("closest-approach: {} must be 0 (none) or at least a thousandth of the "
+                        "particle spacing "
+                        "{}; 0.5 to 0.9 spacings are usual",
+                        distance, spacing));
+    if (distance >= spacing)
+        throw InputError(fmt::format(
+            "closest-approach: {} must be below the particle spacing {}: particles that are "
+            "nearer from the start are not reflected; 0.5 to 0.9 spacings are usual",
+            distance, spacing));
+}
+
+template <int Dim>
+void check_materials(const Particles<Dim>& particles, std::size_t materials) {
+    if (!particles.material.empty() && particles.material.size() != particles.size())
+        throw InputError(fmt::format("material: {} numbers for {} particles; give one for each",
+                                     particles.material.size(), particles.size()));
+    for (std::size_t i = 0; i < particles.material.size(); ++i)
+        if (particles.material[i] < 0 ||
+            static_cast<std::size_t>(particles.material[i]) >= materials)
+            throw InputError(
+                fmt::format("material: particle {} has number {}, and there are {} materials, from "
+                            "0 on",
+                            particles.id[i], particles.material[i], materials));
+}
+
+}  // namespace
+
+template <int Dim>
+SmoothParticles<Dim>::~SmoothParticles() = default;
+
+template <int Dim>
+SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model, std::vector<Material<Dim>> solids,
+                                      const Scheme& scheme)
+    : SmoothParticles(model, solid_constitution<Dim>(model.particles(), std::move(solids)),
+                      scheme) {}
+
+template <int Dim>
+SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model, std::vector<Fluid> fluids,
+                                      const Scheme& scheme)
+    : SmoothParticles(
+          model, std::make_unique<FluidConstitution<Dim>>(model.particles(), std::move(fluids)),
+          scheme) {}
+
+template <int Dim>
+SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model,
+                                      std::unique_ptr<Constitution<Dim>> constitution,
+                                      const Scheme& scheme)
+    : Term<Dim>(model),
+      constitution_(std::move(constitution)),
+      scheme_(validated(scheme, Dim)),
+      sweeps_(std::make_unique<const Sweeps<Dim>>(
+          sweeps_of<Dim>(scheme, constitution_->matter(scheme)))),
+      packed_(packed_with(ListUse::again_and_again)) {
+    const std::size_t n = this->particles().size();
+    valid_range<Dim>(scheme.range, this->particles().spacing, n);
+    check_closest_approach(scheme.closest_approach, this->particles().spacing);
+    check_materials(this->particles(), constitution_->materials());
+    constitution_->check(scheme);
+    if (sweeps_->density != nullptr) summed_density_.resize(n);
+    const AngularMomentum law = scheme.angular_momentum;
+    if (law == AngularMomentum::gauss) {
+        if (this->box().periodic())
+            throw InputError(
+                "angular-momentum: gauss turns bodies about their centres, which a periodic box "
+                "does "
+                "not have; use torque_pair, or a box without periods");
+        gauss_ = std::make_unique<GaussForces>();
+    } else if (law != AngularMomentum::free) {
+        torques_ = std::make_unique<TorqueFactors>(n, law);
+        if (sweeps_->gradient != nullptr) heat_.resize(n);
+    }
+    estimate_viscosity();
+    set_bodies();
+}
+
+template <int Dim>
+std::vector<Field> SmoothParticles<Dim>::fields() const {
+    std::vector<Field> fields = constitution_->fields();
+    if (scheme_.density != Density::summed) fields.push_back(Field::density);
+    return fields;
+}
+
+template <int Dim>
+void SmoothParticles<Dim>::set_bodies() {
+    group_ = this->particles().body;
+    if (scheme_.balance == Balance::global) group_.assign(group_.size(), 0);
+    group_count_ = 1;
+    for (const std::int32_t g : group_)
+        group_count_ = std::max(group_count_, static_cast<std::size_t>(g) + 1);
+}
+
+template <int Dim>
+Groups SmoothParticles<Dim>::groups() const {
+    return {this->particles().mass, group_, group_count_};
+}
+
+/// Of the body at rest, at its mean density. By the artificial viscosity neighbours that move against
+/// each other, v_ij = 2 v_i, lose their velocity at the rate (2/D) (alpha c l/rho) sum m |w'|/r in the
+/// mean over directions, by half of the pairs: those that approach.
+template <int Dim>
+void SmoothParticles<Dim>::estimate_viscosity() {
+    const GeneralWeight<Dim> general(scheme_.kernel, scheme_.range);
+    const bool friction = sweeps_->gradient != nullptr;
+    if (!(scheme_.viscosity > 0.0) && !friction) return;
+    const PairList<Dim> list(this->particles().reference_position, scheme_.range, this->box());
+    double rho = 0.0, slope = 0.0;
+    const auto weight = weight_function<Dim>(to_string(scheme_.kernel), scheme_.range);
+    const auto& x = this->particles().reference_position;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        for (const std::uint32_t j : list.neighbours(i)) {
+            double r2 = 0.0;
+            for (int a = 0; a < Dim; ++a) {
+                const double s = this->box().nearest_image(
+                    a, this->box().wrap(a, x(a, static_cast<Eigen::Index>(i))) -
+                           this->box().wrap(a, x(a, j)));
+                r2 += s * s;
+            }
+            const double m = this->particles().mass[j], r = std::sqrt(r2);
+            rho += m * weight.value(r);
+            if (i != j) slope += m * weight.minus_slope_over_r(r);
+        }
+    rho /= static_cast<double>(list.size());
+    slope /= static_cast<double>(list.size());
+    viscous_damping_ = constitution_->damping(general, rho);
+    if (!(scheme_.viscosity > 0.0)) return;
+    const auto c = constitution_->sound_speed(rho);
+    if (!c)
+        throw InputError(fmt::format(
+            "viscosity: {} needs a sound speed, and the material ({}) has none; give it a "
+            "sound_speed(density), or leave --viscosity out",
+            scheme_.viscosity, constitution_->describe()));
+    const double length = 0.5 * scheme_.range;
+    viscous_damping_ += scheme_.viscosity * *c * length / Dim * slope / rho;
+    viscosity_ = {scheme_.viscosity, *c, length};
+}
+
+/// The order that the physics forces: pairs - density if summed - A - everything that needs one sweep
+/// and the constitutive law - torque balance per body - what needs u or the balance.
+template <int Dim>
+std::string SmoothParticles<Dim>::rates(const Now& now) {
+    if (auto reason = load(now); !reason.empty()) return reason;
+    SweepInput<Dim> in = packed_->input();
+    in.constants.mean_density = scheme_.mean_density;
+    in.constants.viscosity = viscosity_;
+    const std::span<const double> rho =
+        sweeps_->density != nullptr
+            ? std::span<const double>(summed_density_)
+            : std::span<const double>(now.state.density().data(), this->particles().size());
+    if (auto reason = constitution_->prepare(now, rho, in, *sweeps_, *packed_); !reason.empty())
+        return reason;
+    SweepOutput<Dim> out;
+    out.on_top = now.on_top;
+    out.x_dot = now.rate.position().data();
+    out.v_dot = now.rate.velocity().data();
+    out.e_dot = now.rate.energy().data();
+    if (now.rate.has(Field::density)) out.rho_dot = now.rate.density().data();
+    constitution_->close_forces(now, out);
+    if (torques_) {
+        balance(now, in, out);
+    } else {
+        sweeps_->force(in, out);
+        if (sweeps_->second != nullptr) {
+            load_transport(now);
+            if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
+            out.close = nullptr;
+            sweeps_->second(in, out);
+        }
+    }
+    if (gauss_)
+        gauss_->constrain(groups(), now.state.position().data(), out.x_dot,
+                          now.state.velocity().data(), out.v_dot);
+    return {};
+}
+
+/// The first sweep finds torques and the heat conducted, the second forces and their work.
+template <int Dim>
+void SmoothParticles<Dim>::balance(const Now& now, const SweepInput<Dim>& in,
+                                   SweepOutput<Dim>& out) {
+    SweepOutput<Dim> first = out;
+    first.positive_torque = torques_->positive();
+    first.negative_torque = torques_->negative();
+    std::fill(heat_.begin(), heat_.end(), 0.0);
+    first.e_dot = heat_.empty() ? nullptr : heat_.data();
+    first.on_top = false;
+    sweeps_->force(in, first);
+    torques_->balance(groups(), out.x_dot, now.state.velocity().data());
+    load_transport(now);
+    if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
+    out.close = nullptr;
+    sweeps_->second(in, out);
+    double* const e_dot = out.e_dot;
+    if (!heat_.empty()) parallel_for(heat_.size(), [&](std::size_t i) { e_dot[i] += heat_[i]; });
+}
+
+template <int Dim>
+std::unique_ptr<PackedParticles<Dim>> SmoothParticles<Dim>::packed_with(ListUse use) const {
+    return std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, scheme_.range),
+                                                  use, this->box(), *sweeps_);
+}
+
+template <int Dim>
+PackedFields SmoothParticles<Dim>::fields_of(const ConstState<Dim>& state) const {
+    return {
+        state.position().data(),       state.velocity().data(),
+        this->particles().mass.data(), state.has(Field::density) ? state.density().data() : nullptr,
+        constitution_->stress(state),  scheme_.mean_density};
+}
+
+/// List and records for this state. Returns why it has no meaning.
+template <int Dim>
+std::string SmoothParticles<Dim>::load(const Now& now) {
+    const std::size_t n = this->particles().size();
+    PackedFields given = fields_of(now.state);
+    if (!packed_->follow(n, given)) return "a position is not finite";
+    if (packed_->invalid_densities() > 0) return complaint({given.rho, n});
+    if (sweeps_->density == nullptr) return {};
+    SweepOutput<Dim> out;
+    out.rho = summed_density_.data();
+    sweeps_->density(packed_->input(), out);
+    given.rho = summed_density_.data();
+    packed_->load_density(given);
+    return packed_->invalid_densities() == 0 ? std::string() : complaint(summed_density_);
+}
+
+/// Names the first density that has no meaning.
+template <int Dim>
+std::string SmoothParticles<Dim>::complaint(std::span<const double> rho) const {
+    const auto bad = std::find_if(rho.begin(), rho.end(), [](double r) { return !(r > 0.0); });
+    const auto number = static_cast<std::size_t>(std::distance(rho.begin(), bad));
+    return fmt::format("density {} of particle {} is not positive", *bad,
+                       this->particles().id[number]);
+}
+
+/// What the second sweep reads beyond the first.
+template <int Dim>
+void SmoothParticles<Dim>::load_transport(const Now& now) {
+    using R = ViscousRecord<Dim>;
+    constexpr auto d = static_cast<std::size_t>(Dim);
+    const double* const u = now.rate.position().data();
+    const auto order = packed_->list().order();
+    const bool sound = sweeps_->gradient != nullptr && scheme_.viscosity > 0.0;
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t i = order[slot];
+        double* const record = packed_->record(slot);
+        for (std::size_t a = 0; a < d; ++a)
+            record[R::template at<column::Transport> + static_cast<int>(a)] = u[i * d + a];
+        const TorqueScale s = torques_ ? torques_->of(i, group_[i]) : TorqueScale{};
+        record[R::template at<column::NegativeFactor>] = s.negative;
+        record[R::template at<column::PositiveFactor>] = s.positive;
+        if (sound) record[R::template at<column::SoundSpeed>] = constitution_->sound_speed_of(i);
+    });
+}
+
+template <int Dim>
+std::span<const TorqueScale> SmoothParticles<Dim>::torque_scales() const {
+    return torques_ ? torques_->scales() : std::span<const TorqueScale>{};
+}
+
+/// At the start it counts as singular: a body that rotates rigidly has no need of the constraint.
+template <int Dim>
+std::vector<Remark> SmoothParticles<Dim>::watch(double t, std::span<const double> y) {
+    if (!gauss_) return {};
+    watched_rates_.resize(y.size());
+    this->model().rates(t, y, watched_rates_);
+    const bool works = !gauss_->singular();
+    if (works == std::exchange(gauss_works_, works)) return {};
+    if (works) return {{"gauss constraint works", gauss_->health()}};
+    return {{"gauss constraint singular", gauss_->health(),
+             scheme_.gauss_singular == GaussSingular::stop}};
+}
+
+template <int Dim>
+void SmoothParticles<Dim>::remember(Archive& archive) {
+    archive(gauss_works_);
+    if (archive.reading()) packed_ = packed_with(ListUse::again_and_again);
+}
+
+template <int Dim>
+bool SmoothParticles<Dim>::settle(double t, const State<Dim>& state) {
+    return constitution_->settle(t, state);
+}
+
+template <int Dim>
+double SmoothParticles<Dim>::energy(std::span<const double> y) const {
+    return carried_energy(this->model(), y);
+}
+
+/// For observers: its own list, so that the one of the right-hand side stays as it is.
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::summed_density(const PackedFields& fields) const {
+    return packed_with(ListUse::once)
+        ->summed_density(sweeps_->density, this->particles().size(), fields);
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::density(std::span<const double> y) const {
+    if (sweeps_->density == nullptr) return {};
+    return summed_density(fields_of(this->state_of(y)));
+}
+
+template <int Dim>
+double SmoothParticles<Dim>::neighbour_forces(std::span<const double> y) const {
+    const ConstState<Dim> state = this->state_of(y);
+    const auto& mass = this->particles().mass;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < mass.size(); ++i)
+        sum += mass[i] * std::abs(state.energy()(0, static_cast<Eigen::Index>(i)));
+    sum += constitution_->stress_forces(state, this->model().density(y));
+    return sum / this->particles().spacing;
+}
+
+/// In space a fluid's pressures act along r_ij; everything else does not, unless it is balanced.
+template <int Dim>
+Promises SmoothParticles<Dim>::promises() const {
+    Promises promises = scheme_.promises(Dim);
+    if (constitution_->central(scheme_)) promises.angular_momentum = Promise::integrator_error;
+    return promises;
+}
+
+template <int Dim>
+std::vector<Event> SmoothParticles<Dim>::events() const {
+    if (scheme_.closest_approach == 0.0) return {};
+    return {closest_approach_event<Dim>(
+        {this->particles().mass, this->box(), scheme_.closest_approach, moves_with_velocity()},
+        this->layout())};
+}
+
+template <int Dim>
+double SmoothParticles<Dim>::fastest_damping() const {
+    return viscous_damping_;
+}
+template <int Dim>
+std::size_t SmoothParticles<Dim>::pairs() const {
+    return packed_->list().pairs();
+}
+template <int Dim>
+std::size_t SmoothParticles<Dim>::list_builds() const {
+    return packed_->list().builds();
+}
+
+template <int Dim>
+std::string SmoothParticles<Dim>::describe() const {
+    return fmt::format("{}: {}", constitution_->describe(), scheme_.describe());
+}
+
+template <int Dim>
+const Fluid& SmoothParticles<Dim>::fluid() const {
+    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_).first();
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::pressure(std::span<const double> y) const {
+    const auto rho = this->model().density(y);
+    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
+        .pressures(rho, {this->state_of(y).energy().data(), rho.size()});
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::temperature(std::span<const double> y) const {
+    const auto rho = this->model().density(y);
+    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
+        .temperatures(rho, {this->state_of(y).energy().data(), rho.size()});
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::start(const Points<Dim>& position,
+                                                const Points<Dim>& velocity, double T) {
+    const auto& fluids = dynamic_cast<const FluidConstitution<Dim>&>(*constitution_);
+    const auto sum = best_sweeps([&](auto level) {
+        Scheme summed = scheme_;
+        summed.density = Density::summed;
+        return smooth_particle_sweeps<Dim, level>(summed, fluids.matter(summed));
+    });
+    PackedParticles<Dim> once(GeneralWeight<Dim>(scheme_.kernel, scheme_.range), ListUse::once,
+                              this->box(), sum);
+    const auto rho =
+        once.summed_density(sum.density, this->particles().size(),
+                            {position.data(), velocity.data(), this->particles().mass.data()});
+    return fluid_start<Dim>(
+        this->model(),
+        [&](std::size_t i) -> const AnyEquationOfState& { return fluids.of(i).state; }, position,
+        velocity, rho, T);
+}
+
+template class SmoothParticles<1>;
+template class SmoothParticles<2>;
+template class SmoothParticles<3>;
+
+}  // namespace spam

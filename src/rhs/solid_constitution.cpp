@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "constitution.hpp"
+#include <spam/core/error.hpp>
+
+#include <algorithm>
+
+namespace spam {
+namespace {
+
+/// Stress is part of y. Its rates are found for the velocity gradients of a block as soon as they are known.
+template <int Dim>
+class SolidConstitution final : public Constitution<Dim> {
+  public:
+    using typename Constitution<Dim>::Now;
+
+    SolidConstitution(const Particles<Dim>& particles, std::vector<Material<Dim>> materials)
+        : Constitution<Dim>(particles),
+          materials_(std::move(materials)) {
+        if (materials_.empty()) throw InputError("material: none is given; give one at least");
+    }
+
+    std::size_t materials() const override { return materials_.size(); }
+    void check(const Scheme&) const override {}
+    Matter matter(const Scheme&) const override { return Matter::solid; }
+    bool central(const Scheme&) const override { return false; }
+
+    std::vector<Field> fields() const override {
+        std::vector<Field> fields{Field::stress, Field::energy};
+        for (const auto& material : materials_)
+            for (const Field field : material.history())
+                if (std::find(fields.begin(), fields.end(), field) == fields.end())
+                    fields.push_back(field);
+        return fields;
+    }
+    std::string describe() const override {
+        std::string words = "smooth particles, ";
+        for (const auto& material : materials_)
+            words += (&material == materials_.data() ? "" : " | ") + material.describe();
+        return words;
+    }
+    const double* stress(const ConstState<Dim>& state) const override {
+        return state.stress().data();
+    }
+
+    void close_forces(const Now& now, SweepOutput<Dim>& out) override {
+        now_.emplace(now);
+        out.context = this;
+        out.close = [](const void* context, const SweptBlock& block) {
+            static_cast<const SolidConstitution*>(context)->close(block);
+        };
+    }
+
+    /// The fastest of all, so that viscosity is not underestimated; none where one has none.
+    std::optional<double> sound_speed(double density) const override {
+        std::optional<double> fastest;
+        for (const auto& material : materials_) {
+            const auto c = material.sound_speed(density);
+            if (!c) return {};
+            fastest = std::max(fastest.value_or(0.0), *c);
+        }
+        return fastest;
+    }
+
+    double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < rho.size(); ++i)
+            sum += this->particles_.mass[i] / rho[i] *
+                   state.stress().col(static_cast<Eigen::Index>(i)).norm();
+        return sum;
+    }
+
+    bool settle(double t, const State<Dim>& state) override {
+        bool changed = false;
+        for_each_material(this->particles_.material, 0, this->particles_.size(),
+                          [&](std::size_t m, std::size_t first, std::size_t count) {
+                              changed = materials_[m].settle(t, first, count, state) || changed;
+                          });
+        return changed;
+    }
+
+  private:
+    void close(const SweptBlock& block) const {
+        const Mat<Dim>* const grad_v = block.sums<Mat<Dim>>(0);
+        const auto& material = this->particles_.material;
+        const auto run = [&](std::size_t m, std::size_t first, std::size_t count) {
+            materials_[m].stress_rates({block.particle + first, count}, {grad_v + first, count},
+                                       now_->state, now_->rate);
+        };
+        if (material.empty()) return run(0, 0, block.count);
+        // Runs of equal material among the particles of the block, which are neighbours.
+        for (std::size_t first = 0; first < block.count;) {
+            const auto m = material[block.particle[first]];
+            std::size_t next = first + 1;
+            while (next < block.count && material[block.particle[next]] == m) ++next;
+            run(static_cast<std::size_t>(m), first, next - first);
+            first = next;
+        }
+    }
+
+    std::vector<Material<Dim>> materials_;
+    std::optional<Now> now_;  ///< of the right-hand side at work
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Constitution<Dim>> solid_constitution(const Particles<Dim>& particles,
+                                                      std::vector<Material<Dim>> solids) {
+    return std::make_unique<SolidConstitution<Dim>>(particles, std::move(solids));
+}
+
+template std::unique_ptr<Constitution<1>> solid_constitution(const Particles<1>&,
+                                                             std::vector<Material<1>>);
+template std::unique_ptr<Constitution<2>> solid_constitution(const Particles<2>&,
+                                                             std::vector<Material<2>>);
+template std::unique_ptr<Constitution<3>> solid_constitution(const Particles<3>&,
+                                                             std::vector<Material<3>>);
+
+}  // namespace spam

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the terms of models find their sweeps: each function is defined in a *.lanes.cpp of its name, for
+// every instruction set.
+#pragma once
+
+#include "../core/levels.hpp"
+#include <spam/core/instruction_set.hpp>
+#include <spam/physics/scheme.hpp>
+#include <spam/rhs/sweeps.hpp>
+
+namespace spam {
+
+/// Of what kind the particles of a smooth-particle scheme are: where their A = sigma/rho^2 comes from.
+enum class Matter {
+    solid,       ///< from the stress in y; the velocity gradients of the force sweep give its rate
+    inviscid,    ///< a pressure, known before any sweep; particles move with their own velocity
+    conducting,  ///< pressure, friction and conduction, from a sweep of gradients
+};
+
+/// Any scheme, with Lucy's weight function and the arithmetic mean density as quick as they can be.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter);
+/// The same with weight function and mean density chosen at run time, compiled once for all of them.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter);
+
+/// Ranges that follow the density, of RangeRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> own_range_sweeps();
+
+/// Potentials of the density, of SlopeRecord. With `shape`, for gradient and curvature as well.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> density_potential_sweeps(bool shape);
+
+/// Lucy's weight function as pair potential, of PointRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> pair_potential_sweeps();
+
+/// A core, of any record that begins with PointRecord's position.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> core_sweeps();
+
+/// A total-Lagrangian solid, of StressedRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> lagrangian_sweeps();
+
+/// choose(level) for the processor's own instruction set.
+template <class Choose>
+auto best_sweeps(const Choose& choose) {
+    return at_level(instruction_set(), choose);
+}
+
+}  // namespace spam
