@@ -28,10 +28,10 @@ void FieldLayout<Dim>::add(Field field) {
 }
 
 template <int Dim>
-const typename FieldLayout<Dim>::Block* FieldLayout<Dim>::find(Field field) const {
-    const auto it = std::find_if(blocks_.begin(), blocks_.end(),
-                                 [field](const Block& b) { return b.field == field; });
-    return it == blocks_.end() ? nullptr : &*it;
+const typename FieldLayout<Dim>::Block* FieldLayout<Dim>::find_by_name(Field field) const {
+    for (const Block& block : blocks_)
+        if (block.field == field) return &block;
+    return nullptr;
 }
 
 template <int Dim>

@@ -223,8 +223,7 @@ std::string DensityPotentialTerm<Dim>::rates(const Now& now) {
         if (parts_->make_slopes() > 0) return complaint();
     }
     SweepOutput<Dim> out;
-    out.v_dot = now.rate.velocity().data();
-    out.on_top = now.on_top;
+    out.v_dot = now.v_dot;
     parts_->sweeps.force(parts_->input(packed), out);
     return {};
 }

@@ -59,7 +59,9 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
                                  PressureForce<Dim>, Continuity>;
     } else {
         using Forces = ForceSweeps<GeneralSweep, Dim, EitherMean>;
-        sweeps.pack = pack<Dim, Record<Dim>>;
+        // A fluid's stress comes later.
+        using Densities = typename MotionRecord<Dim>::template And<column::Density>;
+        sweeps.pack = matter == Matter::solid ? pack<Dim, Record<Dim>> : pack<Dim, Densities>;
         sweeps.second = second_sweep<Dim>(scheme, matter);
         sweeps.force = matter == Matter::solid ? Forces::solid(scheme) : Forces::conducting(scheme);
     }

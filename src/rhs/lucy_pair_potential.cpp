@@ -40,8 +40,7 @@ std::string LucyPairPotential<Dim>::rates(const Now& now) {
     if (!packed_->follow(this->particles().size(), fields(this->particles(), now.state)))
         return "a position is not finite";
     SweepOutput<Dim> out;
-    out.on_top = now.on_top;
-    out.v_dot = now.rate.velocity().data();
+    out.v_dot = now.v_dot;
     sweeps_->force(packed_->input(), out);
     return {};
 }

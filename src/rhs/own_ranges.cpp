@@ -166,8 +166,7 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.spread = now.rate.energy().data();
     out.approach = now.rate.density().data();
-    out.v_dot = now.rate.velocity().data();
-    out.on_top = now.on_top;
+    out.v_dot = now.v_dot;
     sweeps_->density(in, out);
     if (close_own_sums(now) > 0) {
         std::size_t i = 0;

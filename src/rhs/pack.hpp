@@ -13,13 +13,13 @@ inline namespace SPAM_LANES {
 /// Density and stress of one particle. Returns 1 where the density is not positive.
 template <int Dim, class R>
 SPAM_INLINE std::size_t pack_density(const PackInput<Dim>& in, std::size_t i, double* record) {
-    constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
-    const double rho = in.rho[i], scale = 1.0 / (rho * rho);
+    [[maybe_unused]] constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
+    const double rho = in.rho[i];
+    [[maybe_unused]] const double scale = 1.0 / (rho * rho);
     record[R::template at<column::Density>] = EitherMean::number(in.mean_density, rho);
-    if (in.sigma != nullptr)
+    if constexpr (R::template has<column::Stress>)
         for (std::size_t k = 0; k < n; ++k)
-            record[R::template at<column::Stress> + static_cast<int>(k)] =
-                scale * in.sigma[i * n + k];
+            record[R::template at<column::Stress> + k] = scale * in.sigma[i * n + k];
     return static_cast<std::size_t>(!(rho > 0.0));
 }
 

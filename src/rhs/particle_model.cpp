@@ -46,6 +46,7 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
     }
     for (const Field field : term->fields()) this->layout().add(field);
     terms_.push_back(std::move(term));
+    if (terms_.size() > 1) more_.resize(Dim * this->particles().size());
 }
 
 template <int Dim>
@@ -62,22 +63,25 @@ bool ParticleModel<Dim>::moves_with_velocity() const {
                        [](const auto& term) { return term->moves_with_velocity(); });
 }
 
-/// In their order: the first sets the rates, the others add to them.
+/// In their order. The first finds its v_dot in place; what the others find is added.
 template <int Dim>
 bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::span<double> y_dot) {
     const ConstState<Dim> state(this->layout(), y);
     const State<Dim> rate(this->layout(), y_dot);
-    bool moved = false, on_top = false;
+    double* const v_dot = rate.velocity().data();
+    bool moved = false;
     for (const auto& term : terms_) {
-        if (auto reason = term->rates({t, state, rate, on_top}); !reason.empty()) {
+        const bool first = term == terms_.front();
+        if (auto reason = term->rates({t, state, rate, first ? v_dot : more_.data()});
+            !reason.empty()) {
             this->fail(y_dot, std::move(reason));
             return false;
         }
+        if (!first) parallel_for(more_.size(), [&](std::size_t k) { v_dot[k] += more_[k]; });
         moved = moved || term->moves();
-        on_top = true;
     }
     if (!moved) rate.position() = state.velocity();
-    if (!on_top) rate.velocity().setZero();
+    if (terms_.empty()) rate.velocity().setZero();
     return true;
 }
 

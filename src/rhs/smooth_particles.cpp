@@ -184,9 +184,8 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
     if (auto reason = constitution_->prepare(now, rho, in, *sweeps_, *packed_); !reason.empty())
         return reason;
     SweepOutput<Dim> out;
-    out.on_top = now.on_top;
     out.x_dot = now.rate.position().data();
-    out.v_dot = now.rate.velocity().data();
+    out.v_dot = now.v_dot;
     out.e_dot = now.rate.energy().data();
     if (now.rate.has(Field::density)) out.rho_dot = now.rate.density().data();
     constitution_->close_forces(now, out);
@@ -216,7 +215,6 @@ void SmoothParticles<Dim>::balance(const Now& now, const SweepInput<Dim>& in,
     first.negative_torque = torques_->negative();
     std::fill(heat_.begin(), heat_.end(), 0.0);
     first.e_dot = heat_.empty() ? nullptr : heat_.data();
-    first.on_top = false;
     sweeps_->force(in, first);
     torques_->balance(groups(), out.x_dot, now.state.velocity().data());
     load_transport(now);

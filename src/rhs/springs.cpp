@@ -42,8 +42,7 @@ Point<Dim> Springs<Dim>::bond(const View& x, std::size_t i, std::size_t j) const
 template <int Dim>
 std::string Springs<Dim>::rates(const Now& now) {
     const auto x = now.state.position();
-    auto v_dot = now.rate.velocity();
-    if (!now.on_top) v_dot.setZero();
+    Eigen::Map<Points<Dim>> v_dot(now.v_dot, Dim, x.cols());
     parallel_for(this->particles().size(), [&](std::size_t i) {
         Point<Dim> force = Point<Dim>::Zero();
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
@@ -51,7 +50,7 @@ std::string Springs<Dim>::rates(const Now& now) {
             const double r = r_ij.norm();
             force += (spring_.force(r) / r) * r_ij;
         }
-        v_dot.col(static_cast<Eigen::Index>(i)) += force / this->particles().mass[i];
+        v_dot.col(static_cast<Eigen::Index>(i)) = force / this->particles().mass[i];
     });
     return {};
 }

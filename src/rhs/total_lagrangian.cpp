@@ -180,8 +180,7 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     const SweepInput<Dim> in = input(records_);
     SweepOutput<Dim> out;
     out.records = records_.data();
-    out.v_dot = now.rate.velocity().data();
-    out.on_top = now.on_top;
+    out.v_dot = now.v_dot;
     const Stresses stresses{material_, records_, scheme_.penalty > 0.0};
     out.close = Stresses::call;
     out.context = &stresses;
@@ -190,8 +189,8 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     out.close = nullptr;
     if (stresses.penalised)
         sweeps_->second(in, out);
-    else if (!now.on_top)
-        now.rate.velocity().setZero();
+    else
+        std::fill_n(now.v_dot, Dim * this->particles().size(), 0.0);
     sweeps_->force(in, out);
     return {};
 }

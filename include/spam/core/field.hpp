@@ -85,6 +85,8 @@ class Field {
     friend constexpr bool operator==(const Field& a, const Field& b) {
         return a.name() == b.name();
     }
+    /// Whether both were declared by the same FieldKind.
+    constexpr bool same_kind(const Field& other) const { return kind_ == other.kind_; }
 
     static const Field position, velocity, density, stress, energy;
     static const Field work, heat, impulse, angular_impulse;

@@ -29,6 +29,7 @@ namespace spam {
 inline namespace SPAM_LANES {
 
 #define SPAM_INLINE [[gnu::always_inline]] inline
+#define SPAM_FLAT __attribute__((always_inline))  // of a lambda
 
 namespace detail {
 template <int W>

@@ -76,7 +76,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
             apart = next_apart;
         }
         const Sums found = sums;
-        std::apply([&](const auto&... s) { store(cluster * W, gathered, s...); }, found);
+        std::apply([&](const auto&... s) SPAM_FLAT { store(cluster * W, gathered, s...); }, found);
     }
 }
 

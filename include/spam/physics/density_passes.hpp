@@ -20,18 +20,18 @@ namespace column {
 /// The fields of the density that potentials depend on, then the slopes of the potentials for a unit of
 /// mass, S_i = G_i/m_i.
 template <class... Terms>
-struct Slopes {
+struct Of {
     template <int Dim, class T>
-    struct In {
+    struct Slopes {
         std::tuple<typename Terms::template Field<Dim, T>...> slopes;
-        static constexpr auto member = &In::slopes;
     };
 };
 
 }  // namespace column
 
 template <int Dim, class T, class... Terms>
-using SlopeRecord = typename PointRecord<Dim, T>::template And<column::Slopes<Terms...>>;
+using SlopeRecord =
+    typename PointRecord<Dim, T>::template And<column::Of<Terms...>::template Slopes>;
 
 /// The weight function of a pair, seen from i.
 template <int Dim, class T>
@@ -60,8 +60,8 @@ struct DensityFields {
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
-        to.template write<SlopeRecord<Dim, double, Terms...>, column::Slopes<Terms...>>(
-            sums.fields);
+        to.template write<SlopeRecord<Dim, double, Terms...>,
+                          column::Of<Terms...>::template Slopes>(sums.fields);
     }
 };
 
@@ -91,7 +91,7 @@ struct DensityForces {
     }
     template <class To, class T>
     static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.accelerate(v_dot);
+        to.set(to.out.v_dot, v_dot);
     }
 
   private:
@@ -126,7 +126,7 @@ struct CoreForce {
     }
     template <class To, class T>
     static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.accelerate(v_dot);
+        to.set(to.out.v_dot, v_dot);
     }
 };
 

@@ -7,26 +7,17 @@ namespace spam {
 namespace column {
 
 /// Stored: formed inside the pair, FMA would break F_ij = -F_ji.
+template <int Dim, class T>
 struct Pressure {
-    template <int Dim, class T>
-    struct In {
-        T a{};  ///< P/rho^2
-        static constexpr auto member = &In::a;
-    };
+    T a{};  ///< P/rho^2
 };
+template <int Dim, class T>
 struct Temperature {
-    template <int Dim, class T>
-    struct In {
-        T temperature{};
-        static constexpr auto member = &In::temperature;
-    };
+    T temperature{};
 };
+template <int Dim, class T>
 struct HeatFlux {
-    template <int Dim, class T>
-    struct In {
-        Vec<Dim, T> q;  ///< Q/rho^2
-        static constexpr auto member = &In::q;
-    };
+    Vec<Dim, T> q;  ///< Q/rho^2
 };
 
 }  // namespace column

@@ -8,40 +8,25 @@ namespace spam {
 
 namespace column {
 
+template <int Dim, class T>
 struct Present {
-    template <int Dim, class T>
-    struct In {
-        Vec<Dim, T> present;  ///< the position now, moved by as many periods as X was
-        static constexpr auto member = &In::present;
-    };
+    Vec<Dim, T> present;  ///< the position now, moved by as many periods as X was
 };
+template <int Dim, class T>
 struct Volume {
-    template <int Dim, class T>
-    struct In {
-        T volume{};  ///< V = m/rho_0
-        static constexpr auto member = &In::volume;
-    };
+    T volume{};  ///< V = m/rho_0
 };
+template <int Dim, class T>
 struct Correction {
-    template <int Dim, class T>
-    struct In {
-        SymTensor<Dim, T> K;  ///< symmetric, because grad w_ij is along X_ij
-        static constexpr auto member = &In::K;
-    };
+    SymTensor<Dim, T> K;  ///< symmetric, because grad w_ij is along X_ij
 };
+template <int Dim, class T>
 struct Deformation {
-    template <int Dim, class T>
-    struct In {
-        Mat<Dim, T> F;  ///< F = A K
-        static constexpr auto member = &In::F;
-    };
+    Mat<Dim, T> F;  ///< F = A K
 };
+template <int Dim, class T>
 struct ReferenceStress {
-    template <int Dim, class T>
-    struct In {
-        Mat<Dim, T> B;  ///< what pairs feel, (P - M/V) K^t; P before that is known
-        static constexpr auto member = &In::B;
-    };
+    Mat<Dim, T> B;  ///< what pairs feel, (P - M/V) K^t; P before that is known
 };
 
 }  // namespace column

@@ -21,7 +21,7 @@ struct PairPotential {
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
-        to.accelerate(sums.v_dot);
+        to.set(to.out.v_dot, sums.v_dot);
     }
 };
 

@@ -22,120 +22,88 @@ SPAM_INLINE constexpr void for_each_number(Value& value, const F& f) {
         f(value);
 }
 
-/// What a record may carry of a particle. A column is a struct with
-///     template <int Dim, class T> struct In { Vec<Dim, T> x; static constexpr auto member = &In::x; };
-/// a record has that member under its name. T is double in memory, and lanes in a pair body.
+/// What a record may carry of a particle: a struct of one member, which records have under its name. T is
+/// double in memory, and lanes in a pair body.
 namespace column {
 
+template <int Dim, class T>
 struct Position {
-    template <int Dim, class T>
-    struct In {
-        Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
-        static constexpr auto member = &In::x;
-    };
+    Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
 };
+template <int Dim, class T>
 struct Velocity {
-    template <int Dim, class T>
-    struct In {
-        Vec<Dim, T> v;
-        static constexpr auto member = &In::v;
-    };
+    Vec<Dim, T> v;
 };
+template <int Dim, class T>
 struct Mass {
-    template <int Dim, class T>
-    struct In {
-        T m{};
-        static constexpr auto member = &In::m;
-    };
+    T m{};
 };
+template <int Dim, class T>
 struct Density {
-    template <int Dim, class T>
-    struct In {
-        T rho{};  ///< or what the mean density takes instead (mean_density.hpp, EitherMean)
-        static constexpr auto member = &In::rho;
-    };
+    T rho{};  ///< or what the mean density takes instead (mean_density.hpp, EitherMean)
 };
 /// Stored: formed inside the pair, FMA would break F_ij = -F_ji.
+template <int Dim, class T>
 struct Stress {
-    template <int Dim, class T>
-    struct In {
-        SymTensor<Dim, T> A;  ///< sigma/rho^2
-        static constexpr auto member = &In::A;
-    };
+    SymTensor<Dim, T> A;  ///< sigma/rho^2
 };
+template <int Dim, class T>
 struct Transport {
-    template <int Dim, class T>
-    struct In {
-        Vec<Dim, T> u;  ///< transport velocity, r_dot
-        static constexpr auto member = &In::u;
-    };
+    Vec<Dim, T> u;  ///< transport velocity, r_dot
 };
+template <int Dim, class T>
 struct NegativeFactor {
-    template <int Dim, class T>
-    struct In {
-        T negative_factor = T(1.0);  ///< R of the particle's body, for pair torques below zero
-        static constexpr auto member = &In::negative_factor;
-    };
+    T negative_factor = T(1.0);  ///< R of the particle's body, for pair torques below zero
 };
+template <int Dim, class T>
 struct PositiveFactor {
-    template <int Dim, class T>
-    struct In {
-        T positive_factor = T(1.0);  ///< 1/R
-        static constexpr auto member = &In::positive_factor;
-    };
+    T positive_factor = T(1.0);  ///< 1/R
 };
 
+template <int Dim, class T>
 struct SoundSpeed {
-    template <int Dim, class T>
-    struct In {
-        T c{};
-        static constexpr auto member = &In::c;
-    };
+    T c{};
 };
 
 }  // namespace column
 
-/// The type of a column's value.
-template <class Column, int Dim, class T>
-using ColumnValue =
-    std::remove_reference_t<decltype(std::declval<typename Column::template In<Dim, T>&>().*
-                                     Column::template In<Dim, T>::member)>;
-/// How many numbers it holds.
-template <class Column, int Dim>
-inline constexpr int column_numbers = static_cast<int>(sizeof(ColumnValue<Column, Dim, double>) /
-                                                       sizeof(double));
+/// The one member of a column.
+template <class Column>
+SPAM_INLINE constexpr auto& column_value(Column& column) {
+    auto& [value] = column;
+    return value;
+}
 
 /// A row of numbers in memory and a struct in a pair body, made of columns: packed once per right-hand
 /// side in the order of the slots, so that a sweep reads neighbours from adjacent memory. `visit` calls
 /// f(number, k) for k = 0, 1, ... `numbers` - 1; `at<Column>` is the k of the column's first number.
 /// A record may be read as one that has fewer columns, the same ones at its beginning.
-template <int Dim, class T, class... Columns>
-struct RecordOf : Columns::template In<Dim, T>... {
+template <int Dim, class T, template <int, class> class... Columns>
+struct RecordOf : Columns<Dim, T>... {
     template <class U>
     using With = RecordOf<Dim, U, Columns...>;
-    template <class... More>
+    template <template <int, class> class... More>
     using And = RecordOf<Dim, T, Columns..., More...>;
 
-    static constexpr int numbers = (0 + ... + column_numbers<Columns, Dim>);
-
-    template <class Column>
-    static constexpr bool has = (std::is_same_v<Column, Columns> || ...);
-    template <class Column>
+    template <template <int, class> class Column>
+    static constexpr bool has = (std::is_same_v<Column<Dim, T>, Columns<Dim, T>> || ...);
+    template <template <int, class> class Column>
     static constexpr int at = [] {
         static_assert(has<Column>);
         int k = 0;
         bool before = true;
-        ((before = before && !std::is_same_v<Column, Columns>,
-          k += before ? column_numbers<Columns, Dim> : 0),
+        ((before = before && !std::is_same_v<Column<Dim, T>, Columns<Dim, T>>,
+          k += before ? int(sizeof(Columns<Dim, double>) / sizeof(double)) : 0),
          ...);
         return k;
     }();
+    static constexpr int numbers = (0 + ... + int(sizeof(Columns<Dim, double>) / sizeof(double)));
 
     template <class F>
     SPAM_INLINE constexpr void visit(const F& f) {
         int k = 0;
         const auto one = [&](T& number) { f(number, k++); };
-        (for_each_number(this->*(Columns::template In<Dim, T>::member), one), ...);
+        (for_each_number(column_value(static_cast<Columns<Dim, T>&>(*this)), one), ...);
     }
 };
 

@@ -32,7 +32,7 @@ struct ForceSums {
     /// As the rates, or on top of what a pass or a sweep before has stored.
     template <class To>
     constexpr void store(const To& to) const {
-        to.accelerate(v_dot);
+        to.set(to.out.v_dot, v_dot);
         to.set(to.out.e_dot, e_dot());
     }
     template <class To>

@@ -20,19 +20,13 @@
 namespace spam {
 namespace column {
 
+template <int Dim, class T>
 struct InverseRange {
-    template <int Dim, class T>
-    struct In {
-        T inverse_range{};  ///< 1/h
-        static constexpr auto member = &In::inverse_range;
-    };
+    T inverse_range{};  ///< 1/h
 };
+template <int Dim, class T>
 struct Pull {
-    template <int Dim, class T>
-    struct In {
-        T pull{};  ///< a/h^(D+2)
-        static constexpr auto member = &In::pull;
-    };
+    T pull{};  ///< a/h^(D+2)
 };
 
 }  // namespace column
@@ -91,7 +85,7 @@ struct BothRangesForce {
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
-        to.accelerate(sums.v_dot);
+        to.set(to.out.v_dot, sums.v_dot);
     }
 };
 

@@ -57,7 +57,7 @@ struct ZeroEnergyPenalty {
     }
     template <class To, class T>
     static void store(const To& to, const Result<T>& result) {
-        to.accelerate(result.v_dot);
+        to.set(to.out.v_dot, result.v_dot);
         to.template write<StressedRecord<Dim>, column::ReferenceStress>(result.B);
     }
 };

@@ -95,6 +95,7 @@ class ParticleModel : public Model<Dim> {
 
     Terms terms_;
     Externals externals_;
+    std::vector<double> more_;  ///< v_dot of a term that is not the first
     std::vector<Given> given_;  ///< by block
 };
 

@@ -57,43 +57,39 @@ struct GeneralSweep {
 };
 
 /// Where a pass stores what it has found for one particle: `out.FIELD` of that particle, or its record.
-template <int Dim>
+template <int W, int Dim>
 struct Lane {
     const SweepOutput<Dim>& out;
     double* record;
     std::size_t particle;
-    int lane_number;
+    int lane_number;  ///< of W
 
     template <class Value>
     SPAM_INLINE void set(double* field, const Value& value) const {
-        if (field == nullptr) return;
         double* to = at<Value>(field);
-        for_each_number(value, [&](const auto& n) { *to++ = lane(n, lane_number); });
+        for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ = lane(n, lane_number); });
     }
-    /// v_dot, on top of what other terms have given.
+    /// Where somebody wants it.
     template <class Value>
-    SPAM_INLINE void accelerate(const Value& v_dot) const {
-        out.on_top ? add(out.v_dot, v_dot) : set(out.v_dot, v_dot);
+    SPAM_INLINE void set_wanted(double* field, const Value& value) const {
+        if (field != nullptr) set(field, value);
     }
     template <class Value>
     SPAM_INLINE void add(double* field, const Value& value) const {
         double* to = at<Value>(field);
-        for_each_number(value, [&](const auto& n) { *to++ += lane(n, lane_number); });
+        for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ += lane(n, lane_number); });
     }
     /// A column of the record, which may lie behind those that the sweep reads.
-    template <class R, class Column, class Value>
+    template <class R, template <int, class> class Column, class Value>
     SPAM_INLINE void write(const Value& value) const {
         double* to = record + R::template at<Column>;
-        for_each_number(value, [&](const auto& n) { *to++ = lane(n, lane_number); });
+        for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ = lane(n, lane_number); });
     }
 
   private:
     template <class Value>
     SPAM_INLINE double* at(double* field) const {
-        std::size_t numbers = 0;
-        Value value;
-        for_each_number(value, [&](const auto&) { ++numbers; });
-        return field + particle * numbers;
+        return field + particle * (sizeof(Value) / sizeof(LanesOf<W>));
     }
 };
 
@@ -119,19 +115,61 @@ template <class Pass, int W>
 requires requires { typename Pass::Kept; }
 struct KeptSums<Pass, W> {
     using Kept = typename Pass::Kept;
-    // Bytes, because there is no need for zeros.
+    // Bytes, because there is no need for zeros; and a constructor, because a tuple would write them.
     alignas(64) std::byte memory[clusters_per_block * W * sizeof(Kept)];
+    KeptSums() {}
 
     template <class Result>
     SPAM_INLINE void keep(std::size_t slot, const Result& result) {
         auto* const to = reinterpret_cast<Kept*>(memory) + slot;
         std::size_t k = 0;
-        for_each_number(result, [&](const auto& number) {
+        for_each_number(result, [&](const auto& number) SPAM_FLAT {
             for (int l = 0; l < W; ++l) to[l].c[k] = lane(number, l);
             ++k;
         });
     }
     SPAM_INLINE void list(const void**& next) const { *next++ = memory; }
+};
+
+/// What happens to the sums of one cluster of W particles: kept for the block, or stored.
+template <int W, int Dim, class... Passes>
+struct StoreSums {
+    using Kept = std::tuple<KeptSums<Passes, W>...>;
+
+    const SweepInput<Dim>& in;
+    const SweepOutput<Dim>& out;
+    const std::tuple<Passes...>& passes;
+    std::size_t block;  ///< its first slot
+    Kept& kept;
+
+    template <class R, class... Sums>
+    SPAM_INLINE void operator()(std::size_t slot, const R& i, const Sums&... sums) const {
+        each(slot, i, std::index_sequence_for<Passes...>(), sums...);
+    }
+
+  private:
+    template <class R, std::size_t... K, class... Sums>
+    SPAM_INLINE void each(std::size_t slot, const R& i, std::index_sequence<K...>,
+                          const Sums&... sums) const {
+        (std::get<K>(kept).keep(slot - block, result(std::get<K>(passes), i, sums)), ...);
+        for_each_lane<W>(in.list, slot, [&](int l, std::size_t particle) SPAM_FLAT {
+            const Lane<W, Dim> to{
+                out, out.records + (slot + static_cast<std::size_t>(l)) * in.records.stride,
+                particle, l};
+            (store(std::get<K>(passes), to, result(std::get<K>(passes), i, sums)), ...);
+        });
+    }
+    template <class Pass, class R, class Sums>
+    SPAM_INLINE static auto result(const Pass& pass, const R& i, const Sums& sums) {
+        if constexpr (requires { pass.result(i, sums); })
+            return pass.result(i, sums);
+        else
+            return sums;
+    }
+    template <class Pass, class Result>
+    SPAM_INLINE static void store(const Pass&, const Lane<W, Dim>& to, const Result& found) {
+        if constexpr (!requires { typename Pass::Kept; }) Pass::store(to, found);
+    }
 };
 
 /// One sweep over all pairs. `Kind`: LucysSweep or GeneralSweep. R: the record that is read. A pass is as
@@ -145,35 +183,11 @@ struct KeptSums<Pass, W> {
 template <class Kind, int W, int Dim, class R, class... Passes>
 void run_sweep(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     const std::tuple<Passes...> passes{pass_of<Passes>(in)...};
-    const auto finish = [](const auto& pass, const auto& i, const auto& sums) {
-        if constexpr (requires { pass.result(i, sums); })
-            return pass.result(i, sums);
-        else
-            return sums;
-    };
+    using Store = StoreSums<W, Dim, Passes...>;
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
-        std::tuple<KeptSums<Passes, W>...> kept;
-        Kind::template run<W, Dim, R>(
-            in, begin, end,
-            [&](std::size_t slot, const auto& i, const auto&... sums) {
-                const std::tuple found{finish(std::get<Passes>(passes), i, sums)...};
-                const auto each = [&]<std::size_t... K>(std::index_sequence<K...>) {
-                    (std::get<K>(kept).keep(slot - begin * W, std::get<K>(found)), ...);
-                    for_each_lane<W>(in.list, slot, [&](int l, std::size_t particle) {
-                        const Lane<Dim> to{
-                            out,
-                            out.records + (slot + static_cast<std::size_t>(l)) * in.records.stride,
-                            particle, l};
-                        const auto store = [&]<class Pass>(const Pass&, const auto& result) {
-                            if constexpr (!requires { typename Pass::Kept; })
-                                Pass::store(to, result);
-                        };
-                        (store(std::get<K>(passes), std::get<K>(found)), ...);
-                    });
-                };
-                each(std::index_sequence_for<Passes...>());
-            },
-            passes);
+        typename Store::Kept kept;
+        Kind::template run<W, Dim, R>(in, begin, end, Store{in, out, passes, begin * W, kept},
+                                      passes);
         if (out.close == nullptr) return;
         SweptBlock block{begin * W,
                          in.list.order + begin * W,

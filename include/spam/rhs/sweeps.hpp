@@ -54,7 +54,6 @@ struct SweepOutput {
     double* spread = nullptr;           ///< N, OwnRangeSums
     double* approach = nullptr;         ///< N
     double* records = nullptr;          ///< those of SweepInput
-    bool on_top = false;                ///< v_dot is added to what other terms have given
 
     /// Called once for every block, from any thread; null where nobody is interested.
     void (*close)(const void* context, const SweptBlock&) = nullptr;

@@ -15,12 +15,12 @@ namespace spam {
 template <int Dim>
 class Term {
   public:
-    /// What a term reads, and the rates it adds to.
+    /// What a term reads, and what it finds.
     struct Now {
         double t;
         ConstState<Dim> state;
         State<Dim> rate;
-        bool on_top;  ///< v_dot holds what other terms give already: add to it; else set it
+        double* v_dot;  ///< Dim x N, the term's own: set it whole
     };
 
     /// Of particles, box and layout of `model`, which must outlive the term.
@@ -33,7 +33,7 @@ class Term {
     /// (history). No two terms of a model may find the rate of the same one.
     virtual std::vector<Field> fields() const { return {}; }
 
-    /// Forces by mass, and the rates of fields(). Pure, no allocation after warm-up except for new lists.
+    /// v_dot, and the rates of fields(). Pure, no allocation after warm-up except for new lists.
     /// Returns why the state has no meaning; empty where it has one.
     virtual std::string rates(const Now& now) = 0;
 
