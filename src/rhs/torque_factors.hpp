@@ -30,6 +30,14 @@ class TorqueFactors {
     double* positive() { return positive_.data(); }  ///< N, TorqueSums: the first sweep's
     double* negative() { return negative_.data(); }
 
+    /// 6 x N, TorqueParts of one group; made when first asked for.
+    double* parts() {
+        parts_.resize(TorqueParts::numbers * positive_.size());
+        return parts_.data();
+    }
+    /// Once balanced, what scaling changes of the forces of one group, by parts(). v_dot: 2 x N, e_dot: N.
+    void add_parts(double* v_dot, double* e_dot) const;
+
     /// The scale of every group from its own sums, taken in the order of the particles. u, v: 2 x N.
     void balance(const Groups& groups, const double* u, const double* v);
 
@@ -47,7 +55,7 @@ class TorqueFactors {
         CompensatedSum P, M, X;  ///< torque_balance()
     };
     AngularMomentum law_;
-    std::vector<double> positive_, negative_;
+    std::vector<double> positive_, negative_, parts_;
     std::vector<Sums> sums_;
     std::vector<TorqueScale> scales_;
 };

@@ -87,6 +87,7 @@ struct Lane {
     }
 
   private:
+    /// sizeof counts the numbers of a tuple as well.
     template <class Value>
     SPAM_INLINE double* at(double* field) const {
         return field + particle * (sizeof(Value) / sizeof(LanesOf<W>));

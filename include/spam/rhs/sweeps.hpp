@@ -51,6 +51,7 @@ struct SweepOutput {
     double* energy = nullptr;           ///< N, a potential's
     double* positive_torque = nullptr;  ///< N, TorqueSums
     double* negative_torque = nullptr;  ///< N
+    double* torque_parts = nullptr;     ///< 6 N, TorqueParts
     double* spread = nullptr;           ///< N, OwnRangeSums
     double* approach = nullptr;         ///< N
     double* records = nullptr;          ///< those of SweepInput
@@ -99,7 +100,8 @@ struct Sweeps {
     Sweep<Dim> gradient = nullptr;  ///< what stress and heat flux are made of
     Sweep<Dim> second = nullptr;    ///< balanced torques, viscosity, chain rule; a penalty
     Sweep<Dim> force = nullptr;
-    Sweep<Dim> energy = nullptr;  ///< of a potential
+    Sweep<Dim> one_balance = nullptr;  ///< in place of force and second where all pairs have one R
+    Sweep<Dim> energy = nullptr;       ///< of a potential
 };
 
 }  // namespace spam
