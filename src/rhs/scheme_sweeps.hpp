@@ -2,7 +2,6 @@
 // For *.lanes.cpp: which passes a scheme of smooth particles needs.
 #pragma once
 
-#include "pack.hpp"
 #include "term_sweeps.hpp"
 #include <spam/physics/continuity.hpp>
 #include <spam/physics/density_sum.hpp>
