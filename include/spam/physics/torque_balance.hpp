@@ -47,15 +47,15 @@ struct TorqueParts {
     struct Part {
         Vec<2, T> v_dot;
         T power{};
-        T torque{};
+        T torque{};  ///< for a unit of m_i
 
-        void add(const T& torque_by_mass, const T& m_i, const T& inverse_r2, const Vec<2, T>& r,
+        void add(const T& torque_by_mass, const T& inverse_r2, const Vec<2, T>& r,
                  const T& across) {
             const T k = torque_by_mass * inverse_r2;
             v_dot[0] += k * r[1];
             v_dot[1] -= k * r[0];
             power += k * across;
-            torque += m_i * torque_by_mass;
+            torque += torque_by_mass;
         }
     };
     template <class T>
@@ -75,8 +75,15 @@ struct TorqueParts {
         // A particle's pair with itself has r = 0 and torque = 0; the floor keeps 0/0 out.
         const T inverse_r2 = T(1.0) / max(pair.r2, T(1e-300));
         const T across = -cross(pair.r_ji, pair.v_ji);  // v_ji by r_ji turned
-        sums.positive.add(positive_part(torque), i.m, inverse_r2, pair.r_ji, across);
-        sums.negative.add(positive_part(-torque), i.m, inverse_r2, pair.r_ji, across);
+        const T positive = positive_part(torque);
+        sums.positive.add(positive, inverse_r2, pair.r_ji, across);
+        sums.negative.add(positive - torque, inverse_r2, pair.r_ji, across);  // one of the two is 0
+    }
+    template <class T, class Record>
+    static Sums<T> result(const Record& i, Sums<T> sums) {
+        sums.positive.torque = i.m * sums.positive.torque;
+        sums.negative.torque = i.m * sums.negative.torque;
+        return sums;
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
