@@ -21,7 +21,7 @@
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/rhs/density_potentials.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>

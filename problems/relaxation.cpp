@@ -20,7 +20,7 @@
 #include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -28,6 +28,8 @@ spam_test(rhs/variable_range property)
 spam_test(rhs/density_potential_model property)
 spam_test(rhs/externals property)
 spam_test(rhs/accounts property)
+spam_test(rhs/combinations property)
+target_compile_definitions(test.rhs.combinations PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 spam_test(rhs/total_lagrangian property)
 spam_test(rhs/total_lagrangian_contract unit)
 spam_test(rhs/allocation unit)
@@ -182,3 +184,13 @@ add_test(NAME readme.example COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_D
   -DCXX=${CMAKE_CXX_COMPILER} "-DFLAGS=${readme_flags}"
   -P ${CMAKE_CURRENT_SOURCE_DIR}/readme/example.cmake)
 set_tests_properties(readme.example PROPERTIES LABELS problem TIMEOUT 300)
+
+spam_test(problem/remake property)
+
+# What users add, each in one file.
+spam_test(extend/external property)
+spam_test(extend/history_material property)
+spam_test(extend/pair_law.lanes property)
+spam_add_sweeps(test.extend.pair_law.lanes extend/pair_law.lanes.cpp)
+spam_test(extend/column.lanes property)
+spam_add_sweeps(test.extend.column.lanes extend/column.lanes.cpp)

@@ -43,6 +43,9 @@ SideBySide::SideBySide(std::vector<std::unique_ptr<Model<2>>> parts)
     for (const auto& part : parts_) {
         if (!part->events().empty())
             throw std::invalid_argument("models side by side have no events");
+        for (const auto& block : part->layout().blocks())
+            if (block.field.role() == Role::history)
+                throw std::invalid_argument("models side by side have no memory");
         y_.emplace_back(part->layout().size());
         y_dot_.emplace_back(part->layout().size());
         for (const auto& block : part->layout().blocks())

@@ -15,7 +15,7 @@ using namespace spam;
 class SideBySide final : public Model<2> {
   public:
     /// As many particles in every part, in the same box. Throws std::invalid_argument for a part with
-    /// an event.
+    /// an event or with history fields.
     explicit SideBySide(std::vector<std::unique_ptr<Model<2>>> parts);
 
     void rates(double t, std::span<const double> y, std::span<double> y_dot) override;
@@ -27,6 +27,7 @@ class SideBySide final : public Model<2> {
     bool smooth() const override;
     // Not forwarded: events(). They would change the state of a part, not this one; parts that have one are
     // refused.
+    // Not forwarded: settle(). No part has a memory: those that have one are refused.
     // Not forwarded: set_bodies(). Every part stays as many bodies as it was made of.
     std::vector<Remark> watch(double t, std::span<const double> y) override;
     std::string inseparable() const override;

@@ -29,6 +29,20 @@ void Scheme::validate(int dim) const {
             "viscosity: {} must be 0 (none) or a positive number; try --viscosity 1", viscosity));
 }
 
+void Scheme::validate_distances(double spacing) const {
+    if (closest_approach > 0.0 && closest_approach < 1e-3 * spacing)
+        throw InputError(
+            fmt::format("closest-approach: {} must be 0 (none) or at least a thousandth of the "
+                        "particle spacing "
+                        "{}; 0.5 to 0.9 spacings are usual",
+                        closest_approach, spacing));
+    if (closest_approach >= spacing)
+        throw InputError(fmt::format(
+            "closest-approach: {} must be below the particle spacing {}: particles that are "
+            "nearer from the start are not reflected; 0.5 to 0.9 spacings are usual",
+            closest_approach, spacing));
+}
+
 Promises Scheme::promises(int dim) const {
     Promises p;
     // Gauss' principle lets L go wherever it is singular.

@@ -64,6 +64,10 @@ class Constitution {
     const Particles<Dim>& particles_;
 };
 
+/// Throws InputError where a particle's material is none of so many.
+template <int Dim>
+void check_materials(const Particles<Dim>& particles, std::size_t materials);
+
 template <int Dim>
 std::unique_ptr<Constitution<Dim>> solid_constitution(const Particles<Dim>& particles,
                                                       std::vector<Material<Dim>> solids);

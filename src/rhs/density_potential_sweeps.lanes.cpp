@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pack.hpp"
 #include "term_sweeps.hpp"
 #include <spam/physics/curvature_strength.hpp>
 #include <spam/physics/density_passes.hpp>

@@ -2,7 +2,6 @@
 // For *.lanes.cpp: which passes a scheme of smooth particles needs.
 #pragma once
 
-#include "pack.hpp"
 #include "term_sweeps.hpp"
 #include <spam/physics/continuity.hpp>
 #include <spam/physics/density_sum.hpp>
@@ -32,20 +31,27 @@ inline bool balances(const Scheme& scheme) {
 template <class Kind, int Dim, class Mean>
 struct ForceSweeps {
     static Sweep<Dim> solid(const Scheme& scheme) {
-        return by_transport<Record<Dim>>(scheme, [](auto transport, auto force) {
+        return by_transport(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity,
                              decltype(transport), decltype(force)>;
         });
     }
+    /// Torques of one group of particles are balanced without a second sweep.
+    static Sweep<Dim> one_balance(const Scheme& scheme) requires(Dim == 2) {
+        return by_transport(scheme, [](auto transport, auto) {
+            return run_sweep<Kind, W, Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity,
+                             decltype(transport), TorqueParts>;
+        });
+    }
     static Sweep<Dim> conducting(const Scheme& scheme) {
-        return by_transport<ConductingRecord<Dim>>(scheme, [](auto transport, auto force) {
+        return by_transport(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, decltype(transport),
                              decltype(force), HeatFlow<Dim>, Continuity>;
         });
     }
 
   private:
-    template <class R, class Make>
+    template <class Make>
     static Sweep<Dim> by_transport(const Scheme& scheme, const Make& make) {
         switch (scheme.transport) {
             case Transport::plain:

@@ -2,11 +2,10 @@
 #include "carried_energy.hpp"
 #include "constitution.hpp"
 #include "gauss_forces.hpp"
+#include "resting_body.hpp"
 #include "torque_factors.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/kernel/any_weight.hpp>
-#include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
@@ -28,34 +27,6 @@ template <int Dim>
 Sweeps<Dim> sweeps_of(const Scheme& scheme, Matter matter) {
     return best_sweeps(
         [&](auto level) { return smooth_particle_sweeps<Dim, level>(scheme, matter); });
-}
-
-void check_closest_approach(double distance, double spacing) {
-    if (distance > 0.0 && distance < 1e-3 * spacing)
-        throw InputError(
-            fmt::format("closest-approach: {} must be 0 (none) or at least a thousandth of the "
-                        "particle spacing "
-                        "{}; 0.5 to 0.9 spacings are usual",
-                        distance, spacing));
-    if (distance >= spacing)
-        throw InputError(fmt::format(
-            "closest-approach: {} must be below the particle spacing {}: particles that are "
-            "nearer from the start are not reflected; 0.5 to 0.9 spacings are usual",
-            distance, spacing));
-}
-
-template <int Dim>
-void check_materials(const Particles<Dim>& particles, std::size_t materials) {
-    if (!particles.material.empty() && particles.material.size() != particles.size())
-        throw InputError(fmt::format("material: {} numbers for {} particles; give one for each",
-                                     particles.material.size(), particles.size()));
-    for (std::size_t i = 0; i < particles.material.size(); ++i)
-        if (particles.material[i] < 0 ||
-            static_cast<std::size_t>(particles.material[i]) >= materials)
-            throw InputError(
-                fmt::format("material: particle {} has number {}, and there are {} materials, from "
-                            "0 on",
-                            particles.id[i], particles.material[i], materials));
 }
 
 }  // namespace
@@ -88,7 +59,7 @@ SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model,
       packed_(packed_with(ListUse::again_and_again)) {
     const std::size_t n = this->particles().size();
     valid_range<Dim>(scheme.range, this->particles().spacing, n);
-    check_closest_approach(scheme.closest_approach, this->particles().spacing);
+    scheme.validate_distances(this->particles().spacing);
     check_materials(this->particles(), constitution_->materials());
     constitution_->check(scheme);
     if (sweeps_->density != nullptr) summed_density_.resize(n);
@@ -137,35 +108,17 @@ void SmoothParticles<Dim>::estimate_viscosity() {
     const GeneralWeight<Dim> general(scheme_.kernel, scheme_.range);
     const bool friction = sweeps_->gradient != nullptr;
     if (!(scheme_.viscosity > 0.0) && !friction) return;
-    const PairList<Dim> list(this->particles().reference_position, scheme_.range, this->box());
-    double rho = 0.0, slope = 0.0;
-    const auto weight = weight_function<Dim>(to_string(scheme_.kernel), scheme_.range);
-    const auto& x = this->particles().reference_position;
-    for (std::size_t i = 0; i < list.size(); ++i)
-        for (const std::uint32_t j : list.neighbours(i)) {
-            double r2 = 0.0;
-            for (int a = 0; a < Dim; ++a) {
-                const double s = this->box().nearest_image(
-                    a, this->box().wrap(a, x(a, static_cast<Eigen::Index>(i))) -
-                           this->box().wrap(a, x(a, j)));
-                r2 += s * s;
-            }
-            const double m = this->particles().mass[j], r = std::sqrt(r2);
-            rho += m * weight.value(r);
-            if (i != j) slope += m * weight.minus_slope_over_r(r);
-        }
-    rho /= static_cast<double>(list.size());
-    slope /= static_cast<double>(list.size());
-    viscous_damping_ = constitution_->damping(general, rho);
+    const RestingBody rest = resting_body(this->particles(), this->box(), general);
+    viscous_damping_ = constitution_->damping(general, rest.density);
     if (!(scheme_.viscosity > 0.0)) return;
-    const auto c = constitution_->sound_speed(rho);
+    const auto c = constitution_->sound_speed(rest.density);
     if (!c)
         throw InputError(fmt::format(
             "viscosity: {} needs a sound speed, and the material ({}) has none; give it a "
             "sound_speed(density), or leave --viscosity out",
             scheme_.viscosity, constitution_->describe()));
     const double length = 0.5 * scheme_.range;
-    viscous_damping_ += scheme_.viscosity * *c * length / Dim * slope / rho;
+    viscous_damping_ += scheme_.viscosity * *c * length / Dim * rest.slope / rest.density;
     viscosity_ = {scheme_.viscosity, *c, length};
 }
 
@@ -206,7 +159,8 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
     return {};
 }
 
-/// The first sweep finds torques and the heat conducted, the second forces and their work.
+/// The first sweep finds torques and the heat conducted, the second forces and their work. One is enough
+/// where all pairs have one R.
 template <int Dim>
 void SmoothParticles<Dim>::balance(const Now& now, const SweepInput<Dim>& in,
                                    SweepOutput<Dim>& out) {
@@ -215,8 +169,16 @@ void SmoothParticles<Dim>::balance(const Now& now, const SweepInput<Dim>& in,
     first.negative_torque = torques_->negative();
     std::fill(heat_.begin(), heat_.end(), 0.0);
     first.e_dot = heat_.empty() ? nullptr : heat_.data();
+    const double* const v = now.state.velocity().data();
+    if (sweeps_->one_balance != nullptr && group_count_ == 1) {
+        first.torque_parts = torques_->parts();
+        first.e_dot = out.e_dot;
+        sweeps_->one_balance(in, first);
+        torques_->balance(groups(), out.x_dot, v);
+        return torques_->add_parts(out.v_dot, out.e_dot);
+    }
     sweeps_->force(in, first);
-    torques_->balance(groups(), out.x_dot, now.state.velocity().data());
+    torques_->balance(groups(), out.x_dot, v);
     load_transport(now);
     if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
     out.close = nullptr;
@@ -374,45 +336,6 @@ std::size_t SmoothParticles<Dim>::list_builds() const {
 template <int Dim>
 std::string SmoothParticles<Dim>::describe() const {
     return fmt::format("{}: {}", constitution_->describe(), scheme_.describe());
-}
-
-template <int Dim>
-const Fluid& SmoothParticles<Dim>::fluid() const {
-    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_).first();
-}
-
-template <int Dim>
-std::vector<double> SmoothParticles<Dim>::pressure(std::span<const double> y) const {
-    const auto rho = this->model().density(y);
-    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
-        .pressures(rho, {this->state_of(y).energy().data(), rho.size()});
-}
-
-template <int Dim>
-std::vector<double> SmoothParticles<Dim>::temperature(std::span<const double> y) const {
-    const auto rho = this->model().density(y);
-    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
-        .temperatures(rho, {this->state_of(y).energy().data(), rho.size()});
-}
-
-template <int Dim>
-std::vector<double> SmoothParticles<Dim>::start(const Points<Dim>& position,
-                                                const Points<Dim>& velocity, double T) {
-    const auto& fluids = dynamic_cast<const FluidConstitution<Dim>&>(*constitution_);
-    const auto sum = best_sweeps([&](auto level) {
-        Scheme summed = scheme_;
-        summed.density = Density::summed;
-        return smooth_particle_sweeps<Dim, level>(summed, fluids.matter(summed));
-    });
-    PackedParticles<Dim> once(GeneralWeight<Dim>(scheme_.kernel, scheme_.range), ListUse::once,
-                              this->box(), sum);
-    const auto rho =
-        once.summed_density(sum.density, this->particles().size(),
-                            {position.data(), velocity.data(), this->particles().mass.data()});
-    return fluid_start<Dim>(
-        this->model(),
-        [&](std::size_t i) -> const AnyEquationOfState& { return fluids.of(i).state; }, position,
-        velocity, rho, T);
 }
 
 template class SmoothParticles<1>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the terms of models find their sweeps: each function is defined in a *.lanes.cpp of its name, for
-// every instruction set.
+// Where the terms of models find their sweeps: each function is defined in a *.lanes.cpp, for every
+// instruction set.
 #pragma once
 
 #include "../core/levels.hpp"
@@ -34,9 +34,9 @@ Sweeps<Dim> density_potential_sweeps(bool shape);
 
 /// Lucy's weight function as pair potential, of PointRecord.
 template <int Dim, InstructionSet Level>
-Sweeps<Dim> pair_potential_sweeps();
+Sweeps<Dim> lucy_potential_sweeps();
 
-/// A core, of any record that begins with PointRecord's position.
+/// A core, of PointRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> core_sweeps();
 

@@ -30,7 +30,15 @@ class TorqueFactors {
     double* positive() { return positive_.data(); }  ///< N, TorqueSums: the first sweep's
     double* negative() { return negative_.data(); }
 
-    /// The scale of every group from its own sums, taken in the order of the particles. u, v: 2 x N.
+    /// 6 x N, TorqueParts of one group; made when first asked for.
+    double* parts() {
+        parts_.resize(TorqueParts::numbers * positive_.size());
+        return parts_.data();
+    }
+    /// Once balanced, what scaling changes of the forces of one group, by parts(). v_dot: 2 x N, e_dot: N.
+    void add_parts(double* v_dot, double* e_dot) const;
+
+    /// The scale of every group from its own sums, the same for any number of threads. u, v: 2 x N.
     void balance(const Groups& groups, const double* u, const double* v);
 
     /// What particle i brings to s_ij of its pairs.
@@ -46,8 +54,14 @@ class TorqueFactors {
     struct Sums {
         CompensatedSum P, M, X;  ///< torque_balance()
     };
+    struct Torques {
+        double positive, negative;
+    };
+    Torques torques_of(std::size_t i) const;
+    Sums sum_of_one_group(const Groups& groups, const double* u, const double* v);
+
     AngularMomentum law_;
-    std::vector<double> positive_, negative_;
+    std::vector<double> positive_, negative_, parts_, block_sums_;
     std::vector<Sums> sums_;
     std::vector<TorqueScale> scales_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/rhs/total_lagrangian.hpp>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <spam/material/elastic_solid.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
 #include <benchmark/benchmark.h>

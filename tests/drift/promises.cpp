@@ -7,7 +7,7 @@
 #include <spam/material/lucy_gas.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/density_potentials.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>

@@ -5,7 +5,7 @@
 #include "support/small_hexagons.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/integrate/driver.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 
 #include <boost/test/unit_test.hpp>
 #include <sundials/sundials_config.h>

@@ -16,7 +16,7 @@
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/density_potentials.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>

@@ -12,7 +12,7 @@
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
 #include <boost/test/unit_test.hpp>

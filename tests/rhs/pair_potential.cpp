@@ -6,7 +6,7 @@
 #include <spam/kernel/lucy.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/rhs/density_potentials.hpp>
-#include <spam/rhs/lucy_pair_potential.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 
 #include <boost/test/unit_test.hpp>
 

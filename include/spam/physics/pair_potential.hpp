@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/pass_constants.hpp>
 
 namespace spam {
 
@@ -22,6 +24,33 @@ struct PairPotential {
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
         to.set(to.out.v_dot, sums.v_dot);
+    }
+};
+
+/// Half of m_i m_j w_ij, summed over the others.
+template <int Dim>
+struct PairPotentialEnergy {
+    static constexpr bool light = true;  // sweep.hpp
+    double w_0;                          ///< what a particle would have of itself
+    static PairPotentialEnergy with(const PassConstants&, const GeneralWeight<Dim>& weight) {
+        return {weight.value(0.0)};
+    }
+
+    template <class T>
+    struct Sums {
+        T m_w{};
+    };
+    template <class T, class Record>
+    void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) const {
+        sums.m_w += j.m * pair.w;
+    }
+    template <class T, class Record>
+    T result(const Record& i, const Sums<T>& sums) const {
+        return T(0.5) * i.m * (sums.m_w - i.m * T(w_0));
+    }
+    template <class To, class T>
+    static void store(const To& to, const T& energy) {
+        to.set(to.out.energy, energy);
     }
 };
 

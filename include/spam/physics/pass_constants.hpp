@@ -3,6 +3,8 @@
 
 #include <spam/physics/scheme.hpp>
 
+#include <array>
+
 namespace spam {
 
 /// Constants of the artificial viscosity (viscosity.hpp).
@@ -20,6 +22,7 @@ struct PassConstants {
     double penalty = 0.0;          ///< its penalty times its stiffness, kappa lambda
     double core_energy = 0.0;      ///< of CorePotential
     double core_range = 1.0;
+    std::array<double, 8> own{};  ///< of a law outside the library
 };
 
 }  // namespace spam

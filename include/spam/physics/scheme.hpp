@@ -48,6 +48,9 @@ struct Scheme {
     /// `dim` dimensions.
     void validate(int dim) const;
 
+    /// The same for particles of this spacing: pairs cannot be reflected there or beyond.
+    void validate_distances(double spacing) const;
+
     Promises promises(int dim) const;
 
     /// One line: "density continuity, transport monaghan (arithmetic mean density), ..."

@@ -39,6 +39,62 @@ struct TorqueSums {
     }
 };
 
+/// Forces by stress, and apart from them what positive and negative torques contribute: where all pairs
+/// have one R the balanced forces are made of these sums, without a second sweep (add_balance()).
+struct TorqueParts {
+    /// The forces perpendicular to r_ij that make up the torques of one sign.
+    template <class T>
+    struct Part {
+        Vec<2, T> v_dot;
+        T power{};
+        T torque{};  ///< for a unit of m_i
+
+        void add(const T& torque_by_mass, const T& inverse_r2, const Vec<2, T>& r,
+                 const T& across) {
+            const T k = torque_by_mass * inverse_r2;
+            v_dot[0] += k * r[1];
+            v_dot[1] -= k * r[0];
+            power += k * across;
+            torque += torque_by_mass;
+        }
+    };
+    template <class T>
+    struct Sums {
+        ForceSums<2, T> force;
+        Part<T> positive, negative;
+    };
+    /// Numbers that are stored of a particle: v_dot and e_dot of either part.
+    static constexpr std::size_t numbers = 6;
+
+    template <class T, class Record>
+    static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+        using std::max;
+        const Vec<2, T> f = stress_force(pair, i, j);
+        sums.force.add(j.m, f, pair.v_ji);
+        const T torque = j.m * cross(f, pair.r_ji);
+        // A particle's pair with itself has r = 0 and torque = 0; the floor keeps 0/0 out.
+        const T inverse_r2 = T(1.0) / max(pair.r2, T(1e-300));
+        const T across = -cross(pair.r_ji, pair.v_ji);  // v_ji by r_ji turned
+        const T positive = positive_part(torque);
+        sums.positive.add(positive, inverse_r2, pair.r_ji, across);
+        sums.negative.add(positive - torque, inverse_r2, pair.r_ji, across);  // one of the two is 0
+    }
+    template <class T, class Record>
+    static Sums<T> result(const Record& i, Sums<T> sums) {
+        sums.positive.torque = i.m * sums.positive.torque;
+        sums.negative.torque = i.m * sums.negative.torque;
+        return sums;
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        sums.force.store(to);
+        to.set(to.out.positive_torque, sums.positive.torque);
+        to.set(to.out.negative_torque, sums.negative.torque);
+        to.set(to.out.torque_parts, std::tuple(sums.positive.v_dot, T(0.5) * sums.positive.power,
+                                               sums.negative.v_dot, T(0.5) * sums.negative.power));
+    }
+};
+
 /// What negative torques are multiplied by, and positive ones.
 struct TorqueScale {
     double negative = 1.0, positive = 1.0;

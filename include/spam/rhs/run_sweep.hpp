@@ -5,6 +5,7 @@
 #include <spam/kernel/lucy.hpp>
 #include <spam/neighbors/sweep.hpp>
 #include <spam/physics/record.hpp>
+#include <spam/rhs/pack.hpp>
 #include <spam/rhs/sweeps.hpp>
 
 #include <cstddef>
@@ -87,6 +88,7 @@ struct Lane {
     }
 
   private:
+    /// sizeof counts the numbers of a tuple as well.
     template <class Value>
     SPAM_INLINE double* at(double* field) const {
         return field + particle * (sizeof(Value) / sizeof(LanesOf<W>));
@@ -167,8 +169,8 @@ struct StoreSums {
             return sums;
     }
     template <class Pass, class Result>
-    SPAM_INLINE static void store(const Pass&, const Lane<W, Dim>& to, const Result& found) {
-        if constexpr (!requires { typename Pass::Kept; }) Pass::store(to, found);
+    SPAM_INLINE static void store(const Pass& pass, const Lane<W, Dim>& to, const Result& found) {
+        if constexpr (!requires { typename Pass::Kept; }) pass.store(to, found);
     }
 };
 
@@ -197,6 +199,17 @@ void run_sweep(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
         std::apply([&](const auto&... k) { (k.list(next), ...); }, kept);
         out.close(out.context, block);
     });
+}
+
+/// The sweeps of a law of pairs (pair_term.hpp): passes `Force`, which stores v_dot, and `Energy`, which
+/// stores half of each pair's energy. R: PointRecord, and what the law needs behind it.
+template <InstructionSet Level, class Kind, int Dim, class R, class Force, class Energy>
+Sweeps<Dim> pair_sweeps() {
+    constexpr int W = native_lanes(Level);
+    Sweeps<Dim> sweeps{W, R::numbers, pack<Dim, PointRecord<Dim>>};
+    sweeps.force = run_sweep<Kind, W, Dim, R, Force>;
+    sweeps.energy = run_sweep<Kind, W, Dim, R, Energy>;
+    return sweeps;
 }
 
 }  // namespace SPAM_LANES

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/instruction_set.hpp>
 #include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/neighbors/cluster_view.hpp>
@@ -9,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 /// Sweeps over pairs as functions of one type, whatever they sum: made by run_sweep.hpp in a *.lanes.cpp
 /// for every instruction set, called by the terms of a model.
@@ -51,6 +53,7 @@ struct SweepOutput {
     double* energy = nullptr;           ///< N, a potential's
     double* positive_torque = nullptr;  ///< N, TorqueSums
     double* negative_torque = nullptr;  ///< N
+    double* torque_parts = nullptr;     ///< 6 N, TorqueParts
     double* spread = nullptr;           ///< N, OwnRangeSums
     double* approach = nullptr;         ///< N
     double* records = nullptr;          ///< those of SweepInput
@@ -99,7 +102,19 @@ struct Sweeps {
     Sweep<Dim> gradient = nullptr;  ///< what stress and heat flux are made of
     Sweep<Dim> second = nullptr;    ///< balanced torques, viscosity, chain rule; a penalty
     Sweep<Dim> force = nullptr;
-    Sweep<Dim> energy = nullptr;  ///< of a potential
+    Sweep<Dim> one_balance = nullptr;  ///< in place of force and second where all pairs have one R
+    Sweep<Dim> energy = nullptr;       ///< of a potential
 };
+
+/// Sweeps of a law outside the library, by name: an object of this type in a file of spam_add_sweeps()
+/// (CMake) makes those of one instruction set known before main() begins.
+template <int Dim>
+struct RegisterSweeps {
+    RegisterSweeps(const std::string& name, InstructionSet level, const Sweeps<Dim>& sweeps);
+};
+
+/// Those for this processor. Throws InputError where the name is unknown.
+template <int Dim>
+Sweeps<Dim> registered_sweeps(const std::string& name);
 
 }  // namespace spam

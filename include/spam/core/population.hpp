@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/particles.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace spam {
+
+/// Another set of particles made of an earlier one, and what each is made of.
+template <int Dim>
+struct Population {
+    /// A part of a new particle: an old one, where the new one lies from it, and which share of the new
+    /// one's mass comes from it.
+    struct Part {
+        std::uint32_t particle;
+        double share;
+        Point<Dim> offset;
+    };
+    Particles<Dim> particles;
+    std::vector<std::vector<Part>> parts;  ///< by new particle; shares of each sum to 1
+    std::vector<std::uint32_t> removed;    ///< old particles that none is made of
+};
+
+/// Splits, merges and removes particles, each of them at most once. Particles that nothing is said of stay
+/// as they are; the order in memory is kept, children take their parent's place. Ids stay with those
+/// that stay; a merged particle has the first one's, children have numbers that were not there.
+template <int Dim>
+class Repopulation {
+  public:
+    explicit Repopulation(const Particles<Dim>& before);
+
+    /// Particle i in offsets.cols() >= 2 of equal mass, at these places (Dim x children) from its own; their
+    /// sum must be zero (then momentum and angular momentum are kept), or InputError.
+    void split(std::size_t i, const Points<Dim>& offsets);
+    /// Two or more particles in one, at their centre of mass. Throws InputError for different materials.
+    void merge(const std::vector<std::size_t>& particles);
+    void remove(std::size_t i);
+
+    Population<Dim> finish() const;
+
+  private:
+    struct Change {
+        std::vector<std::size_t> merged{};
+        Points<Dim> offsets{};
+        bool removed = false;
+    };
+    Change& change_of(std::size_t i);
+
+    const Particles<Dim>& before_;
+    std::vector<int>
+        change_;  ///< by particle, place in changes_; -1: none; -2: goes into another one
+    std::vector<Change> changes_;
+};
+
+extern template class Repopulation<1>;
+extern template class Repopulation<2>;
+extern template class Repopulation<3>;
+
+}  // namespace spam

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/physics/core_potential.hpp>
+#include <spam/rhs/pair_term.hpp>
+#include <spam/rhs/particle_model.hpp>
+
+namespace spam {
+
+/// A repulsive core between all particles, phi = e_c (1 - r^2/s^2)^4 inside s (physics/core_potential.hpp):
+/// it keeps neighbours apart where stresses pull them together.
+template <int Dim>
+class Core final : public PairTerm<Dim> {
+  public:
+    /// Throws InputError for an energy or a range that is not above 0, and for a periodic box not wider than
+    /// twice the range.
+    Core(Model<Dim>& model, const CorePotential& core);
+};
+
+/// Molecular dynamics with Lucy's weight function as pair potential, phi = m_i m_j w(r), [HHM04] III.
+template <int Dim>
+class LucyPairPotential final : public PairTerm<Dim> {
+  public:
+    /// `range`: of the weight function, > spacing. Throws InputError for another, and for a periodic
+    /// box that is not wider than twice the range.
+    LucyPairPotential(Model<Dim>& model, double range);
+};
+
+/// The latter and nothing else.
+template <int Dim>
+class PairPotentialModel final : public ParticleModel<Dim> {
+  public:
+    PairPotentialModel(Particles<Dim> particles, double range, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box) {
+        this->template add_term<LucyPairPotential<Dim>>(range);
+    }
+};
+
+}  // namespace spam

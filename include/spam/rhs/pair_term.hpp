@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/rhs/sweeps.hpp>
+#include <spam/rhs/term.hpp>
+
+#include <memory>
+
+namespace spam {
+
+template <int Dim>
+class PackedParticles;
+enum class ListUse;
+
+/// A law of pairs, as registered_sweeps() or a *.lanes.cpp gives it.
+template <int Dim>
+struct PairLaw {
+    /// `force` and `energy` (half of each pair's); `density` where the law has one. Their records begin
+    /// with PointRecord's columns; behind these come `columns`.
+    Sweeps<Dim> sweeps;
+    double range;             ///< no pair farther apart acts on each other
+    std::string description;  ///< for the banner of a run
+    PassConstants constants{};
+    /// What the law needs of every particle besides position and mass, N numbers each (charges, sizes).
+    std::vector<std::vector<double>> columns{};
+};
+
+/// Forces between pairs by a potential of their distance.
+template <int Dim>
+class PairTerm : public Term<Dim> {
+  public:
+    /// Throws InputError for a range that is not above 0, for a periodic box not wider than twice the range
+    /// and for columns that are not as long as there are particles.
+    PairTerm(Model<Dim>& model, PairLaw<Dim> law);
+    ~PairTerm() override;
+
+    using typename Term<Dim>::Now;
+    std::string rates(const Now& now) override;
+    double energy(std::span<const double> y) const override;
+    std::vector<double> density(std::span<const double> y) const override;
+    std::string describe() const override { return law_.description; }
+    std::size_t pairs() const override;
+    double reach() const override { return law_.range; }
+    std::size_t list_builds() const override;
+    void remember(Archive& archive) override;
+
+  private:
+    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
+    bool follow(PackedParticles<Dim>& packed, const ConstState<Dim>& state) const;
+    SweepInput<Dim> input(const PackedParticles<Dim>& packed) const;
+
+    PairLaw<Dim> law_;
+    std::unique_ptr<PackedParticles<Dim>> packed_;
+};
+
+extern template class PairTerm<1>;
+extern template class PairTerm<2>;
+extern template class PairTerm<3>;
+
+}  // namespace spam

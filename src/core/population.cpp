@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/population.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace spam {
+
+template <int Dim>
+Repopulation<Dim>::Repopulation(const Particles<Dim>& before)
+    : before_(before),
+      change_(before.size(), -1) {}
+
+template <int Dim>
+typename Repopulation<Dim>::Change& Repopulation<Dim>::change_of(std::size_t i) {
+    if (i >= change_.size())
+        throw InputError(
+            fmt::format("population: there is no particle {} among {}", i, change_.size()));
+    if (change_[i] != -1)
+        throw InputError(fmt::format(
+            "population: particle {} is split, merged or removed twice; make two steps of it",
+            before_.id[i]));
+    change_[i] = static_cast<int>(changes_.size());
+    return changes_.emplace_back();
+}
+
+template <int Dim>
+void Repopulation<Dim>::split(std::size_t i, const Points<Dim>& offsets) {
+    const double size = offsets.cwiseAbs().sum();
+    if (offsets.cols() < 2 || !offsets.allFinite() ||
+        offsets.rowwise().sum().cwiseAbs().sum() > 1e-14 * size)
+        throw InputError(
+            fmt::format("population: the children of particle {} must be two or more, at places "
+                        "whose sum is zero: else their angular momentum would not be its own",
+                        i < before_.size() ? before_.id[i] : -1));
+    change_of(i).offsets = offsets;
+}
+
+template <int Dim>
+void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles) {
+    if (particles.size() < 2)
+        throw InputError("population: it takes two particles or more to merge");
+    const auto material = [&](std::size_t i) {
+        return before_.material.empty() ? 0 : before_.material[i];
+    };
+    for (const std::size_t i : particles) {
+        change_of(i);
+        changes_.pop_back();
+        change_[i] = -2;
+        if (material(i) != material(particles.front()))
+            throw InputError(fmt::format(
+                "population: particles {} and {} are of different materials and cannot be one",
+                before_.id[particles.front()], before_.id[i]));
+    }
+    const std::size_t first = *std::min_element(particles.begin(), particles.end());
+    change_[first] = static_cast<int>(changes_.size());
+    changes_.push_back({particles});
+}
+
+template <int Dim>
+void Repopulation<Dim>::remove(std::size_t i) {
+    change_of(i).removed = true;
+}
+
+template <int Dim>
+Population<Dim> Repopulation<Dim>::finish() const {
+    using Part = typename Population<Dim>::Part;
+    Population<Dim> after;
+    Particles<Dim>& p = after.particles;
+    p.spacing = before_.spacing;
+    std::int64_t next_id = 0;
+    for (const auto id : before_.id) next_id = std::max(next_id, id + 1);
+    std::vector<Point<Dim>> reference;
+    const auto add = [&](std::size_t like, double mass, std::int64_t id, const Point<Dim>& place,
+                         std::vector<Part> parts) {
+        p.mass.push_back(mass);
+        p.id.push_back(id);
+        p.body.push_back(before_.body[like]);
+        if (!before_.material.empty()) p.material.push_back(before_.material[like]);
+        reference.push_back(place);
+        after.parts.push_back(std::move(parts));
+    };
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+        if (change_[i] == -2) continue;
+        const auto number = static_cast<std::uint32_t>(i);
+        const Point<Dim> X = before_.reference_position.col(static_cast<Eigen::Index>(i));
+        if (change_[i] == -1) {
+            add(i, before_.mass[i], before_.id[i], X, {{number, 1.0, Point<Dim>::Zero()}});
+            continue;
+        }
+        const Change& change = changes_[static_cast<std::size_t>(change_[i])];
+        if (change.removed) {
+            after.removed.push_back(number);
+        } else if (change.merged.empty()) {
+            const Eigen::Index n = change.offsets.cols();
+            for (Eigen::Index k = 0; k < n; ++k)
+                add(i, before_.mass[i] / static_cast<double>(n), next_id++,
+                    X + change.offsets.col(k), {{number, 1.0, change.offsets.col(k)}});
+        } else {
+            double mass = 0.0;
+            for (const std::size_t j : change.merged) mass += before_.mass[j];
+            Point<Dim> centre = Point<Dim>::Zero();
+            std::vector<Part> parts;
+            for (const std::size_t j : change.merged) {
+                const double share = before_.mass[j] / mass;
+                centre += share * before_.reference_position.col(static_cast<Eigen::Index>(j));
+                parts.push_back({static_cast<std::uint32_t>(j), share, Point<Dim>::Zero()});
+            }
+            add(i, mass, before_.id[change.merged.front()], centre, std::move(parts));
+        }
+    }
+    p.reference_position.resize(Dim, static_cast<Eigen::Index>(reference.size()));
+    for (std::size_t k = 0; k < reference.size(); ++k)
+        p.reference_position.col(static_cast<Eigen::Index>(k)) = reference[k];
+    return after;
+}
+
+template class Repopulation<1>;
+template class Repopulation<2>;
+template class Repopulation<3>;
+
+}  // namespace spam

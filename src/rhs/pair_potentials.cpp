@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "packed_particles.hpp"
+#include "term_sweeps.hpp"
+#include <spam/core/error.hpp>
+#include <spam/rhs/pair_potentials.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+PairLaw<Dim> law_of(const CorePotential& core) {
+    if (!(core.e_c > 0.0) || !std::isfinite(core.e_c))
+        throw InputError(fmt::format(
+            "core: energy {:g} must be above 0, or the core would not push; try 0.1", core.e_c));
+    if (!(core.s > 0.0) || !std::isfinite(core.s))
+        throw InputError(
+            fmt::format("core-range: {:g} must be above 0; 0.7 to 0.8 spacings are usual", core.s));
+    PairLaw<Dim> law{best_sweeps([](auto level) { return core_sweeps<Dim, level>(); }), core.s,
+                     fmt::format("core {:g} of range {:g}", core.e_c, core.s)};
+    law.constants.core_energy = core.e_c;
+    law.constants.core_range = core.s;
+    return law;
+}
+
+template <int Dim>
+PairLaw<Dim> lucys_law(const Particles<Dim>& particles, double range) {
+    return {
+        best_sweeps([](auto level) { return lucy_potential_sweeps<Dim, level>(); }),
+        valid_range<Dim>(range, particles.spacing, particles.size()),
+        fmt::format("molecular dynamics, Lucy's weight function of range {:g} as pair potential",
+                    range)};
+}
+
+}  // namespace
+
+template <int Dim>
+Core<Dim>::Core(Model<Dim>& model, const CorePotential& core)
+    : PairTerm<Dim>(model, law_of<Dim>(core)) {}
+
+template <int Dim>
+LucyPairPotential<Dim>::LucyPairPotential(Model<Dim>& model, double range)
+    : PairTerm<Dim>(model, lucys_law<Dim>(model.particles(), range)) {}
+
+template class Core<1>;
+template class Core<2>;
+template class Core<3>;
+template class LucyPairPotential<1>;
+template class LucyPairPotential<2>;
+template class LucyPairPotential<3>;
+
+}  // namespace spam

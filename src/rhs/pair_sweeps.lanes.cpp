@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "term_sweeps.hpp"
+#include <spam/physics/density_passes.hpp>
+#include <spam/physics/density_sum.hpp>
+#include <spam/physics/pair_potential.hpp>
+#include <spam/rhs/run_sweep.hpp>
+
+namespace spam {
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> core_sweeps() {
+    return pair_sweeps<Level, GeneralSweep, Dim, PointRecord<Dim>, CoreForce<Dim>,
+                       CoreEnergy<Dim>>();
+}
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> lucy_potential_sweeps() {
+    using R = PointRecord<Dim>;
+    auto sweeps =
+        pair_sweeps<Level, LucysSweep, Dim, R, PairPotential<Dim>, PairPotentialEnergy<Dim>>();
+    sweeps.density = run_sweep<LucysSweep, native_lanes(Level), Dim, R, DensitySum>;
+    return sweeps;
+}
+
+template Sweeps<1> core_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> core_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> core_sweeps<3, InstructionSet::SPAM_LEVEL>();
+template Sweeps<1> lucy_potential_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> lucy_potential_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> lucy_potential_sweeps<3, InstructionSet::SPAM_LEVEL>();
+
+}  // namespace spam

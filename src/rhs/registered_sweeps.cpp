@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/rhs/sweeps.hpp>
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace spam {
+namespace {
+
+/// Made by the first who asks: objects of other files are constructed in no certain order.
+template <int Dim>
+auto& registry() {
+    static std::map<std::pair<std::string, InstructionSet>, Sweeps<Dim>> sweeps;
+    return sweeps;
+}
+
+}  // namespace
+
+template <int Dim>
+RegisterSweeps<Dim>::RegisterSweeps(const std::string& name, InstructionSet level,
+                                    const Sweeps<Dim>& sweeps) {
+    registry<Dim>().insert_or_assign({name, level}, sweeps);
+}
+
+template <int Dim>
+Sweeps<Dim> registered_sweeps(const std::string& name) {
+    const auto it = registry<Dim>().find({name, instruction_set()});
+    if (it == registry<Dim>().end())
+        throw InputError(fmt::format(
+            "sweeps: no law '{}' in {} dimension{} for {}; a file of spam_add_sweeps() must hold a "
+            "RegisterSweeps of this name",
+            name, Dim, Dim == 1 ? "" : "s", to_string(instruction_set())));
+    return it->second;
+}
+
+template struct RegisterSweeps<1>;
+template struct RegisterSweeps<2>;
+template struct RegisterSweeps<3>;
+template Sweeps<1> registered_sweeps(const std::string&);
+template Sweeps<2> registered_sweeps(const std::string&);
+template Sweeps<3> registered_sweeps(const std::string&);
+
+}  // namespace spam

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be asked of smooth particles only where they are fluid.
+#include "carried_energy.hpp"
+#include "constitution.hpp"
+#include <spam/rhs/smooth_particles.hpp>
+
+namespace spam {
+
+template <int Dim>
+const Fluid& SmoothParticles<Dim>::fluid() const {
+    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_).first();
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::pressure(std::span<const double> y) const {
+    const auto rho = this->model().density(y);
+    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
+        .pressures(rho, {this->state_of(y).energy().data(), rho.size()});
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::temperature(std::span<const double> y) const {
+    const auto rho = this->model().density(y);
+    return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
+        .temperatures(rho, {this->state_of(y).energy().data(), rho.size()});
+}
+
+template <int Dim>
+std::vector<double> SmoothParticles<Dim>::start(const Points<Dim>& position,
+                                                const Points<Dim>& velocity, double T) {
+    const auto& fluids = dynamic_cast<const FluidConstitution<Dim>&>(*constitution_);
+    const auto sum = best_sweeps([&](auto level) {
+        Scheme summed = scheme_;
+        summed.density = Density::summed;
+        return smooth_particle_sweeps<Dim, level>(summed, fluids.matter(summed));
+    });
+    PackedParticles<Dim> once(GeneralWeight<Dim>(scheme_.kernel, scheme_.range), ListUse::once,
+                              this->box(), sum);
+    const auto rho =
+        once.summed_density(sum.density, this->particles().size(),
+                            {position.data(), velocity.data(), this->particles().mass.data()});
+    return fluid_start<Dim>(
+        this->model(),
+        [&](std::size_t i) -> const AnyEquationOfState& { return fluids.of(i).state; }, position,
+        velocity, rho, T);
+}
+
+template const Fluid& SmoothParticles<1>::fluid() const;
+template std::vector<double> SmoothParticles<1>::pressure(std::span<const double>) const;
+template std::vector<double> SmoothParticles<1>::temperature(std::span<const double>) const;
+template std::vector<double> SmoothParticles<1>::start(const Points<1>&, const Points<1>&, double);
+template const Fluid& SmoothParticles<2>::fluid() const;
+template std::vector<double> SmoothParticles<2>::pressure(std::span<const double>) const;
+template std::vector<double> SmoothParticles<2>::temperature(std::span<const double>) const;
+template std::vector<double> SmoothParticles<2>::start(const Points<2>&, const Points<2>&, double);
+template const Fluid& SmoothParticles<3>::fluid() const;
+template std::vector<double> SmoothParticles<3>::pressure(std::span<const double>) const;
+template std::vector<double> SmoothParticles<3>::temperature(std::span<const double>) const;
+template std::vector<double> SmoothParticles<3>::start(const Points<3>&, const Points<3>&, double);
+
+}  // namespace spam
