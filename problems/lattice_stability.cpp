@@ -121,7 +121,8 @@ void table_and_motion(Session& session, Parameters& p) {
     const auto runs = session.run_all(std::move(cases));
     if (runs.size() < samples.size() || !runs.back().complete) return;
 
-    const std::vector<Analysed> all = analyse_all(p, ranges);
+    std::vector<Analysed> all;
+    session.evaluate([&] { all = analyse_all(p, ranges); });
     print_table(session, all);
     write_spectra(session.folder(), all);
     for (const auto& one : all)

@@ -30,6 +30,8 @@ namespace {
 using namespace spam;
 using std::numbers::pi;
 
+constexpr double rows_per_turn = 48.0;
+
 struct Parameters {
     int size = 8;
     double speed = 0.1, turns = 100.0;
@@ -105,7 +107,7 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
                                rigid_rotation(p.speed / p.size));
     Plan<2> plan;
     plan.t_end = p.turns * p.turn();
-    plan.output_every = p.turn() / 48.0;
+    plan.output_every = p.turn() / rows_per_turn;
     plan.snapshot_every = plan.t_end;
     plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
     plan.enough = [](const History& h) { return !survival(h).whole; };
@@ -127,15 +129,24 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
 
 double number(const StudyTable::Row& row, std::size_t column) { return std::stod(row[column]); }
 
+/// Of the last row in which the hexagon was whole: one that loses its shape in the very last row has not
+/// survived.
+double turns_whole(const StudyTable::Row& row) {
+    return std::max(0.0, number(row, 1) - (row[2] == "whole" ? 0.0 : 1.0 / rows_per_turn));
+}
+
 /// The error of RK4 grows with the turns, and as the fourth power of the angle by which a step turns: a
-/// hexagon of size 2 loses 0.08 of that, 1e-10 are allowed of the standard case with 100 turns.
+/// hexagon of size 2 loses 0.08 of that, 1e-10 are allowed of the standard case with 100 turns. Nothing is
+/// claimed where steps are so long that more than a hundredth would be allowed.
 Check L_drift(const Parameters& p, const IntegratorOptions& integrator,
               const StudyTable::Row& row) {
     Check check{row.front() + "_L_drift", std::abs(number(row, 3) - 1.0), {}, 0.0, "measured"};
     if (integrator.method != "rk4") return check;
     const double angle = p.speed / p.size * *integrator.dt;
+    const double allowed = std::max(1e-12, 0.41 * p.turns * std::pow(angle, 4));
+    if (allowed > 0.01) return check;
     check.expected = 0.0;
-    check.tolerance = std::max(1e-12, 0.41 * p.turns * std::pow(angle, 4));
+    check.tolerance = allowed;
     check.source = "to the error of RK4";
     return check;
 }
@@ -167,7 +178,10 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",
                     between(2, 200));
-    options.number("speed", p.speed, "speed of the corners of the hexagon", between(1e-6, 1e3));
+    options.number(
+        "speed", p.speed, "speed of the corners of the hexagon",
+        {[](double v) { return v >= 1e-6 && v <= 1.0; },
+         "between 1e-06 and 1 (nothing that turns as fast as sound, 1.06, keeps its shape)"});
     options.number("turns", p.turns, "largest number of nominal turns", positive());
     options.integer("jobs", p.jobs, "number of cases computed at the same time", between(1, 1024));
     options.exclude_from_case({"jobs"});
@@ -192,7 +206,7 @@ int main(int argc, char** argv) {
         for (const auto& row : rows)
             session.check({row.front() + "_turns", number(row, 1), {}, 0.0, row[2]});
         for (const std::size_t k : {std::size_t{0}, rows.size() - 1}) {
-            session.check({rows[k].front() + "_survives", number(rows[k], 1), p.turns,
+            session.check({rows[k].front() + "_survives", turns_whole(rows[k]), p.turns,
                            1e-9 * p.turns, "all the turns asked for"});
             session.check(L_drift(p, session.integrator(), rows[k]));
         }

@@ -16,13 +16,15 @@ namespace {
 constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
 
 // Handlers may use them, and so may the threads of a study, which begin results all at once.
-std::atomic<int> received_signal = 0, results_begun = 0, delayed = 0;
+std::atomic<int> received_signal = 0, results_begun = 0, delayed = 0, at_once = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
 /// What the handler says, one line a signal, composed beforehand: a handler may not format.
-std::array<std::string, watched.size()> lines;
+using Lines = std::array<std::string, watched.size()>;
+Lines without_results, with_results;
 
 [[noreturn]] void end_process(int signal) {
+    const Lines& lines = results_begun == 0 ? without_results : with_results;
     for (std::size_t k = 0; k < watched.size(); ++k)
         if (watched[k] == signal && write(STDERR_FILENO, lines[k].data(), lines[k].size()) < 0)
             break;  // nobody is left who could be told
@@ -30,7 +32,7 @@ std::array<std::string, watched.size()> lines;
 }
 
 extern "C" void on_signal(int signal) {
-    if (results_begun == 0 && delayed == 0) end_process(signal);
+    if ((results_begun == 0 && delayed == 0) || at_once != 0) end_process(signal);
     received_signal = signal;
     if (results_begun != 0) std::signal(signal, SIG_DFL);  // the second one ends the process
 }
@@ -40,8 +42,9 @@ extern "C" void on_signal(int signal) {
 InterruptWatch::InterruptWatch(const std::string& program) {
     results_begun = 0;
     for (std::size_t k = 0; k < watched.size(); ++k) {
-        lines[k] = fmt::format("{}: interrupted by signal {}; there are no results yet\n", program,
-                               watched[k]);
+        const std::string said = fmt::format("{}: interrupted by signal {}; ", program, watched[k]);
+        without_results[k] = said + "there are no results yet\n";
+        with_results[k] = said + "the results so far are complete\n";
         if (std::signal(watched[k], on_signal) == SIG_IGN)
             std::signal(watched[k], SIG_IGN);  // nohup and background jobs mean it
     }
@@ -59,6 +62,13 @@ InterruptWatch::Delay::~Delay() {
     delayed = 0;
     if (received_signal != 0 && results_begun == 0) end_process(received_signal);
 }
+
+InterruptWatch::AtOnce::AtOnce() {
+    at_once = 1;
+    if (received_signal != 0) end_process(received_signal);
+}
+
+InterruptWatch::AtOnce::~AtOnce() { at_once = 0; }
 
 void InterruptWatch::complete_results() { results_begun = 1; }
 

@@ -102,9 +102,14 @@ RunFolder::RunFolder(const fs::path& path, bool force) : path_(path) {
     fs::remove(probe, error);
 }
 
-RunFolder RunFolder::reopen(const fs::path& path) {
+RunFolder RunFolder::reopen(const fs::path& path, std::chrono::milliseconds patience) {
     RunFolder folder(path);
-    folder.lock_.emplace(path);
+    folder.lock_.emplace(path, patience);
+    if (!folder.is_there())
+        throw InputError(
+            fmt::format("out: '{}' cannot be read, or another run has just moved it aside; look at "
+                        "what is there now and start again",
+                        path.string()));
     return folder;
 }
 

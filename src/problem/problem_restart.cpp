@@ -6,15 +6,24 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 
 namespace spam {
 
-/// The case of a checkpoint; keeps the rest of it for the session.
+/// The case of a checkpoint; keeps the rest of it for the session. No run may be at work in its folder.
 std::string Problem::recall_case(const std::string& name) {
+    namespace fs = std::filesystem;
     std::string file = name;
     std::error_code error;
-    if (std::filesystem::is_directory(name, error)) {
+    const bool is_folder = fs::is_directory(name, error);
+    fs::path folder = (is_folder ? fs::path(name) / "run.log" : fs::path(name)).parent_path();
+    if (folder.empty()) folder = ".";
+    // Held before anything in it is read: else another run could put its results in place of these between
+    // reading and going on. Whoever only reads a checkpoint lets go of it soon.
+    constexpr std::chrono::seconds patience{1};
+    if (fs::exists(folder / "run.log", error)) restarted_ = RunFolder::reopen(folder, patience);
+    if (is_folder) {
         const auto newest = newest_checkpoint(name);
         if (!newest)
             throw InputError(fmt::format(
@@ -22,7 +31,7 @@ std::string Problem::recall_case(const std::string& name) {
                 "written one, or a checkpoint file",
                 name));
         file = newest->string();
-        if (!std::filesystem::exists(std::filesystem::path(name) / "run.log", error))
+        if (!restarted_)
             throw InputError(fmt::format(
                 "restart: '{}' is no folder of results any more (it has no run.log); give its "
                 "checkpoint, --restart {}, and another --out",
@@ -41,8 +50,7 @@ std::string Problem::recall_case(const std::string& name) {
     return earlier_->case_toml;
 }
 
-/// A run that is gone on with does so in the folder of its results, unless another is named. No run may
-/// be at work in either.
+/// A run that is gone on with does so in the folder of its results, unless another is named.
 void Problem::settle_restart() {
     if (!earlier_) return;
     namespace fs = std::filesystem;
@@ -50,18 +58,19 @@ void Problem::settle_restart() {
     if (common_.smoke && !earlier_->smoke)
         throw InputError("smoke: --restart goes on with the same case, which was no smoke test");
     common_.smoke = earlier_->smoke;
-    fs::path folder = fs::path(common_.restart).parent_path();
-    if (folder.empty()) folder = ".";
+    if (!restarted_) return;
+    const fs::path& folder = restarted_->path();
     std::error_code error;
-    if (!fs::exists(folder / "run.log", error)) return;
     if (!options_.given("out")) common_.out = folder.string();
     const bool in_place = fs::equivalent(common_.out, folder, error) && !error;
     if (in_place && common_.force)
         throw InputError(
             "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
             "choose another --out");
-    const RunFolder held = RunFolder::reopen(folder);
-    if (in_place) reopened_ = held;
+    if (in_place)
+        reopened_ = restarted_;
+    else
+        restarted_->release();  // several may go on from it, each elsewhere
 }
 
 }  // namespace spam

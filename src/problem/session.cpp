@@ -222,10 +222,7 @@ void Session::print_checks() {
     }
 }
 
-/// Completes the results and decides the exit status.
-int Session::finish() {
-    if (!folder_) return 0;
-    check_promises_left();
+void Session::write_results_so_far() {
     write_results(*folder_, checks_);
     if (analysis_start_)
         statistics_.front().wall_seconds =
@@ -236,6 +233,25 @@ int Session::finish() {
         for (std::size_t k = 1; k < statistics_.size(); ++k) total.add(statistics_[k]);
         write_statistics(*folder_, total);
     }
+}
+
+void Session::evaluate(const std::function<void()>& computation) {
+    // The promises of the runs are checked where the problem wants them; a signal must not lose them.
+    const auto checks = checks_;
+    const auto promised = promised_;
+    check_promises_left();
+    write_results_so_far();
+    checks_ = checks;
+    promised_ = promised;
+    const InterruptWatch::AtOnce at_once;
+    computation();
+}
+
+/// Completes the results and decides the exit status.
+int Session::finish() {
+    if (!folder_) return 0;
+    check_promises_left();
+    write_results_so_far();
     const int signal = InterruptWatch::received();
     if (signal == 0 && guard_reason_.empty()) print_checks();
     terminal_.say(fmt::format("results in {}", folder_->path().string()));

@@ -245,6 +245,11 @@ void Session::resume(Run<Dim>& run, CaseMemory& earlier, const RunFolder& folder
         std::error_code error;  // where they are gone the list of snapshots begins later
         std::filesystem::copy_file(from / name, folder / name, error);
     }
+    if (problem_.restarted_ && !problem_.restarted_->is_there())
+        throw OutputError(fmt::format(
+            "cannot copy the earlier snapshots: another run has moved '{}' aside; start again from "
+            "where it is now, in another --out",
+            problem_.restarted_->path().string()));
 }
 
 template <int Dim>

@@ -50,6 +50,10 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
     }
     if (study != nullptr && continues(study)) {
         folder_ = RunFolder::reopen(problem_.common_.out);
+        if (!continues(study))  // another run may have ended between the first look and the lock
+            throw InputError(fmt::format(
+                "out: another run has just completed the study in '{}'; choose another --out",
+                problem_.common_.out));
         terminal_.log_to(*folder_ / "run.log");
         describe_environment();
     } else {

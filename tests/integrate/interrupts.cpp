@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A signal ends a step among its events, and what was left of the step is taken later, bit for bit.
-// (A file of its own: a signal received is never forgotten.)
+// What a signal does between results. (A file of its own: a signal received is never forgotten.)
 #include <spam/integrate/integrator.hpp>
 #include <spam/integrate/interrupt.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <functional>
 
 using namespace spam;
 
@@ -46,7 +49,41 @@ struct Ball {
     std::vector<double> state() { return {y.span().begin(), y.span().end()}; }
 };
 
+/// Exit status of a process of its own that does this.
+int status_of(const std::function<void()>& what) {
+    std::signal(SIGCHLD, SIG_DFL);  // Boost.Test would take the child's status for a failure
+    const pid_t child = fork();
+    if (child == 0) {
+        close(STDERR_FILENO);
+        const InterruptWatch watch("test");
+        InterruptWatch::complete_results();
+        what();
+        _exit(InterruptWatch::received() == SIGINT ? 7 : 8);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 }  // namespace
+
+/// First here: no signal has been received yet.
+BOOST_AUTO_TEST_CASE(computations_between_results_end_at_once) {
+    BOOST_TEST(status_of([] { std::raise(SIGINT); }) == 7);
+    BOOST_TEST(status_of([] { const InterruptWatch::AtOnce at_once; }) == 8);
+    BOOST_TEST(status_of([] {
+                   const InterruptWatch::AtOnce at_once;
+                   std::raise(SIGINT);
+               }) == 130);
+    BOOST_TEST(status_of([] {
+                   std::raise(SIGINT);
+                   const InterruptWatch::AtOnce at_once;
+               }) == 130);
+    BOOST_TEST(status_of([] {
+                   { const InterruptWatch::AtOnce at_once; }
+                   std::raise(SIGINT);
+               }) == 7);
+}
 
 BOOST_AUTO_TEST_CASE(a_signal_ends_a_step_at_its_next_event) {
     Ball rk4("rk4"), arkode("arkode:ZONNEVELD_5_3_4");

@@ -253,6 +253,7 @@ BOOST_AUTO_TEST_CASE(cases_that_would_never_start) {
         in("free_expansion", {"--cells", "400", "--range", "399"}, {"range", "pairs"}),
         in("turns_survived", {"--turns", "1e12"}, {"dt", "steps"}),
         in("turns_survived", {"--speed", "1e300"}, {"speed", "between"}),
+        in("turns_survived", {"--speed", "1e3"}, {"speed", "between", "sound"}),
         in("algorithm_sweep", {"--turns", "1e12"}, {"dt", "steps"}),
         in("invariant_drift", {"--periods", "1e12"}, {"calls-per-time", "right-hand sides"}),
     });

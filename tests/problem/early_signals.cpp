@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One signal ends a program at once where there are no results to complete: during set-up, a dry run or
-// an analysis.
+// an analysis, also one that follows motion.
 #include "problem/twins.hpp"
 
 #include <chrono>
@@ -41,4 +41,34 @@ BOOST_AUTO_TEST_CASE(one_signal_is_enough) {
                 BOOST_TEST(outcome.err.starts_with(busy.program + ": interrupted by signal"));
                 BOOST_TEST(took.count() < 1.0);
             }
+}
+
+/// What the motion has left is complete when the analysis of it begins, and nobody waits for its end.
+BOOST_AUTO_TEST_CASE(one_signal_is_enough_after_motion) {
+    for (const int signal : {SIGTERM, SIGINT}) BOOST_TEST_CONTEXT("signal " << signal) {
+            const Scratch folder;
+            Child child(problem("lattice_stability", {"--cells", "24", "--block", "10", "--t-end",
+                                                      "1", "--no-plots", "--out", "o"}),
+                        {folder.path()});
+            BOOST_REQUIRE(child.wait_for([&](const Outcome&) {
+                return std::filesystem::exists(folder / "o/both/statistics.json");
+            }));
+            std::this_thread::sleep_for(Child::Seconds(0.4));
+            const auto sent = std::chrono::steady_clock::now();
+            child.send(signal);
+            const Outcome outcome = child.finish();
+            const Child::Seconds took = std::chrono::steady_clock::now() - sent;
+            BOOST_TEST(outcome.status == 128 + signal);
+            BOOST_TEST(outcome.err == "lattice_stability: interrupted by signal " +
+                                          std::to_string(signal) +
+                                          "; the results so far are complete\n");
+            BOOST_TEST(took.count() < 1.0);
+            Words checked;
+            for (const auto& check : json_of(folder / "o/result.json"))
+                checked.push_back(check.at("name").get<std::string>());
+            BOOST_TEST(std::count(checked.begin(), checked.end(), "both_energy_drift") == 1);
+            BOOST_TEST(json_of(folder / "o/statistics.json").at("steps").get<double>() > 4 * 30);
+            for (const auto& [name, text] : folder.listing())
+                BOOST_TEST(!name.ends_with(".tmp"), name << " is left over");
+        }
 }

@@ -30,6 +30,17 @@ class InterruptWatch {
     /// From here on there are results to be completed.
     static void complete_results();
 
+    /// While one is alive after complete_results() a signal ends the process at once again, and says that
+    /// the results so far are complete: for long computations between results. So does, at its beginning,
+    /// a signal that was noted before.
+    class AtOnce {
+      public:
+        AtOnce();
+        ~AtOnce();
+        AtOnce(const AtOnce&) = delete;
+        AtOnce& operator=(const AtOnce&) = delete;
+    };
+
     /// The signal noted, 0 if none.
     static int received();
 };

@@ -3,6 +3,7 @@
 
 #include <spam/io/folder_lock.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
@@ -21,8 +22,18 @@ class RunFolder {
     /// cannot be created or written.
     RunFolder(const std::filesystem::path& path, bool force);
 
-    /// One that a run has left, to go on in. Throws InputError where a run is at work in it.
-    static RunFolder reopen(const std::filesystem::path& path);
+    /// One that a run has left, to go on in; what it holds is to be read after this. Throws InputError where
+    /// a run is at work in it and does not end within `patience`, and where the folder that is held is no
+    /// longer that of the name, because another run has moved it aside.
+    static RunFolder reopen(const std::filesystem::path& path,
+                            std::chrono::milliseconds patience = {});
+
+    /// Lets other runs have it; is_there() goes on to tell.
+    void release() const {
+        if (lock_) lock_->release();
+    }
+    /// Whether its path still names the folder that was opened.
+    bool is_there() const { return !lock_ || lock_->is_of(path_); }
 
     /// A folder inside, created.
     RunFolder inside(std::string_view name) const;

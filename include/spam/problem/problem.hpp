@@ -63,8 +63,10 @@ class Problem {
     Scheme scheme_;
     std::unique_ptr<SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;
-    std::optional<RunFolder>
-        reopened_;  ///< the folder of the checkpoint, where results go on in it
+    /// The result folder of the checkpoint, where it is in one.
+    std::optional<RunFolder> restarted_;
+    /// The same, where results go on in it.
+    std::optional<RunFolder> reopened_;
 };
 
 }  // namespace spam

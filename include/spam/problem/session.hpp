@@ -60,6 +60,10 @@ class Session {
     /// StudyTable::run() with a progress line. False after a signal.
     bool run_study(StudyTable& table, const std::vector<StudyTask>& tasks, int threads);
 
+    /// For a long computation from finished runs that writes nothing: completes the results so far and calls
+    /// it. A signal meanwhile, or one that came before, ends the process at once.
+    void evaluate(const std::function<void()>& computation);
+
     /// Something measured, for result.json; printed at the end.
     void check(Check check);
     /// Checks that every invariant drifted no more than promised, here and under this prefix. Of runs that
@@ -99,6 +103,7 @@ class Session {
                bool of_integrators = false);
     bool continues(const char* study) const;
     void describe_environment();
+    void write_results_so_far();
     int finish();
     template <int Dim>
     void settle_plan(Plan<Dim>& plan, std::size_t number);
