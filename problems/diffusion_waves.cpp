@@ -9,9 +9,10 @@
 //
 // Gradients of smooth particles are filters, and diffusion is two of them in turn: heat decays at
 // kappa k^2 c^2/(rho_s^3 c_v) instead of kappa k^2/(rho c_v), and the friction of a shear wave is smaller
-// by the same factor (diagnostics/diffusion_waves.hpp derives it: 0.9398 for 24 cells and h = 3). A
+// by the same factor (diffusion_waves/diffusion_waves.hpp derives it: 0.9398 for 24 cells and h = 3). A
 // lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
-#include <spam/diagnostics/diffusion_waves.hpp>
+#include "diffusion_waves/diffusion_waves.hpp"
+
 #include <spam/external/clamp.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/ideal_gas.hpp>

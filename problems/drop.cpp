@@ -12,7 +12,7 @@
 //
 // Inside the gradients cancel; at the edge they do not, and cost the more the longer the edge is. With
 // s_g = 0 the corners have no reason to go. m4 = |<r^4 cos 4 theta>|/<r^4> about the centre of mass is
-// 3/7 for the square and zero for a disk (diagnostics/roundness.hpp).
+// 3/7 for the square and zero for a disk (drop/roundness.hpp).
 //
 // rho0 is what the weight function sums to at a site of the square lattice, not mass per volume. The
 // density alone lets particles gather at few places (string_phase.cpp), which no more than blurs the
@@ -22,8 +22,8 @@
 // Without --surface-tension both are run, s_g = 0 and 0.1; names in result.json without a prefix then
 // belong to s_g = 0, names with tension_ to the other. With --surface-tension S a single case is, whose
 // names have no prefix.
+#include "drop/roundness.hpp"
 #include "kernels/lattices.hpp"
-#include <spam/diagnostics/roundness.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>

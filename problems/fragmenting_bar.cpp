@@ -15,7 +15,7 @@
 // They are found anew at every row of invariants.csv; projectile and bar become one when they meet,
 // and pieces that part have their own torque balance from then on. bodies.csv accounts for mass,
 // momentum, energy and every body's angular momentum through every change.
-#include <spam/diagnostics/body_ledger.hpp>
+#include "fragmenting_bar/body_ledger.hpp"
 #include <spam/io/csv.hpp>
 #include <spam/neighbors/connected_parts.hpp>
 #include <spam/problem/sight.hpp>

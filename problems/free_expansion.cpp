@@ -16,7 +16,7 @@
 //
 // Nothing in the equations makes entropy, and yet the gas must end with N k ln 4 more. It is in the
 // velocities: what differs from the mean of the neighbours is heat, [HH01] eq 22 (see
-// diagnostics/entropy.hpp for its sign),
+// free_expansion/entropy.hpp for its sign),
 //     S = N k <ln(e_int/rho)>,   e_int = e + (<v^2> - <v>^2)/2,
 // summed over particles (entropy_sum) or integrated over a grid (entropy_grid), as a part of N k ln 4.
 // Nothing happens before the gas meets the box; within another n it has nearly all. With the whole v^2

@@ -24,8 +24,8 @@
 // Without --polarization it draws the figure: both (no prefix in result.json: transverse).
 // --compare-sizes runs half, once and twice as many cells at the same strain (amplitude 0.01 for 24
 // cells, unless given) and fits the order at which the error falls to that of long waves (0.8 %).
+#include "plane_wave/block_rotation.hpp"
 #include "plane_wave/input.hpp"
-#include <spam/diagnostics/block_rotation.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/diagnostics/pair_torques.hpp>

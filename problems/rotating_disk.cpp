@@ -23,8 +23,9 @@
 // Smooth particles come near it in two sound traversals, and never to rest: at the rim, where half of
 // the neighbours are missing, the sums take part of the rotation for a strain, which winds up a shear
 // sigma_rt in proportion to the angle turned.
+#include "rotating_disk/rotating_disk.hpp"
+
 #include "rotating_disk/polar_stress.hpp"
-#include <spam/diagnostics/rotating_disk.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/gnuplot.hpp>

@@ -18,9 +18,9 @@
 // one mode, u_x even in x and odd in y, u_y the other way round. Rayleigh and Ritz with polynomials
 // find its frequency, 3.926 c_T/side; the square of particles is softer at its edges, and slower by
 // that much the smaller it is.
+#include "sheared_square/vibrations.hpp"
 #include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/outline.hpp>
-#include <spam/diagnostics/vibrations.hpp>
 #include <spam/io/gnuplot.hpp>
 #include <spam/spam.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
 
+#include "entropy.hpp"
 #include <spam/core/error.hpp>
-#include <spam/diagnostics/entropy.hpp>
 #include <spam/io/image_file.hpp>
 #include <spam/kernel/weight_integrals.hpp>
 #include <spam/material/isentropic_gas.hpp>

@@ -2,7 +2,7 @@
 // What the parts of lattice_stability share: lattices, and which potentials act on them.
 #pragma once
 
-#include <spam/diagnostics/lattice_strength.hpp>
+#include "lattice_strength.hpp"
 
 #include <optional>
 #include <string>

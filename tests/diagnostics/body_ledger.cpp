@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that part and join, and what they had.
-#include <spam/diagnostics/body_ledger.hpp>
+#include "fragmenting_bar/body_ledger.hpp"
+
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/smooth_particles.hpp>

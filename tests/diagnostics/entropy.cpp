@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The entropy of a gas, [HH01] eq 22: against a sum over all particles; what it must do when a gas
 // expands, streams and mixes; and laws that are wrong in one place, which must fail.
-#include <spam/diagnostics/entropy.hpp>
+#include "free_expansion/entropy.hpp"
+
 #include <spam/kernel/lucy.hpp>
 #include <spam/setup/lattices.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "drop/roundness.hpp"
 #include "support/random_state.hpp"
 #include <spam/diagnostics/drift.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/outline.hpp>
-#include <spam/diagnostics/roundness.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>

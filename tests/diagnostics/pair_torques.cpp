@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Torques of pairs and particles against loops over all pairs, and what they must sum to.
+#include "plane_wave/block_rotation.hpp"
 #include "support/random_state.hpp"
-#include <spam/diagnostics/block_rotation.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/problem/plan.hpp>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rotating disk of [HHM04] VI: its displacement has its stresses, these are in balance with the
 // rotation, and the rim is free. The displacement printed there fails.
-#include <spam/diagnostics/rotating_disk.hpp>
+#include "rotating_disk/rotating_disk.hpp"
+
 #include <spam/material/elastic_solid.hpp>
 
 #include <boost/test/unit_test.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Free vibrations: a chain whose frequencies are known, what defines modes, and a mass that is none.
-#include <spam/diagnostics/vibrations.hpp>
+
+#include "sheared_square/vibrations.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -13,8 +13,9 @@
 // Nothing is negative: at the rest density of the lattice every potential is a sum of squares that
 // vanishes there. With mass per volume in place of the site's sum the lattice is under pressure, and
 // may fall apart.
+#include "lattice_stability/lattice_strength.hpp"
+
 #include "support/effort.hpp"
-#include <spam/diagnostics/lattice_strength.hpp>
 #include <spam/kernel/any_weight.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/van_der_waals.hpp>

@@ -248,14 +248,14 @@ BOOST_AUTO_TEST_CASE(every_scheme_with_every_further_term_keeps_its_promises_or_
         for (const char* name : {"Gravity", "Friction", "Drag"}) externals.at(name)(m);
     };
     int ran = 0, refused = 0, not_turning = 0;
-    for (const auto& [law, build] : with_scheme)
-        for (const auto& [more, add] : further)
+    for (const auto& law : with_scheme)
+        for (const auto& more : further)
             for_each_scheme([&](const Scheme& scheme) {
                 for (const bool outside : {false, true})
-                    BOOST_TEST_CONTEXT(law << " + " << more << ", " << scheme.describe()
-                                           << (outside ? ", externals" : "")) {
-                        const Row row =
-                            combine(build, add, scheme, outside ? all_at_once : externals.at(""));
+                    BOOST_TEST_CONTEXT(law.first << " + " << more.first << ", " << scheme.describe()
+                                                 << (outside ? ", externals" : "")) {
+                        const Row row = combine(law.second, more.second, scheme,
+                                                outside ? all_at_once : externals.at(""));
                         judge(row);
                         ++(row.refused.empty() ? ran : refused);
                         not_turning += row.refused.empty() && !row.turns;

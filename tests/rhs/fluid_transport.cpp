@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Heat and momentum diffuse through a lattice of smooth particles at rates that are known exactly
-// (diagnostics/diffusion_waves.hpp): what comes out of the equations of motion against lattice sums.
+// (diffusion_waves/diffusion_waves.hpp): what comes out of the equations of motion against lattice sums.
+#include "diffusion_waves/diffusion_waves.hpp"
 #include "support/random_state.hpp"
-#include <spam/diagnostics/diffusion_waves.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/rhs/smooth_particles.hpp>

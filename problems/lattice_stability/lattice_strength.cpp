@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "lattice_strength.hpp"
+
 #include <spam/core/error.hpp>
-#include <spam/diagnostics/lattice_strength.hpp>
 #include <spam/kernel/any_weight.hpp>
 #include <spam/physics/curvature_strength.hpp>
 #include <spam/physics/embedded_energy.hpp>

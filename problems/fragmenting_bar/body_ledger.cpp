@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "body_ledger.hpp"
+
 #include <spam/core/sums.hpp>
-#include <spam/diagnostics/body_ledger.hpp>
 #include <spam/neighbors/connected_parts.hpp>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "roundness.hpp"
+
 #include <spam/core/sums.hpp>
-#include <spam/diagnostics/roundness.hpp>
 
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/diagnostics/vibrations.hpp>
+
+#include "vibrations.hpp"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>

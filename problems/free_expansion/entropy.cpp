@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/diagnostics/entropy.hpp>
+
+#include "entropy.hpp"
 
 #include <algorithm>
 #include <cmath>

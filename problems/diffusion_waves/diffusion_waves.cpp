@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/diagnostics/diffusion_waves.hpp>
+
+#include "diffusion_waves.hpp"
 
 #include <cmath>
 #include <complex>

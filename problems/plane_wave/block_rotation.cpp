@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/diagnostics/block_rotation.hpp>
+
+#include "block_rotation.hpp"
 
 #include <cmath>
 #include <vector>
