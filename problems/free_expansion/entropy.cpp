@@ -44,8 +44,14 @@ GasEntropy<Dim>::GasEntropy(const AnyWeight<Dim>& weight, const std::vector<doub
 }
 
 template <int Dim>
+const Eigen::MatrixXd& GasEntropy<Dim>::sums_at_particles() const {
+    if (at_particles_.cols() != position_.cols()) at_particles_ = fields_.sum(carried_, position_);
+    return at_particles_;
+}
+
+template <int Dim>
 double GasEntropy<Dim>::of_particles(Heat heat) const {
-    const Eigen::MatrixXd sum = fields_.sum(carried_, position_);
+    const Eigen::MatrixXd& sum = sums_at_particles();
     double total = 0.0;
     for (Eigen::Index i = 0; i < sum.cols(); ++i) {
         const double e_int = energy_(i) + heat_of_motion<Dim>(sum.col(i), heat);

@@ -45,10 +45,13 @@ class GasEntropy {
     template <class Energy>
     double integral(const FieldGrid<Dim>& grid, Heat heat, const Energy& energy) const;
 
+    const Eigen::MatrixXd& sums_at_particles() const;
+
     FieldInterpolation<Dim> fields_;
     Points<Dim> position_;
     Eigen::VectorXd mass_, density_, energy_;
-    Eigen::MatrixXd carried_;  ///< 1, e, v, v^2 in rows, N columns
+    Eigen::MatrixXd carried_;               ///< 1, e, v, v^2 in rows, N columns
+    mutable Eigen::MatrixXd at_particles_;  ///< their sums there, once they have been asked for
 };
 
 extern template class GasEntropy<1>;

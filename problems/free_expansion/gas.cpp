@@ -126,13 +126,29 @@ std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
         return GasEntropy<Dim>(weight, model.particles().mass, state.position(), state.velocity(),
                                rho, e, model.box());
     };
+    // The columns of a row look at the same state: what one has made is there for the others.
+    struct Latest {
+        std::vector<double> y{};
+        std::optional<GasEntropy<Dim>> entropy{};
+    };
+    const auto latest = std::make_shared<Latest>();
+    const auto of_state = [latest, particles_now](
+                              const Model<Dim>& model,
+                              std::span<const double> y) -> const GasEntropy<Dim>& {
+        if (!latest->entropy ||
+            !std::equal(y.begin(), y.end(), latest->y.begin(), latest->y.end())) {
+            latest->y.assign(y.begin(), y.end());
+            latest->entropy.emplace(particles_now(model, y));
+        }
+        return *latest->entropy;
+    };
     using Measure = std::function<double(const GasEntropy<Dim>&)>;
     const auto column = [&](const char* name, const Measure& entropy) {
         // Of the start only when the first row is due: a dry run has no use for it.
         auto start = std::make_shared<std::optional<double>>();
         return Column<Dim>{name, [=, &gas](const Model<Dim>& model, std::span<const double> y) {
-                               if (!*start) *start = entropy(particles_now(*gas.model, gas.y0));
-                               return (entropy(particles_now(model, y)) - **start) /
+                               if (!*start) *start = entropy(of_state(*gas.model, gas.y0));
+                               return (entropy(of_state(model, y)) - **start) /
                                       (Dim * std::log(2.0));
                            }};
     };

@@ -157,18 +157,32 @@ Points<Dim> FieldInterpolation<Dim>::density_gradient(const Places& at) const {
     return gradient;
 }
 
+/// `rows`: how many, as a number or, where that is quicker, as a constant of the compiler.
 template <int Dim>
-Eigen::MatrixXd FieldInterpolation<Dim>::sum(const Field& f, const Places& at) const {
-    Eigen::MatrixXd result(f.rows(), at.cols());
+template <class Rows>
+void FieldInterpolation<Dim>::add_up(const Field& f, const Places& at, const Rows& rows,
+                                     Eigen::MatrixXd& result) const {
     parallel_for(static_cast<std::size_t>(at.cols()), [&](std::size_t k) {
         const auto p = static_cast<Eigen::Index>(k);
         double* const sum = result.col(p).data();
-        std::fill_n(sum, f.rows(), 0.0);
+        std::fill_n(sum, Eigen::Index{rows}, 0.0);
         each_near(at.col(p), [&](Eigen::Index j, const Point<Dim>&, double r) {
             const double mw = mass_[static_cast<std::size_t>(j)] * weight_.value(r);
-            for (Eigen::Index c = 0; c < f.rows(); ++c) sum[c] += mw * f(c, j);
+            const double* const of_j = f.col(j).data();
+            for (Eigen::Index c = 0; c < rows; ++c) sum[c] += mw * of_j[c];
         });
     });
+}
+
+template <int Dim>
+Eigen::MatrixXd FieldInterpolation<Dim>::sum(const Field& f, const Places& at) const {
+    Eigen::MatrixXd result(f.rows(), at.cols());
+    // What an entropy needs: 1, e, v, v^2.
+    using Moments = std::integral_constant<Eigen::Index, Dim + 3>;
+    if (f.rows() == Moments::value)
+        add_up(f, at, Moments(), result);
+    else
+        add_up(f, at, f.rows(), result);
     return result;
 }
 

@@ -45,6 +45,8 @@ class FieldInterpolation {
     std::pair<std::int64_t, std::int64_t> cells_near(int a, double x) const;
     template <class Visit>
     void each_near(const Point<Dim>& place, const Visit& visit) const;
+    template <class Rows>
+    void add_up(const Field& f, const Places& at, const Rows& rows, Eigen::MatrixXd& result) const;
 
     AnyWeight<Dim> weight_;
     std::vector<double> mass_;
