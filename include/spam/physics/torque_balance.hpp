@@ -40,7 +40,7 @@ struct TorqueSums {
 };
 
 /// Forces by stress, and apart from them what positive and negative torques contribute: where all pairs
-/// have one R the balanced forces are made of these sums, without a second sweep (add_balance()).
+/// have one R the balanced forces are made of these sums, without a second sweep.
 struct TorqueParts {
     /// The forces perpendicular to r_ij that make up the torques of one sign.
     template <class T>

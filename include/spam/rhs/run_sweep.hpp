@@ -61,7 +61,7 @@ struct GeneralSweep {
 template <int W, int Dim>
 struct Lane {
     const SweepOutput<Dim>& out;
-    double* record;
+    std::size_t record;  ///< where it begins among out.records
     std::size_t particle;
     int lane_number;  ///< of W
 
@@ -83,7 +83,7 @@ struct Lane {
     /// A column of the record, which may lie behind those that the sweep reads.
     template <class R, template <int, class> class Column, class Value>
     SPAM_INLINE void write(const Value& value) const {
-        double* to = record + R::template at<Column>;
+        double* to = out.records + record + R::template at<Column>;
         for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ = lane(n, lane_number); });
     }
 
@@ -155,9 +155,8 @@ struct StoreSums {
                           const Sums&... sums) const {
         (std::get<K>(kept).keep(slot - block, result(std::get<K>(passes), i, sums)), ...);
         for_each_lane<W>(in.list, slot, [&](int l, std::size_t particle) SPAM_FLAT {
-            const Lane<W, Dim> to{
-                out, out.records + (slot + static_cast<std::size_t>(l)) * in.records.stride,
-                particle, l};
+            const Lane<W, Dim> to{out, (slot + static_cast<std::size_t>(l)) * in.records.stride,
+                                  particle, l};
             (store(std::get<K>(passes), to, result(std::get<K>(passes), i, sums)), ...);
         });
     }
