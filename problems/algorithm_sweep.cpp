@@ -14,8 +14,8 @@
 // completed. One row of sweep.csv each. A sweep that was stopped, even by kill -9, goes on with the
 // same command.
 #include <spam/diagnostics/shape.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/io/study_table.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/spam.hpp>
 

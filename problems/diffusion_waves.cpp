@@ -14,9 +14,9 @@
 #include "diffusion_waves/diffusion_waves.hpp"
 
 #include <spam/external/clamp.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 

@@ -25,8 +25,8 @@
 #include "drop/roundness.hpp"
 #include "kernels/lattices.hpp"
 #include <spam/external/friction.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>

@@ -3,7 +3,7 @@
 //
 // Which integrator for which accuracy? Every method integrates every system with smaller and smaller
 // steps, fixed ones and those it chooses itself; the error at the end is that against a reference
-// (problem/work_precision.hpp says how it is found, and how errors and seconds are measured).
+// (study/work_precision.hpp says how it is found, and how errors and seconds are measured).
 //
 // Smooth, orders claimed:       hexagon, total_lagrangian, md: turning, all their modes ringing
 //                               wave: a standing wave in a periodic solid
@@ -12,8 +12,8 @@
 //                               the second derivative of y' errs by h^3, whatever the method
 // A force that jumps:           torque_particle: order one
 // Velocities that jump:         reflection: found in time, so that orders stay
-#include <spam/problem/work_precision.hpp>
 #include <spam/spam.hpp>
+#include <spam/study/work_precision.hpp>
 
 #include <fmt/format.h>
 

@@ -2,15 +2,15 @@
 // spam-list: drift of energy and angular momentum in long runs with many integrators; 1 min on 2 cores
 //
 // Every method integrates for a long time, all with the same number of right-hand sides per time
-// (problem/drift_study.hpp). Whose energy keeps drifting, whose stays near what it was?
+// (study/drift_study.hpp). Whose energy keeps drifting, whose stays near what it was?
 //
 //     total_lagrangian   the hexagon of [HHM04] VI as a total-Lagrangian solid, `turns` turns
 //     md                 the same of points and springs
 //     wave               a standing wave in smooth particles, `periods` periods
 //     hexagon            smooth particles, torques of pairs balanced: one turn, they last no longer
-#include <spam/problem/drift_study.hpp>
-#include <spam/setup/plane_wave.hpp>
+#include <spam/analysis/plane_wave.hpp>
 #include <spam/spam.hpp>
+#include <spam/study/drift_study.hpp>
 
 #include <fmt/format.h>
 

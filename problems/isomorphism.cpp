@@ -17,9 +17,9 @@
 // molecule.
 #include "isomorphism/side_by_side.hpp"
 #include <spam/diagnostics/fits.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/lucy_gas.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>

@@ -15,8 +15,8 @@
 //    Both would be 1 for infinitely many neighbours. Nothing moves here.
 #include "kernels/lattices.hpp"
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/kernel/any_weight.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -12,7 +12,7 @@
 //
 // period            from the run: the slope of a line through the times at which the amplitude of
 //                   the velocity, (2/N) sum v sin(k y), vanishes (twice a period)
-// period_lattice    linear analysis of the lattice (diagnostics/lattice_modes.hpp)
+// period_lattice    linear analysis of the lattice (analysis/lattice_modes.hpp)
 // period_continuum  linear elasticity. Sums over neighbours smooth the wave, whose length is seven
 //                   ranges: the lattice rings 4.5 % slow, less with longer waves
 //
@@ -26,12 +26,12 @@
 // cells, unless given) and fits the order at which the error falls to that of long waves (0.8 %).
 #include "plane_wave/block_rotation.hpp"
 #include "plane_wave/input.hpp"
+#include <spam/analysis/lattice_modes.hpp>
+#include <spam/analysis/periodic_solid.hpp>
 #include <spam/diagnostics/fits.hpp>
-#include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/kernel/weight_integrals.hpp>
-#include <spam/setup/periodic_solid.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -19,7 +19,7 @@
 #include "relaxation/quality.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/spam.hpp>
 

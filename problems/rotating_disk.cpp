@@ -28,7 +28,7 @@
 #include "rotating_disk/polar_stress.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -21,7 +21,7 @@
 #include "sheared_square/vibrations.hpp"
 #include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/outline.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -16,11 +16,11 @@
 // and averaged ones not at all. Shown are the way Gamma - K - M - Gamma through the wave vectors
 // and all wave vectors of a periodic sample of cells x cells particles.
 // Without scheme options it compares the plain velocity, <v> and <v>_Monaghan.
-#include <spam/diagnostics/lattice_modes.hpp>
-#include <spam/diagnostics/wave_vectors.hpp>
+#include <spam/analysis/lattice_modes.hpp>
+#include <spam/analysis/periodic_solid.hpp>
+#include <spam/analysis/wave_vectors.hpp>
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
-#include <spam/setup/periodic_solid.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

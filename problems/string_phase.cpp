@@ -25,9 +25,9 @@
 // Without --core both are run; names in result.json without a prefix then belong to the one without a
 // core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
 #include <spam/external/friction.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/neighbors/pair_list.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/spam.hpp>

@@ -12,7 +12,7 @@
 //
 //     v_dot = sum m (sigma_i/rho_i^2 + sigma_j/rho_j^2) . grad w_ij     sigma = s I, s > 0: attraction
 //
-// The linear analysis (diagnostics/lattice_modes.hpp) foretells K(t) as a sum over all wave vectors
+// The linear analysis (analysis/lattice_modes.hpp) foretells K(t) as a sum over all wave vectors
 // of the sample, without anything fitted, and in the end d ln K/dt = 2 x the largest growth rate.
 // The measured rate is the slope of a line through log K where the fastest waves have taken over and
 // the motion is still linear: from where the sum's own d ln K/dt has come within 3 % of its limit,
@@ -20,12 +20,12 @@
 // almost as fast as the fastest; 1 % would come too late.)
 // Without --stress and scheme options it draws the figure: tension 0.01 and 0.02, and
 // <v>_Monaghan at 0.02. Names in result.json without a prefix belong to plain velocities at 0.02.
+#include <spam/analysis/kicked_lattice.hpp>
+#include <spam/analysis/periodic_solid.hpp>
+#include <spam/analysis/wave_vectors.hpp>
 #include <spam/diagnostics/fits.hpp>
-#include <spam/diagnostics/kicked_lattice.hpp>
-#include <spam/diagnostics/wave_vectors.hpp>
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
-#include <spam/setup/periodic_solid.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

@@ -12,8 +12,8 @@
 //                                 because it cannot do otherwise: no new neighbours, no flow, no
 //                                 fragments
 #include <spam/diagnostics/shape.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 #include <spam/spam.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
-#include <spam/io/film.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
+#include <spam/picture/film.hpp>
 
 #include <fmt/format.h>
 

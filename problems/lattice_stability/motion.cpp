@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion.hpp"
 
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/setup/drawn.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>

@@ -2,7 +2,7 @@
 #include "strength.hpp"
 
 #include <spam/io/csv.hpp>
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 // What plane_wave is asked for, and what it refuses.
 #pragma once
 
+#include <spam/analysis/plane_wave.hpp>
 #include <spam/core/error.hpp>
-#include <spam/setup/plane_wave.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>

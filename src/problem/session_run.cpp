@@ -5,8 +5,8 @@
 #include <spam/core/error.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/interrupt.hpp>
-#include <spam/io/gnuplot.hpp>
 #include <spam/io/snapshot.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/problem/session.hpp>
 
 #include <fmt/format.h>

@@ -2,13 +2,13 @@
 // Modes of periodic lattices: against the Jacobian of a whole sample, against a simulation, and what
 // symmetry and the absence of stress demand. Each with a law that breaks it.
 #include "support/random_state.hpp"
+#include <spam/analysis/kicked_lattice.hpp>
+#include <spam/analysis/periodic_solid.hpp>
+#include <spam/analysis/wave_vectors.hpp>
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/fits.hpp>
-#include <spam/diagnostics/kicked_lattice.hpp>
-#include <spam/diagnostics/wave_vectors.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/setup/initial_state.hpp>
-#include <spam/setup/periodic_solid.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

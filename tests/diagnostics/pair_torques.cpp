@@ -2,10 +2,10 @@
 // Torques of pairs and particles against loops over all pairs, and what they must sum to.
 #include "plane_wave/block_rotation.hpp"
 #include "support/random_state.hpp"
+#include <spam/analysis/plane_wave.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/problem/plan.hpp>
-#include <spam/setup/plane_wave.hpp>
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Promises are measured against what rounding can do: kept where particles hardly move among large
 // forces that cancel, and not kept by a law that loses a billionth of these forces.
+#include <spam/analysis/periodic_solid.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/harmonic_spring.hpp>
@@ -12,7 +13,6 @@
 #include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
-#include <spam/setup/periodic_solid.hpp>
 
 #include <boost/test/unit_test.hpp>
 

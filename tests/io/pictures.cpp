@@ -2,7 +2,7 @@
 // Every kind of picture: gnuplot takes the script without a word and leaves a PNG of the size asked
 // for, whatever the values and titles are.
 #include "support/process.hpp"
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 
 #include <boost/test/unit_test.hpp>
 

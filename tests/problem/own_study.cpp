@@ -3,9 +3,9 @@
 // user's problem file would have it.
 #include "problem/result_files.hpp"
 #include <spam/material/harmonic_spring.hpp>
-#include <spam/problem/drift_study.hpp>
-#include <spam/problem/work_precision.hpp>
 #include <spam/spam.hpp>
+#include <spam/study/drift_study.hpp>
+#include <spam/study/work_precision.hpp>
 
 #include <boost/test/unit_test.hpp>
 #include <fcntl.h>

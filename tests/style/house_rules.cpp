@@ -17,9 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> rooms{"core",    "kernel",   "material", "neighbors", "boundary",
-                                     "physics", "external", "rhs",      "integrate", "diagnostics",
-                                     "setup",   "io",       "problem"};
+const std::vector<std::string> rooms{"core",      "kernel",      "material", "neighbors",
+                                     "boundary",  "physics",     "external", "rhs",
+                                     "integrate", "diagnostics", "setup",    "analysis",
+                                     "io",        "picture",     "problem",  "study"};
 
 /// kernel and material are neighbours on one floor: both include only core.
 /// integrate knows vectors and callables, not particles: only core as well.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 #include <spam/rhs/model.hpp>
 
 namespace spam {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <spam/integrate/integrator.hpp>
-#include <spam/setup/example_systems.hpp>
+#include <spam/study/example_systems.hpp>
 
 #include <functional>
 #include <string>

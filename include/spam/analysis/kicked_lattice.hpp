@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/diagnostics/lattice_modes.hpp>
+#include <spam/analysis/lattice_modes.hpp>
 
 namespace spam {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "complex_modes.hpp"
-#include <spam/diagnostics/kicked_lattice.hpp>
+#include <spam/analysis/kicked_lattice.hpp>
 
 namespace spam {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/io/film.hpp>
+#include <spam/picture/film.hpp>
 
 #include <spawn.h>
 #include <sys/wait.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/analysis/lattice_modes.hpp>
+#include <spam/analysis/periodic_solid.hpp>
 #include <spam/core/error.hpp>
-#include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
-#include <spam/setup/periodic_solid.hpp>
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/diagnostics/lattice_modes.hpp>
+#include <spam/analysis/lattice_modes.hpp>
+#include <spam/analysis/periodic_solid.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/setup/periodic_solid.hpp>
 
 #include <string_view>
 

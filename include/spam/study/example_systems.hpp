@@ -27,7 +27,7 @@ Start<2> lagrangian_hexagon(int size, double speed);
 /// every time), their mean taken off: all modes of the body ring.
 Start<2> shaken(Start<2> start, double speed);
 
-/// A standing transverse wave, cells x cells particles, setup/plane_wave.hpp.
+/// A standing transverse wave, cells x cells particles, analysis/plane_wave.hpp.
 Start<2> ringing_lattice(int cells, double amplitude, const Scheme& scheme);
 
 /// cells x cells particles of Lucy's gas (range 6) at rest in the middle of a periodic box twice as

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "complex_modes.hpp"
+#include <spam/analysis/lattice_modes.hpp>
 #include <spam/core/error.hpp>
-#include <spam/diagnostics/lattice_modes.hpp>
 #include <spam/neighbors/pair_list.hpp>
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <spam/diagnostics/convergence.hpp>
-#include <spam/problem/drift_study.hpp>
+#include <spam/study/drift_study.hpp>
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
-#include <spam/problem/study_method.hpp>
+#include <spam/study/study_method.hpp>
 
 #include <fmt/format.h>
 

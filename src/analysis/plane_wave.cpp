@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/setup/plane_wave.hpp>
+#include <spam/analysis/plane_wave.hpp>
 
 #include <cmath>
 #include <numbers>

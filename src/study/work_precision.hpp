@@ -4,7 +4,7 @@
 
 #include "reference.hpp"
 #include <spam/diagnostics/convergence.hpp>
-#include <spam/problem/work_precision.hpp>
+#include <spam/study/work_precision.hpp>
 
 #include <string>
 #include <vector>

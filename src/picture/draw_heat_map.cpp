@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
-#include <spam/io/gnuplot.hpp>
+#include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
 

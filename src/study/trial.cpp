@@ -3,7 +3,7 @@
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/motion.hpp>
-#include <spam/problem/trial.hpp>
+#include <spam/study/trial.hpp>
 
 #include <algorithm>
 #include <cmath>

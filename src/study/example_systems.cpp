@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/analysis/plane_wave.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/pair_potentials.hpp>
@@ -6,10 +7,9 @@
 #include <spam/rhs/springs.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/drawn.hpp>
-#include <spam/setup/example_systems.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
-#include <spam/setup/plane_wave.hpp>
+#include <spam/study/example_systems.hpp>
 
 #include <cmath>
 #include <random>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <spam/problem/session.hpp>
-#include <spam/problem/study_method.hpp>
-#include <spam/problem/trial.hpp>
+#include <spam/study/study_method.hpp>
+#include <spam/study/trial.hpp>
 
 #include <string>
 #include <vector>

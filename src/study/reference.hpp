@@ -2,7 +2,7 @@
 // Solutions that others are compared with, and how they are compared.
 #pragma once
 
-#include <spam/problem/trial.hpp>
+#include <spam/study/trial.hpp>
 
 #include <array>
 #include <deque>

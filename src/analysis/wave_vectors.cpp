@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/diagnostics/wave_vectors.hpp>
+#include <spam/analysis/wave_vectors.hpp>
 
 #include <cmath>
 #include <numbers>
