@@ -60,21 +60,17 @@ void settle_particles(Session& session, Parameters& p) {
 }
 
 /// Options that have no meaning beside others.
-void refuse_contradictions(const Session& session, const Options& options, const Parameters& p) {
-    const auto refuse = [&](const std::vector<std::string>& names, const char* because) {
-        const std::string name = options.first_given(names);
-        if (!name.empty())
-            throw InputError(
-                fmt::format("{}: has no effect with {}; leave one out", name, because));
-    };
-    if (p.compare)
-        refuse({"cells", "particles", "dimension", "movie", "cost"}, "--compare (three sizes)");
-    if (p.cost) refuse({"cells", "particles", "dimension", "movie"}, "--cost (five sizes)");
-    if (p.cost && !session.common().restart.empty())
-        throw InputError(
-            "restart: times that --cost measured are of one run; start it again without --restart");
-    if (p.movie && p.dimension == 1) refuse({"movie"}, "--dimension 1");
-    if (p.movie && session.common().no_plots) refuse({"movie"}, "--no-plots");
+void add_rules(Options& options, const Parameters& p) {
+    options.exclude("compare", {"cells", "particles", "dimension", "movie", "cost"},
+                    "has no effect with --compare (three sizes); leave one out");
+    options.exclude("cost", {"cells", "particles", "dimension", "movie"},
+                    "has no effect with --cost (five sizes); leave one out");
+    options.exclude("cost", {"restart"},
+                    "times that --cost measured are of one run; start it again without --restart");
+    options.only_when(
+        {"movie"}, {}, [&p] { return p.dimension == 2; },
+        "has no effect with --dimension 1; leave one out");
+    options.exclude("no-plots", {"movie"}, "has no effect with --no-plots; leave one out");
 }
 
 template <int Dim>
@@ -88,20 +84,18 @@ Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t
     plan.output_every = t_end / (p.compare ? 192.0 : 96.0);
     // Often enough for the configurations drawn, and no more than 48 files.
     plan.snapshot_every = std::max(std::min(largest / 8.0, t_end / 4.0), t_end / 48.0);
-    plan.columns = entropy_columns(gas);
-    plan.on_snapshot = [&, folder](double t, const Model<Dim>&, Values y) {
-        for (Scene& scene : gas.scenes) scene.look(t, y);
-        write_fields(folder(), gas, t, y);
-        if constexpr (Dim == 2)
-            if (p.movie && t == 0.0) session.note_drawn(draw_frame(folder(), gas, 0, t, y));
-    };
-    plan.memory = [&gas](Archive& archive) { archive(gas.scenes, gas.field_times, gas.frames); };
+    plan.record(entropy_columns(gas));
+    plan.observe(keep_nearest<Dim>(gas.drawn));
+    plan.observe({.on_snapshot = [&gas, folder](double t, const Model<Dim>&,
+                                                Values y) { write_fields(folder(), gas, t, y); },
+                  .memory = [&gas](Archive& archive) { archive(gas.field_times); }});
     if constexpr (Dim == 2)
         if (p.movie)
-            plan.revise = [&gas, &session, folder](double t, Model<2>&, std::span<double> y) {
-                session.note_drawn(draw_frame(folder(), gas, ++gas.frames, t, y));
-                return false;
-            };
+            plan.observe({.on_row =
+                              [&gas, &session, folder](double t, const Model<2>&, Values y) {
+                                  session.note_drawn(draw_frame(folder(), gas, gas.frames++, t, y));
+                              },
+                          .memory = [&gas](Archive& archive) { archive(gas.frames); }});
     return plan;
 }
 
@@ -122,7 +116,7 @@ void run(Session& session, const Parameters& p) {
     std::vector<Case<Dim>> cases;
     for (auto& gas : gases)
         cases.push_back(
-            {*gas.model, gas.y0, plan_of(session, gas, p, t_end, sizes.back()), gas.label});
+            {gas.model, gas.y0, plan_of(session, gas, p, t_end, sizes.back()), gas.label});
     const auto runs = session.run_all(std::move(cases));
     for (std::size_t k = 0; k < runs.size(); ++k) check(session, p, gases[k], runs[k]);
     if (p.movie) make_movie(session, session.folder());
@@ -160,14 +154,13 @@ int main(int argc, char** argv) {
                  "measure seconds against the number of particles, [HH01] exercise 4");
     options.flag("movie", p.movie, "draw the frames of a film");
     options.exclude_from_case({"movie"});
+    add_rules(options, p);
 
     return problem.main(argc, argv, [&](Session& session) {
-        refuse_contradictions(session, options, p);
         p.only_described = session.common().dry_run;
         if (session.common().smoke && !session.given("cells") && !p.particles) p.cells = 16;
         settle_particles(session, p);
         session.prefer_step(p.dimension == 1 ? step_for<1>(p) : step_for<2>(p));
-        if (p.compare || p.cost) session.leave_out_of_case({"cells", "dimension"});
         if (p.cost) return measure_cost(session, p);
         p.dimension == 1 ? run<1>(session, p) : run<2>(session, p);
     });

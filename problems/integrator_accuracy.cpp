@@ -75,17 +75,14 @@ int main(int argc, char** argv) {
     options.integer("size", p.size, "n of the hexagons, which have 1 + 3n + 3n^2 particles",
                     between(2, 50));
     options.number("speed", p.speed, "speed of the corners of the hexagons", between(1e-6, 1e3));
+    options.only_when(
+        {"size", "speed"}, {"problem"},
+        [&p] { return p.problem != "wave" && p.problem != "expansion"; },
+        "is of the hexagons, which this --problem has none of; leave it out");
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("problem")) p.problem = "md";
-        if (p.problem == "wave" || p.problem == "expansion") {
-            if (const auto name = options.first_given({"size", "speed"}); !name.empty())
-                throw InputError(fmt::format(
-                    "{}: is of the hexagons, there are none with --problem {}; leave it out", name,
-                    p.problem));
-            session.leave_out_of_case({"size", "speed"});
-        }
         auto trials = systems(p);
         if (p.problem != "all")
             std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });

@@ -68,6 +68,13 @@ int main(int argc, char** argv) {
     options.integer("cells", p.cells, "cells x cells particles of the wave (an even number)",
                     between(8, 200));
     options.number("periods", p.periods, "number of periods of the wave", positive());
+    options.only_when(
+        {"size", "speed", "turns"}, {"problem"}, [&p] { return p.problem != "wave"; },
+        "is of the hexagons, which this --problem has none of; leave it out");
+    options.only_when(
+        {"cells", "periods"}, {"problem"},
+        [&p] { return p.problem == "wave" || p.problem == "all"; },
+        "is of the wave, which this --problem is not; leave it out");
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {
@@ -75,17 +82,6 @@ int main(int argc, char** argv) {
             if (!session.given("size")) p.size = 3;
             if (!session.given("turns")) p.turns = 0.2;
             if (!session.given("periods")) p.periods = 2.0;
-        }
-        if (p.problem != "all") {
-            const bool wave = p.problem == "wave";
-            const std::vector<std::string> idle =
-                wave ? std::vector<std::string>{"size", "speed", "turns"}
-                     : std::vector<std::string>{"cells", "periods"};
-            if (const auto name = options.first_given(idle); !name.empty())
-                throw InputError(
-                    fmt::format("{}: is of the {}, there {} none with --problem {}; leave it out",
-                                name, wave ? "hexagons" : "wave", wave ? "are" : "is", p.problem));
-            session.leave_out_of_case(idle);
         }
         auto trials = systems(p);
         if (p.problem != "all")

@@ -60,7 +60,7 @@ Points<2> random_velocities(Eigen::Index n, double speed) {
 
 struct Experiment {
     std::string label, title;
-    std::unique_ptr<SideBySide> model;
+    std::shared_ptr<SideBySide> model;
     std::vector<double> y0;
 };
 
@@ -137,22 +137,19 @@ void report(Session& session, const Parameters& p, const RunRecord& run,
     // Claimed where the exponent is known to leave ten orders of magnitude to t = 10.
     const bool known = p.speed <= 0.5 && p.range >= 2.5 && p.range <= 4.0;
     if (h.last("t") >= 10.0)
-        session.check({prefix + "separation_at_10", h.at(10.0, "separation"),
-                       known ? std::optional(0.0) : std::nullopt, 1e-10,
-                       "the same motion up to rounding, [HH07] 6"});
+        session.claim({prefix + "separation_at_10", h.at(10.0, "separation"), 0.0, 1e-10,
+                       "the same motion up to rounding, [HH07] 6"},
+                      known);
     const Growth found = measure(h);
     if (found.moved)
-        session.check({prefix + "lyapunov_exponent",
-                       found.moved->slope,
-                       {},
-                       0.0,
-                       "measured: growth of a displacement"});
+        session.measure(prefix + "lyapunov_exponent", found.moved->slope,
+                        "measured: growth of a displacement");
     // Slow molecules stay near their lattice for long, and the two growths are not those of one motion.
     const bool mixed = p.speed >= 0.1;
     if (found.rounding && found.moved)
-        session.check({prefix + "divergence_rate", found.rounding->slope,
-                       mixed ? std::optional(found.moved->slope) : std::nullopt,
-                       0.15 * found.moved->slope, "rounding grows at the Lyapunov exponent"});
+        session.claim({prefix + "divergence_rate", found.rounding->slope, found.moved->slope,
+                       0.15 * found.moved->slope, "rounding grows at the Lyapunov exponent"},
+                      mixed);
 }
 
 Curve fitted(const History& h, const char* column, const std::optional<LineFit>& fit, int like) {
@@ -229,9 +226,9 @@ int main(int argc, char** argv) {
             Plan<2> plan;
             plan.t_end = session.common().t_end.value_or(session.common().smoke ? 12.0 : 200.0);
             plan.output_every = 0.5;
-            plan.columns = {separation_column("separation", fluid, molecules),
-                            separation_column("separation_moved", molecules, moved)};
-            cases.push_back({*e.model, e.y0, std::move(plan), single ? "" : e.label});
+            plan.record({separation_column("separation", fluid, molecules),
+                         separation_column("separation_moved", molecules, moved)});
+            cases.push_back({e.model, e.y0, std::move(plan), single ? "" : e.label});
         }
         const auto runs = session.run_all(std::move(cases));
         for (const auto& run : runs) report(session, p, run, single ? "" : run.label + "_");

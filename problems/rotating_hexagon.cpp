@@ -85,34 +85,32 @@ std::vector<Hexagon> comparison(const Parameters& p, Scheme scheme) {
     return all;
 }
 
-/// Options that a figure of the paper leaves no choice of.
-std::vector<std::string> settled_by_figure() {
-    auto names = Problem::scheme_option_names();
-    names.insert(names.end(), {"model", "formulation", "penalty", "turns", "t-end"});
-    return names;
-}
-
-void refuse_contradictions(const Options& options, const Parameters& p) {
-    if (options.given("t-end") && options.given("turns"))
-        throw InputError(
-            "turns: --turns sets the end of the run and so does --t-end; leave one out");
-    const auto refuse = [&](const std::vector<std::string>& refused, const char* where) {
-        if (const std::string name = options.first_given(refused); !name.empty())
-            throw InputError(fmt::format("{}: has no meaning for {}; leave it out", name, where));
+/// What has no meaning beside what.
+void add_rules(Options& options, const Parameters& p) {
+    const auto scheme = Problem::scheme_option_names();
+    const auto with = [&](const std::vector<std::string>& others) {
+        auto names = scheme;
+        names.insert(names.end(), others.begin(), others.end());
+        return names;
     };
-    if (p.figure) {
-        const std::string settled = options.first_given(settled_by_figure());
-        if (!settled.empty())
-            throw InputError(
-                fmt::format("{}: --figure {:g} settles it; leave one out", settled, *p.figure));
-    }
-    auto names = Problem::scheme_option_names();
-    if (p.lagrangian()) refuse(names, "--formulation total_lagrangian (no choice of that kind)");
-    if (!p.md() && !p.lagrangian()) refuse({"penalty"}, "--formulation updated");
-    if (p.lagrangian()) refuse({"torques"}, "--formulation total_lagrangian (no pair torques)");
-    if (p.lagrangian()) refuse({"kernel"}, "--formulation total_lagrangian (always Lucy's)");
-    names.insert(names.end(), {"kernel", "range", "formulation", "penalty", "torques"});
-    if (p.md()) refuse(names, "--model md (springs between initial neighbours)");
+    options.exclude("figure", with({"model", "formulation", "penalty", "turns", "t-end"}));
+    options.one_of({"turns", "t-end"}, "the end of the run");
+    // Without any of these several are compared.
+    const auto of_one = with({"model", "formulation", "penalty"});
+    options.only_when(of_one, {}, [&, of_one] { return !options.first_given(of_one).empty(); }, {});
+    const std::vector<std::string> by{"model", "formulation"};
+    const auto lagrangian = [&p] { return p.lagrangian(); };
+    const auto not_lagrangian = [&p] { return !p.lagrangian(); };
+    const auto smooth = [&p] { return !p.md(); };
+    options.only_when(with({"kernel", "range", "formulation", "penalty", "torques"}), {"model"},
+                      smooth,
+                      "has no meaning for --model md (springs between initial neighbours); leave "
+                      "it out");
+    options.only_when(with({"torques", "kernel"}), by, not_lagrangian,
+                      "has no meaning for --formulation total_lagrangian (no choice of that kind, "
+                      "no pair torques, always Lucy's weight); leave it out");
+    options.only_when({"penalty"}, by, lagrangian,
+                      "has no meaning for --formulation updated; leave it out");
 }
 
 // ---- what is known of the standard case, from the paper and tests/drift/hexagon.cpp ----
@@ -199,7 +197,7 @@ void report_measured(Session& session, const RunRecord& run, bool ratio_claimed,
                      const Parameters& p, const std::string& prefix) {
     const History& h = run.history;
     const auto measured = [&](const char* name, double value) {
-        session.check({prefix + name, value, {}, 0.0, "measured"});
+        session.measure(prefix + name, value);
     };
     if (!ratio_claimed)
         measured("angular_momentum_ratio",
@@ -241,39 +239,26 @@ int main(int argc, char** argv) {
 
     options.flag("torques", p.torques,
                  "add columns with the distribution of pair and particle torques, [HHM04] VIII");
+    add_rules(options, p);
 
     return problem.main(argc, argv, [&](Session& session) {
-        options.command_line_wins({"t-end"}, {"turns"});
-        options.command_line_wins({"turns"}, {"t-end"});
-        refuse_contradictions(options, p);
         if (p.figure) p.turns = turns_of_figure(static_cast<int>(*p.figure));
         if (session.common().smoke) {
             if (!session.given("size")) p.size = 3;
             if (!p.turns && !session.given("t-end")) p.turns = 0.1;
         }
         if (!p.turns && !session.given("t-end")) p.turns = 1.0;
-        if (p.turns) session.leave_out_of_case({"t-end"});
 
-        const auto scheme_names = Problem::scheme_option_names();
-        auto scheme_options = scheme_names;
-        scheme_options.insert(scheme_options.end(), {"model", "formulation", "penalty"});
-        const bool single = !options.first_given(scheme_options).empty();
+        auto of_one = Problem::scheme_option_names();
+        of_one.insert(of_one.end(), {"model", "formulation", "penalty"});
+        const bool single = !options.first_given(of_one).empty();
         std::vector<Hexagon> hexagons;
-        if (p.figure) {
-            session.leave_out_of_case(settled_by_figure());
+        if (p.figure)
             hexagons = hexagons_of_figure(p, session.scheme());
-        } else if (single) {
+        else if (single)
             hexagons.push_back(make_hexagon(p, p.model, session.scheme(), ""));
-            if (p.md() || p.lagrangian()) {
-                session.leave_out_of_case(scheme_names);
-                session.leave_out_of_case({"torques", "kernel"});
-            }
-            if (p.md()) session.leave_out_of_case({"range", "formulation"});
-            if (!p.lagrangian()) session.leave_out_of_case({"penalty"});
-        } else {
-            session.leave_out_of_case(scheme_options);
+        else
             hexagons = comparison(p, session.scheme());
-        }
 
         // initial state, observers, integration
         std::vector<Case<2>> cases;
@@ -283,17 +268,13 @@ int main(int argc, char** argv) {
             Plan<2> plan;
             plan.t_end = p.turns ? *p.turns * p.turn() : *session.common().t_end;
             plan.snapshot_every = p.turn() / 12.0;
-            plan.columns = {closest_pair_column<2>(), shape_error_column<2>()};
+            plan.record({closest_pair_column<2>(), shape_error_column<2>()});
             if (p.torques && dynamic_cast<const SmoothParticleModel<2>*>(hexagon.model.get()))
-                for (auto& column : pair_torque_columns()) plan.columns.push_back(column);
-            if (plan.t_end > 0.4 * p.turn()) hexagon.sights.push_back({p.turn() / 3.0});
-            hexagon.sights.push_back({plan.t_end});
-            plan.on_snapshot = [&hexagon](double t, const Model<2>& model,
-                                          std::span<const double> y) {
-                for (Sight& sight : hexagon.sights) sight.look(t, model, y);
-            };
-            plan.memory = [&hexagon](Archive& archive) { remember(archive, hexagon.sights); };
-            cases.push_back({*hexagon.model, std::move(y0), std::move(plan), hexagon.label});
+                plan.record(pair_torque_columns());
+            if (plan.t_end > 0.4 * p.turn()) hexagon.drawn.push_back({p.turn() / 3.0});
+            hexagon.drawn.push_back({plan.t_end});
+            plan.observe(keep_nearest<2>(hexagon.drawn));
+            cases.push_back({hexagon.model, std::move(y0), std::move(plan), hexagon.label});
         }
         const auto runs = session.run_all(std::move(cases));
 

@@ -170,9 +170,7 @@ void check(Session& session, const Parameters& p, const Model<2>& model, const R
     const double turned = std::abs(h.at(period, "rotation_degrees") - h.first("rotation_degrees"));
     const double swing = -h.smallest("shear") / p.shear;
     const double L = relative_angular_momentum(h, model);
-    const auto measured = [&](const char* name, double value) {
-        session.check({name, value, {}, 0.0, "measured"});
-    };
+    const auto measured = [&](const char* name, double value) { session.measure(name, value); };
     session.check_promises(run);
     measured("period_by_elasticity", elastic_period);
     // Larger strains are beyond linear elasticity; plain velocities let the square clump.
@@ -293,14 +291,15 @@ int main(int argc, char** argv) {
         plan.t_end = 2.0 * period;
         plan.output_every = period / 120.0;
         plan.snapshot_every = period / 24.0;
-        plan.columns = columns();
-        plan.on_snapshot = [&](double t, const Model<2>& m, std::span<const double> y) {
+        plan.record(columns());
+        const auto keep = [&](double t, const Model<2>& m, std::span<const double> y) {
             if (t > 1.2 * period) return;
             const ConstState<2> state(m.layout(), y);
             const Eigen::VectorXd stress = state.stress().row(2) / (eta * p.shear);
             snapshots.push_back({t, state.position(), {stress.begin(), stress.end()}});
         };
-        plan.memory = [&snapshots](Archive& archive) { archive(snapshots); };
+        plan.observe({.on_snapshot = keep,
+                      .memory = [&snapshots](Archive& archive) { archive(snapshots); }});
         const auto run = session.run(*model, sheared_state(*model, p.shear), std::move(plan));
         check(session, p, *model, run, period);
         if (!session.plots()) return;

@@ -131,7 +131,7 @@ void write_spectrum(const RunFolder& folder, const std::string& name, const Spec
 void report(Session& session, const Parameters& p, const Analysed& one) {
     const std::string prefix = one.label.empty() ? "" : one.label + "_";
     const auto measured = [&](const char* name, double value) {
-        session.check({prefix + name, value, {}, 0.0, "measured"});
+        session.measure(prefix + name, value);
     };
     const std::size_t fastest = one.sample.fastest();
     const double growth = one.sample.growth[fastest];
@@ -237,22 +237,22 @@ int main(int argc, char** argv) {
     options.integer("cells", p.cells, "the sample is cells x cells particles (an even number)",
                     between(2, 400));
     problem.use_scheme();
+    const auto never = [] { return false; };
+    options.only_when({"closest-approach"}, {}, never,
+                      "has no effect in a linear analysis, where nothing is reflected; leave it "
+                      "out");
+    options.only_when({"mean-density"}, {}, never,
+                      "both means are the same to first order about a lattice of equal densities; "
+                      "leave it out");
+    // Without any of these several schemes are compared.
+    options.only_when(Problem::scheme_option_names(), {},
+                      [&] { return !options.first_given(Problem::scheme_option_names()).empty(); },
+                      {});
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("cells")) p.cells = 8;
         const Box<2> box = triangular_box(p.cells, p.cells);
-        if (session.given("closest-approach"))
-            throw InputError(
-                "closest-approach: has no effect in a linear analysis, where nothing is reflected; "
-                "leave it out");
-        if (session.given("mean-density"))
-            throw InputError(
-                "mean-density: both means are the same to first order about a lattice of equal "
-                "densities; leave it out");
-        session.leave_out_of_case({"mean-density"});
-        const auto scheme_options = Problem::scheme_option_names();
-        const bool single = !options.first_given(scheme_options).empty();
-        if (!single) session.leave_out_of_case(scheme_options);
+        const bool single = !options.first_given(Problem::scheme_option_names()).empty();
         auto all = schemes_to_compare(session.scheme(), single);
         RunStatistics unused;
         for (const auto& one : all)

@@ -58,6 +58,7 @@ spam_test(drift/constraints drift)
 spam_test(drift/promises drift)
 spam_test(drift/total_lagrangian drift)
 spam_test(io/text unit)
+spam_test(io/option_rules unit)
 spam_test(io/study_table unit)
 spam_test(io/pictures unit)
 find_package(nlohmann_json REQUIRED)  # result_files.hpp
@@ -189,6 +190,7 @@ spam_test(problem/remake property)
 
 # What users add, each in one file.
 spam_test(extend/external property)
+spam_test(extend/observer unit)
 spam_test(extend/history_material property)
 spam_test(extend/pair_law.lanes property)
 spam_add_sweeps(test.extend.pair_law.lanes extend/pair_law.lanes.cpp)

@@ -77,7 +77,8 @@ void BodyLedger::settle(Entry& entry, const std::vector<BodyTotals>& had) const 
     }
 }
 
-bool BodyLedger::look(double t, Model<2>& model, std::span<const double> y, double until_next) {
+bool BodyLedger::find_bodies(double t, Model<2>& model, std::span<const double> y,
+                             double until_next) {
     const ConstState<2> state(model.layout(), y);
     // Two particles come nearer by no more than twice the largest speed; a tenth for its growth.
     const double margin = 2.2 * state.velocity().colwise().norm().maxCoeff() * until_next;

@@ -23,7 +23,7 @@ std::vector<BodyTotals> totals_of_bodies(const Model<2>& model, std::span<const 
 
 /// Accounts for bodies that part and join, [HHM04] IX: who they were, who they are, and what each kept
 /// in between. Bodies are connected parts within the model's reach and a margin for how far they move
-/// until they are looked at again: so they never act on each other.
+/// until bodies are searched for again: so they never act on each other.
 class BodyLedger {
   public:
     struct Entry {
@@ -41,8 +41,8 @@ class BodyLedger {
     };
 
     /// Finds the bodies anew. Where they have changed the model is given the new ones and an entry is
-    /// made; returns whether they have. `until_next`: time to the next look, >= 0.
-    bool look(double t, Model<2>& model, std::span<const double> y, double until_next);
+    /// made; returns whether they have. `until_next`: time to the next search, >= 0.
+    bool find_bodies(double t, Model<2>& model, std::span<const double> y, double until_next);
 
     /// Closes the account at the end of a run: an entry with the bodies as they are.
     void close(double t, const Model<2>& model, std::span<const double> y);

@@ -59,12 +59,6 @@ std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>> begun(Particles<Dim>
 
 }  // namespace
 
-void Scene::look(double now, std::span<const double> state) {
-    if (t >= 0.0 && std::abs(now - wanted) >= std::abs(t - wanted)) return;
-    t = now;
-    y.assign(state.begin(), state.end());
-}
-
 AnyEquationOfState law_of(int dim) {
     if (dim == 1) return IsentropicGas{1.0 / 3.0, 1.0, 3.0};
     return LucyGas{};
@@ -109,7 +103,7 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
     auto [model, y0] = begun<Dim>(std::move(particles), x, box, p);
     Gas<Dim> gas{cells, weight_function<Dim>(to_string(p.kernel), p.range), std::move(model),
                  std::move(y0)};
-    for (const double at : drawn_at) gas.scenes.push_back({at * cells});
+    for (const double at : drawn_at) gas.drawn.push_back({at * cells});
     return gas;
 }
 

@@ -5,6 +5,7 @@
 #include <spam/diagnostics/field_grid.hpp>
 #include <spam/kernel/any_weight.hpp>
 #include <spam/material/fluid.hpp>
+#include <spam/problem/nearest_state.hpp>
 #include <spam/rhs/model.hpp>
 #include <spam/spam.hpp>
 
@@ -31,27 +32,17 @@ struct Parameters {
     bool only_described = false;  // a dry run: no state is computed
 };
 
-/// A configuration worth drawing, of the snapshots the nearest to a wanted time.
-struct Scene {
-    double wanted;
-    double t = -1.0;  ///< below 0 before any was shown
-    std::vector<double> y{};
-
-    void look(double now, std::span<const double> state);
-    void remember(Archive& archive) { archive(t, y); }
-};
-
 /// The gas in the middle of its box of twice the side, and what is gathered on the way.
 template <int Dim>
 struct Gas {
     int cells;
     AnyWeight<Dim> weight;  ///< of averages; of the motion as well where ranges are fixed
-    std::unique_ptr<Model<Dim>> model;
+    std::shared_ptr<Model<Dim>> model;
     std::vector<double> y0;
     std::string label{}, prefix{};
-    std::vector<Scene> scenes{};
+    std::vector<NearestState> drawn{};  ///< in pictures
     std::vector<double> field_times{};  ///< of the files of gridded fields
-    int frames = 0;                     ///< of a film, beside the first
+    int frames = 0;                     ///< of a film
 
     double side() const { return 2.0 * cells; }
     std::size_t particles() const { return model->particles().size(); }

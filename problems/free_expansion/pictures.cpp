@@ -16,14 +16,14 @@ double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Scenes that came about, each close to its time.
+/// States that came about, each close to its time.
 template <int Dim>
-std::vector<const Scene*> seen(const Gas<Dim>& gas) {
-    std::vector<const Scene*> scenes;
-    for (const Scene& scene : gas.scenes)
-        if (scene.t > 0.0 && std::abs(scene.t - scene.wanted) <= 0.05 * gas.cells)
-            scenes.push_back(&scene);
-    return scenes;
+std::vector<const NearestState*> reached(const Gas<Dim>& gas) {
+    std::vector<const NearestState*> states;
+    for (const NearestState& state : gas.drawn)
+        if (state.t > 0.0 && std::abs(state.t - state.wanted) <= 0.05 * gas.cells)
+            states.push_back(&state);
+    return states;
 }
 
 ContourRoom room_of(const Gas<2>& gas) {
@@ -45,11 +45,11 @@ ContourPanel tones(const FieldGrid<2>& grid, const std::vector<double>& values) 
 /// [HH01] Fig. 2: rows of particles, density and kinetic energy.
 void draw_fields(Session& session, const Gas<2>& gas) {
     std::vector<ContourPanel> rows[3];
-    for (const Scene* scene : seen(gas)) {
-        const auto fields = fields_of(gas, scene->y);
+    for (const NearestState* state : reached(gas)) {
+        const auto fields = fields_of(gas, state->y);
         const bool first = rows[0].empty();
-        rows[0].push_back(dots(gas, scene->y));
-        rows[0].back().title = fmt::format("t = {:.4g}", scene->t);
+        rows[0].push_back(dots(gas, state->y));
+        rows[0].back().title = fmt::format("t = {:.4g}", state->t);
         rows[1].push_back(tones(fields.grid, fields.density));
         rows[2].push_back(tones(fields.grid, fields.kinetic));
         if (!first) continue;
@@ -75,8 +75,8 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
                           {},
                           "",
                           false};
-    for (const Scene* scene : seen(gas)) {
-        const auto fields = fields_of(gas, scene->y);
+    for (const NearestState* state : reached(gas)) {
+        const auto fields = fields_of(gas, state->y);
         const WaveSpectrum spectrum = wave_spectrum(fields.grid, fields.density);
         LogLogCurve curve{picture.key.size(), false, {}, {}};
         const double all = std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
@@ -85,7 +85,7 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
             curve.y.push_back(spectrum.power[k] / all);
         }
         picture.panels[0].curves.push_back(std::move(curve));
-        picture.key.push_back(fmt::format("t = {:.4g}", scene->t));
+        picture.key.push_back(fmt::format("t = {:.4g}", state->t));
     }
     if (!picture.key.empty())
         session.note_drawn(draw_log_log(session.plots_folder(), "spectrum", picture));
@@ -158,12 +158,12 @@ void draw(Session& session, const Gas<1>& gas) {
         {"density", "x / N", "ρ", false, {}},
         {"velocity", "x / N", "<v>", false, {}},
         {"velocity fluctuation", "x / N", "(<v²> − <v>²) / 2", false, {}}};
-    for (const Scene* scene : seen(gas)) {
-        const auto fields = fields_of(gas, scene->y);
+    for (const NearestState* state : reached(gas)) {
+        const auto fields = fields_of(gas, state->y);
         const Points<1> at = fields.grid.points();
         std::vector<double> x(at.data(), at.data() + at.size());
         for (double& place : x) place /= gas.cells;
-        const std::string title = fmt::format("t = {:.4g}", scene->t);
+        const std::string title = fmt::format("t = {:.4g}", state->t);
         const auto& v = fields.velocity;
         panels[0].curves.push_back({title, x, fields.density});
         panels[1].curves.push_back({title, x, std::vector<double>(v.data(), v.data() + v.size())});

@@ -23,6 +23,12 @@ std::string_view to_string(Acting acting);
 std::string title_of(Acting acting);
 /// Its colour in every picture.
 int style_of(Acting acting);
+inline bool has_curvature(Acting acting) {
+    return acting == Acting::curvature || acting == Acting::both;
+}
+inline bool has_gradient(Acting acting) {
+    return acting == Acting::gradient || acting == Acting::both;
+}
 inline const std::vector<Acting> all_potentials{Acting::density, Acting::curvature,
                                                 Acting::gradient, Acting::both};
 

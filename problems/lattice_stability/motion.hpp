@@ -21,7 +21,7 @@ struct Paths {
 /// One block under some of the potentials, ready to move.
 struct Sample {
     Acting acting;
-    std::unique_ptr<Model<2>> model;
+    std::shared_ptr<Model<2>> model;
     std::vector<double> y0;
     Paths paths{};
 };

@@ -83,10 +83,10 @@ bool is_the_papers(const Session& session, const Parameters& p) {
 /// The second of two is better: its shape error is a part of the other's, which part is as found here.
 void check_better(Session& session, const Parameters& p, const RunRecord& worse,
                   const RunRecord& better, double part, double tolerance, const char* source) {
-    session.check({fmt::format("shape_error_of_{}_by_{}", better.label, worse.label),
-                   better.history.last("shape_error") / worse.history.last("shape_error"),
-                   is_the_papers(session, p) ? std::optional(part) : std::nullopt, tolerance,
-                   source});
+    session.claim({fmt::format("shape_error_of_{}_by_{}", better.label, worse.label),
+                   better.history.last("shape_error") / worse.history.last("shape_error"), part,
+                   tolerance, source},
+                  is_the_papers(session, p));
 }
 
 }  // namespace
@@ -137,12 +137,10 @@ void check_figure(Session& session, const Parameters& p, const std::vector<RunRe
     if (figure == 4) {
         for (const std::size_t k : {1U, 2U})
             for (const int degrees : {60, 120})
-                session.check(
-                    {fmt::format("{}_angular_momentum_lost_at_{}_degrees", runs[k].label, degrees),
-                     lost_after(runs[k].history, p.turn() * degrees / 360.0),
-                     {},
-                     0.0,
-                     degrees == 60 ? "measured; [HHM04] VI: 1 %" : "measured; [HHM04] VI: 5 %"});
+                session.measure(
+                    fmt::format("{}_angular_momentum_lost_at_{}_degrees", runs[k].label, degrees),
+                    lost_after(runs[k].history, p.turn() * degrees / 360.0),
+                    degrees == 60 ? "measured; [HHM04] VI: 1 %" : "measured; [HHM04] VI: 5 %");
         check_better(session, p, runs[1], runs[2], 0.62, 0.1,
                      "[HHM04] VI: the lattice persists better");
     }
@@ -161,9 +159,9 @@ void draw_figure(Session& session, const Parameters& p, const std::vector<Hexago
     for (const Panel& panel : layout.panels) {
         if (panel.hexagon >= runs.size()) continue;  // interrupted
         const Hexagon& hexagon = hexagons[panel.hexagon];
-        for (const Sight& sight : hexagon.sights)
-            if (std::abs(sight.wanted - panel.turns * p.turn()) < 1e-6 * p.turn())
-                panels.push_back(sight.panel(panel.title, hexagon.model->particles()));
+        for (const NearestState& state : hexagon.drawn)
+            if (std::abs(state.wanted - panel.turns * p.turn()) < 1e-6 * p.turn())
+                panels.push_back(speed_panel(panel.title, *hexagon.model, state));
     }
     session.note_drawn(draw_configurations(
         session.plots_folder(), fmt::format("figure_{}", figure),

@@ -2,7 +2,7 @@
 // What the parts of rotating_hexagon share.
 #pragma once
 
-#include <spam/problem/sight.hpp>
+#include <spam/problem/nearest_state.hpp>
 #include <spam/spam.hpp>
 
 #include <numbers>
@@ -42,8 +42,8 @@ struct Parameters {
 struct Hexagon {
     std::string label;
     std::string title;
-    std::unique_ptr<Model<2>> model;
-    std::vector<Sight> sights{};
+    std::shared_ptr<Model<2>> model;
+    std::vector<NearestState> drawn{};  ///< in pictures
 };
 
 Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,

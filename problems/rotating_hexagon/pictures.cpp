@@ -10,14 +10,14 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
           const std::vector<RunRecord>& runs) {
     const auto folder = session.plots_folder();
     std::vector<ConfigurationPanel> panels;
-    for (std::size_t s = 0; s < hexagons.front().sights.size(); ++s)
+    for (std::size_t s = 0; s < hexagons.front().drawn.size(); ++s)
         for (std::size_t k = 0; k < runs.size(); ++k) {
-            const Sight& sight = hexagons[k].sights[s];
-            const std::string angle = sight.wanted == p.turn() / 3.0
+            const NearestState& state = hexagons[k].drawn[s];
+            const std::string angle = state.wanted == p.turn() / 3.0
                                           ? std::string("2π/3")
-                                          : fmt::format("{:.3g} turn", sight.t / p.turn());
-            panels.push_back(sight.panel(fmt::format("{}, {}", hexagons[k].title, angle),
-                                         hexagons[k].model->particles()));
+                                          : fmt::format("{:.3g} turn", state.t / p.turn());
+            panels.push_back(speed_panel(fmt::format("{}, {}", hexagons[k].title, angle),
+                                         *hexagons[k].model, state));
         }
     session.note_drawn(draw_configurations(
         folder, "configurations",

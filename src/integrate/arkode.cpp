@@ -17,43 +17,57 @@
 
 namespace spam {
 
-#if SUNDIALS_VERSION_MAJOR >= 7
-#define SPAM_ARKODE_CALL(name) decltype(&ARKode##name)
-#else
-#define SPAM_ARKODE_CALL(name) decltype(&ERKStep##name)
-#endif
+// The calls in use, each named once: ours and ARKODE's.
+#define SPAM_ARKODE_CALLS(X)                   \
+    X(evolve, Evolve)                          \
+    X(reset, Reset)                            \
+    X(free, Free)                              \
+    X(set_user_data, SetUserData)              \
+    X(set_tolerances, SVtolerances)            \
+    X(set_fixed_step, SetFixedStep)            \
+    X(set_init_step, SetInitStep)              \
+    X(set_stop_time, SetStopTime)              \
+    X(set_min_step, SetMinStep)                \
+    X(set_max_step, SetMaxStep)                \
+    X(set_safety, SetSafetyFactor)             \
+    X(set_most_rejections, SetMaxErrTestFails) \
+    X(rejected, GetNumErrTestFails)            \
+    X(last_step, GetLastStep)                  \
+    X(current_step, GetCurrentStep)            \
+    X(local_errors, GetEstLocalErrors)         \
+    X(weights, GetErrWeights)
+
 struct Arkode::Calls {
-    SPAM_ARKODE_CALL(Evolve) evolve;
-    SPAM_ARKODE_CALL(Reset) reset;
-    SPAM_ARKODE_CALL(Free) free;
-    SPAM_ARKODE_CALL(SetUserData) set_user_data;
-    SPAM_ARKODE_CALL(SVtolerances) set_tolerances;
-    SPAM_ARKODE_CALL(SetFixedStep) set_fixed_step;
-    SPAM_ARKODE_CALL(SetInitStep) set_init_step;
-    SPAM_ARKODE_CALL(SetStopTime) set_stop_time;
-    SPAM_ARKODE_CALL(SetMinStep) set_min_step;
-    SPAM_ARKODE_CALL(SetMaxStep) set_max_step;
-    SPAM_ARKODE_CALL(SetSafetyFactor) set_safety;
-    SPAM_ARKODE_CALL(SetMaxErrTestFails) set_most_rejections;
-    SPAM_ARKODE_CALL(GetNumErrTestFails) rejected;
-    SPAM_ARKODE_CALL(GetLastStep) last_step;
-    SPAM_ARKODE_CALL(GetCurrentStep) current_step;
-    SPAM_ARKODE_CALL(GetEstLocalErrors) local_errors;
-    SPAM_ARKODE_CALL(GetErrWeights) weights;
-    decltype(&set_arkode_controller) set_controller;
-#if SUNDIALS_VERSION_MAJOR < 7
-    decltype(&ERKStepSetErrHandlerFn) set_error_handler;
+#if SUNDIALS_VERSION_MAJOR >= 7
+#define SPAM_CALL(ours, theirs) decltype(&ARKode##theirs) ours = &ARKode##theirs;
+    SPAM_ARKODE_CALLS(SPAM_CALL)
+    decltype(&set_arkode_controller) set_controller = &set_arkode_controller;
+
+    static const Calls& of(bool) {
+        static constexpr Calls all;
+        return all;
+    }
+#else
+#define SPAM_CALL(ours, theirs) decltype(&ERKStep##theirs) ours = &ERKStep##theirs;
+    SPAM_ARKODE_CALLS(SPAM_CALL)
+    decltype(&set_erkstep_controller) set_controller = &set_erkstep_controller;
+    decltype(&ERKStepSetErrHandlerFn) set_error_handler = &ERKStepSetErrHandlerFn;
+
+    /// Of ERKStep, or of ARKStep, which runs what ERKStep cannot.
+    static const Calls& of(bool erkstep) {
+        static constexpr Calls erk;
+        static constexpr Calls ark = [] {
+            Calls calls;
+#define SPAM_ARKSTEP(ours, theirs) calls.ours = &ARKStep##theirs;
+            SPAM_ARKODE_CALLS(SPAM_ARKSTEP)
+            calls.set_controller = &set_arkstep_controller;
+            calls.set_error_handler = &ARKStepSetErrHandlerFn;
+            return calls;
+        }();
+        return erkstep ? erk : ark;
+    }
 #endif
 };
-
-namespace {
-// Designated initialisers would name private members of Arkode; the order is that of struct Calls.
-#define SPAM_ARKODE_CALLS(S)                                                              \
-    S##Evolve, S##Reset, S##Free, S##SetUserData, S##SVtolerances, S##SetFixedStep,       \
-        S##SetInitStep, S##SetStopTime, S##SetMinStep, S##SetMaxStep, S##SetSafetyFactor, \
-        S##SetMaxErrTestFails, S##GetNumErrTestFails, S##GetLastStep, S##GetCurrentStep,  \
-        S##GetEstLocalErrors, S##GetErrWeights
-}  // namespace
 
 Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
                const SundialsContext& context)
@@ -72,20 +86,11 @@ Arkode::Arkode(const IntegratorOptions& options, const Ode& ode, Vector& y, doub
 
 /// ARKODE's memory for going on from y at t, as if nothing had been before.
 void Arkode::create() {
-#if SUNDIALS_VERSION_MAJOR >= 7
-    static constexpr Calls erkstep{SPAM_ARKODE_CALLS(ARKode), &set_arkode_controller};
-    static constexpr Calls arkstep = erkstep;
-#else
-    static constexpr Calls erkstep{SPAM_ARKODE_CALLS(ERKStep), &set_erkstep_controller,
-                                   ERKStepSetErrHandlerFn};
-    static constexpr Calls arkstep{SPAM_ARKODE_CALLS(ARKStep), &set_arkstep_controller,
-                                   ARKStepSetErrHandlerFn};
-#endif
     if (memory_ != nullptr) calls_->free(&memory_);
     const SundialsMessages::Scope scope(context_, messages_);
     const Table table = load_table(options_.method);
     erk_ = erkstep_is_right(*table);
-    calls_ = erk_ ? &erkstep : &arkstep;
+    calls_ = &Calls::of(erk_);
     memory_ = erk_ ? ERKStepCreate(&Arkode::rates, t_, y_.get(), context_.get())
                    : ARKStepCreate(&Arkode::rates, nullptr, t_, y_.get(), context_.get());
     if (memory_ == nullptr) throw std::bad_alloc();
@@ -134,7 +139,8 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     ++me.statistics_.rhs_evaluations;
     try {
         me.ode_.rates(t, entries(y), entries(y_dot));
-        if (me.looking_ && me.spoiled_.empty()) me.spoiled_ = me.spoiled_rate(entries(y_dot), t);
+        if (me.checks_rates_ && me.non_finite_.empty())
+            me.non_finite_ = me.non_finite_rate(entries(y_dot), t);
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
         // ends here, before later stages cover the first reason by their own.
         std::string failure = me.ode_.failure();
@@ -147,67 +153,78 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     }
 }
 
-void Arkode::stop(int flag) {
+/// Why a call of evolve came back with this flag. What the rates have thrown goes on from here.
+std::string Arkode::reason_of(int flag) {
     if (error_) std::rethrow_exception(error_);
-    if (failure_.empty() && !spoiled_.empty())
-        throw GuardStop(fmt::format("{} (ARKODE {})", spoiled_, flag));
+    if (failure_.empty() && !non_finite_.empty())
+        return fmt::format("{} (ARKODE {})", non_finite_, flag);
     std::string message = failure_.empty() ? messages_.text() : failure_;
     std::replace(message.begin(), message.end(), '\n', ' ');
     if (flag == ARK_ERR_FAILURE && failure_.empty()) {
-        look_at_errors();
+        estimate_errors();
         double h = 0.0;
         calls_->current_step(memory_, &h);
         message = rejected_too_often(h, options_.min_step, shares_.in_words());
     }
     if (failure_.empty() && is_failed_relaxation(flag))
         message = "no step was found whose rescaling keeps the energy; leave --relaxation out";
-    throw GuardStop(fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag));
+    return fmt::format("{} at t = {:.6g} (ARKODE {})", message, t_, flag);
 }
 
-void Arkode::look_at_errors() {
+void Arkode::estimate_errors() {
     if (ode_.blocks.empty()) return;
     check(calls_->local_errors(memory_, local_error_.get()), "GetEstLocalErrors");
     check(calls_->weights(memory_, weight_.get()), "GetErrWeights");
-    shares_.look(
+    shares_.measure(
         [e = local_error_.span(), w = weight_.span()](std::size_t k) { return e[k] * w[k]; });
 }
 
-/// One step of ARKODE from the last accepted state, into y. Returns the time it reached.
-double Arkode::evolve(double t_stop) {
-    double reached = t_;
-    const SundialsMessages::Scope scope(context_, messages_);
+/// One step of ARKODE from the last accepted state, into y.
+Arkode::Attempt Arkode::attempt(double t_stop) {
     failure_.clear();
-    spoiled_.clear();
+    non_finite_.clear();
     first_step_ = 0.0;
-    double h = dt_.value_or(0.0);
-    if (!dt_) calls_->current_step(memory_, &h);
-    looking_ = looking_ || h == 0.0;  // ARKODE chooses the first step itself
-    const int flag = calls_->evolve(memory_, t_stop, y_.get(), &reached, ARK_ONE_STEP);
-    try {
-        if (flag < 0) stop(flag);
-        if (!spoiled_.empty() && dt_) throw GuardStop(spoiled_);
-        guard(y_.span(), reached);
-    } catch (const GuardStop&) {
-        N_VScale(1.0, accepted_.get(), y_.get());
-        if (!looking_ && failure_.empty()) name_spoiled_rate(h);
-        throw;
-    }
-    looking_ = false;
-    return reached;
+    Attempt step{t_, {}};
+    const int flag = calls_->evolve(memory_, t_stop, y_.get(), &step.reached, ARK_ONE_STEP);
+    if (flag < 0)
+        step.why_not = reason_of(flag);
+    else if (dt_ && !non_finite_.empty())
+        step.why_not = non_finite_;
+    else
+        step.why_not = non_finite_entry(y_.span(), step.reached);
+    return step;
 }
 
-/// Takes the step that failed once more, of length h, and looks at every rate: to do so in every step
-/// would cost a tenth of them. Throws GuardStop where one is not finite.
-void Arkode::name_spoiled_rate(double h) {
-    looking_ = retaking_ = true;
+/// The same for whoever cannot go on without: returns the time it reached, or throws GuardStop with y
+/// as it was. The reason names the rate that was the first not to be finite, where one was.
+double Arkode::evolve(double t_stop) {
+    const SundialsMessages::Scope scope(context_, messages_);
+    double h = dt_.value_or(0.0);
+    if (!dt_) calls_->current_step(memory_, &h);
+    if (h == 0.0) checks_rates_ = true;  // ARKODE chooses the first step itself
+    const Attempt step = attempt(t_stop);
+    if (!step.why_not.empty()) {
+        N_VScale(1.0, accepted_.get(), y_.get());
+        const bool known = checks_rates_ || !failure_.empty();
+        const std::string rate = known ? std::string{} : find_non_finite_rate(h);
+        throw GuardStop(rate.empty() ? step.why_not : rate);
+    }
+    checks_rates_ = false;
+    return step.reached;
+}
+
+/// Takes the step that failed once more, of length h, and checks every rate: to do so in every step would
+/// cost a tenth of them. Empty where all are finite.
+std::string Arkode::find_non_finite_rate(double h) {
+    checks_rates_ = retaking_ = true;
     if (options_.relaxation) relax(false);
     double reached = t_;
     if (calls_->reset(memory_, t_, accepted_.get()) == ARK_SUCCESS &&
         calls_->set_fixed_step(memory_, h) == ARK_SUCCESS)
         calls_->evolve(memory_, t_ + 2.0 * h, y_.get(), &reached, ARK_ONE_STEP);
     N_VScale(1.0, accepted_.get(), y_.get());
-    looking_ = false;
-    if (!spoiled_.empty()) throw GuardStop(spoiled_);
+    checks_rates_ = false;
+    return non_finite_;
 }
 
 /// One step of length h from (from, y), into y_. Returns the time it reached.
@@ -252,8 +269,8 @@ void Arkode::take_piece(double h, double t_next) {
     bool closed = false;
     if (!dt_) {
         calls_->last_step(memory_, &statistics_.last_step);
-        if (worth_a_look()) {
-            look_at_errors();
+        if (errors_due()) {
+            estimate_errors();
             shares_.count(statistics_);
         }
         closed = options_.relaxation && almost_at(t_next, reached);

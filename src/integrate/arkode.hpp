@@ -32,14 +32,20 @@ class Arkode final : public Integrator {
 
     double take_step(double t_stop) override;
     void check(int flag, const char* call) const;
-    [[noreturn]] void stop(int flag);
+    /// What came of a step: where it ended, or why it is none.
+    struct Attempt {
+        double reached;
+        std::string why_not;
+    };
+    Attempt attempt(double t_stop);
+    std::string reason_of(int flag);
     double evolve(double t_stop);
-    void name_spoiled_rate(double h);
+    std::string find_non_finite_rate(double h);
     std::span<const double> retake(double h);
     double take_fixed(double from, const Vector& y, double h);
     void take_piece(double h, double t_next);
     void restart(double h);
-    void look_at_errors();
+    void estimate_errors();
     static int rates(double t, N_Vector y, N_Vector y_dot, void* self);
 
     // arkode_relaxation.cpp
@@ -75,9 +81,9 @@ class Arkode final : public Integrator {
     KeptController controller_;
     void* memory_ = nullptr;
     SundialsMessages messages_;
-    std::string failure_;   ///< of the ode, the latest since the last accepted step
-    bool looking_ = false;  ///< for rates that are not finite
-    std::string spoiled_;   ///< the first of them in this step
+    std::string failure_;        ///< of the ode, the latest since the last accepted step
+    bool checks_rates_ = false;  ///< whether they are finite
+    std::string non_finite_;     ///< the first rate in this step that is not
     std::exception_ptr error_;
 };
 

@@ -86,11 +86,11 @@ int Cvode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
     }
 }
 
-void Cvode::look_at_errors() {
+void Cvode::estimate_errors() {
     if (ode_.blocks.empty()) return;
     check(CVodeGetEstLocalErrors(memory_, local_error_.get()), "GetEstLocalErrors");
     check(CVodeGetErrWeights(memory_, weight_.get()), "GetErrWeights");
-    shares_.look(
+    shares_.measure(
         [e = local_error_.span(), w = weight_.span()](std::size_t k) { return e[k] * w[k]; });
 }
 
@@ -100,7 +100,7 @@ void Cvode::stop(int flag) {
     double h = 0.0;
     CVodeGetCurrentStep(memory_, &h);
     if (message.empty() && flag == CV_ERR_FAILURE) {
-        look_at_errors();
+        estimate_errors();
         message = rejected_too_often(h, options_.min_step, shares_.in_words());
     } else if (message.empty() && flag == CV_CONV_FAILURE) {
         message = fmt::format(
@@ -132,8 +132,8 @@ double Cvode::take_step(double t_stop) {
 }
 
 void Cvode::count() {
-    if (worth_a_look()) {
-        look_at_errors();
+    if (errors_due()) {
+        estimate_errors();
         shares_.count(statistics_);
     }
     ++statistics_.steps;

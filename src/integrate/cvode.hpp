@@ -31,7 +31,7 @@ class Cvode final : public Integrator {
     void destroy();
     void check(int flag, const char* call) const;
     [[noreturn]] void stop(int flag);
-    void look_at_errors();
+    void estimate_errors();
     void count();
     static int rates(double t, N_Vector y, N_Vector y_dot, void* self);
 

@@ -20,7 +20,7 @@ class ErrorShares {
 
     /// scaled(k): error of entry k over what is allowed to it.
     template <class Scaled>
-    void look(const Scaled& scaled) {
+    void measure(const Scaled& scaled) {
         squares_ = {};
         largest_ = {};
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -43,10 +43,10 @@ class ErrorShares {
         }
     }
 
-    /// Adds the step looked at, which was accepted, to the statistics.
+    /// Adds the step measured, which was accepted, to the statistics.
     void count(Integrator::Statistics& statistics) const;
 
-    /// ", limited by the velocity" for the step looked at; nothing where nothing is known.
+    /// ", limited by the velocity" for the step measured; nothing where nothing is known.
     std::string in_words() const;
 
   private:

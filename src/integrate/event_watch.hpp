@@ -42,7 +42,7 @@ class EventWatch {
     const std::vector<Event>& events_;
     double t_ = 0.0;  ///< of begin()
     std::span<const double> y_;
-    double whole_ = 0.0;         ///< length of the step looked at last
+    double whole_ = 0.0;         ///< length of the step measured last
     double window_end_ = 0.0;    ///< one step after the first of those counted
     std::size_t in_window_ = 0;  ///< applied since
     double long_window_end_ = 0.0;

@@ -29,7 +29,8 @@ std::span<const double> FixedSteps::guarded(double h) {
     try {
         guard(z_.span(), t_ + h);
     } catch (const GuardStop&) {
-        if (const std::string reason = spoiled(h); !reason.empty()) throw GuardStop(reason);
+        if (const std::string reason = non_finite_stage(h); !reason.empty())
+            throw GuardStop(reason);
         throw;
     }
     return z_.span();

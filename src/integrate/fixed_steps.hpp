@@ -23,7 +23,7 @@ class FixedSteps : public Integrator {
     /// What z_ was advanced to last is the state now; begin() comes next.
     virtual void accept() {}
     /// Where advance(h) led to what is not finite: the first rates that were not, in words.
-    virtual std::string spoiled(double) const { return {}; }
+    virtual std::string non_finite_stage(double) const { return {}; }
     /// y is no longer what the method left there: nothing known of it holds.
     virtual void forget() {}
 

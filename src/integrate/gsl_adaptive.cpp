@@ -48,9 +48,9 @@ double GslAdaptive::first_step() {
     return std::max(multistep_ ? 0.01 * h : h, options_.min_step);
 }
 
-void GslAdaptive::look_at_errors() {
+void GslAdaptive::estimate_errors() {
     if (ode_.blocks.empty()) return;
-    shares_.look([&, e = stepper_.error(), z = std::as_const(z_).span()](std::size_t k) {
+    shares_.measure([&, e = stepper_.error(), z = std::as_const(z_).span()](std::size_t k) {
         return e[k] / (options_.rtol * std::abs(z[k]) + ode_.absolute_tolerance[k]);
     });
 }
@@ -63,7 +63,7 @@ void GslAdaptive::reject(bool meaningful, double tried) {
     const std::string reason = ode_.failure();
     if (!reason.empty()) throw GuardStop(fmt::format("{} at t = {:.6g}", reason, t_));
     if (!meaningful) guard(std::as_const(z_).span(), t_ + tried);
-    look_at_errors();
+    estimate_errors();
     throw GuardStop(fmt::format("{} at t = {:.6g} (GSL)",
                                 rejected_too_often(h_, options_.min_step, shares_.in_words()), t_));
 }
@@ -100,8 +100,8 @@ double GslAdaptive::take_step(double t_stop) {
     watch_.begin(t_, std::as_const(y_).span());
     begin();
     const Accepted step = accepted_step(t_stop);
-    if (worth_a_look()) {
-        look_at_errors();
+    if (errors_due()) {
+        estimate_errors();
         shares_.count(statistics_);
     }
     const auto [length, due] = watch_.first_piece(step.length, std::as_const(z_).span(),

@@ -29,7 +29,7 @@ class GslAdaptive final : public Integrator {
     Accepted accepted_step(double t_stop);
     void reject(bool meaningful, double tried);
     std::span<const double> retake(double h);
-    void look_at_errors();
+    void estimate_errors();
 
     IntegratorOptions options_;
     bool multistep_;

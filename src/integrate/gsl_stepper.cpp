@@ -59,10 +59,10 @@ bool GslStepper::attempt(double t, double h, std::span<double> y, const double* 
     const int flag =
         gsl_odeiv2_step_apply(driver_->s, t, h, y.data(), error_.data(), y_dot, nullptr, &system_);
     if (thrown_) std::rethrow_exception(thrown_);
-    double spoiled = 0.0;  // a NaN or an infinity survives in the sum of x - x
-    for (const double e : error_) spoiled += e - e;
-    for (const double value : y) spoiled += value - value;
-    return flag == GSL_SUCCESS && spoiled == 0.0;
+    double not_finite = 0.0;  // a NaN or an infinity survives in the sum of x - x
+    for (const double e : error_) not_finite += e - e;
+    for (const double value : y) not_finite += value - value;
+    return flag == GSL_SUCCESS && not_finite == 0.0;
 }
 
 bool GslStepper::accepts(std::span<const double> y, double& h) {

@@ -15,12 +15,13 @@ std::size_t first_not_finite(std::span<const double> z) {
     // Without branches: a NaN or an infinity survives in the sum of x - x. In many sums, or each
     // addition would wait for the one before.
     constexpr std::size_t sums = 16;
-    double spoiled[sums] = {};
+    double not_finite[sums] = {};
     std::size_t k = 0;
     for (; k + sums <= z.size(); k += sums)
-        for (std::size_t l = 0; l < sums; ++l) spoiled[l] += z[k + l] - z[k + l];
-    for (; k < z.size(); ++k) spoiled[0] += z[k] - z[k];
-    if (std::all_of(spoiled, spoiled + sums, [](double s) { return s == 0.0; })) return z.size();
+        for (std::size_t l = 0; l < sums; ++l) not_finite[l] += z[k + l] - z[k + l];
+    for (; k < z.size(); ++k) not_finite[0] += z[k] - z[k];
+    if (std::all_of(not_finite, not_finite + sums, [](double s) { return s == 0.0; }))
+        return z.size();
     const auto bad = std::find_if(z.begin(), z.end(), [](double x) { return !std::isfinite(x); });
     return static_cast<std::size_t>(bad - z.begin());
 }
@@ -40,14 +41,18 @@ double Integrator::step(double t_stop) {
     return t;
 }
 
-void Integrator::guard(std::span<const double> z, double t) const {
+std::string Integrator::non_finite_entry(std::span<const double> z, double t) const {
     const std::size_t k = first_not_finite(z);
-    if (k == z.size()) return;
-    throw GuardStop(fmt::format("{} became {} at t = {:.6g}; a smaller step may help",
-                                ode_.entry_name(k), what_it_is(z[k]), t));
+    if (k == z.size()) return {};
+    return fmt::format("{} became {} at t = {:.6g}; a smaller step may help", ode_.entry_name(k),
+                       what_it_is(z[k]), t);
 }
 
-std::string Integrator::spoiled_rate(std::span<const double> y_dot, double t) const {
+void Integrator::guard(std::span<const double> z, double t) const {
+    if (auto reason = non_finite_entry(z, t); !reason.empty()) throw GuardStop(reason);
+}
+
+std::string Integrator::non_finite_rate(std::span<const double> y_dot, double t) const {
     const std::size_t k = first_not_finite(y_dot);
     if (k == y_dot.size()) return {};
     return fmt::format("the rate of {} became {} at t = {:.6g}; a smaller step may help",

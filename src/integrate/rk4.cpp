@@ -20,10 +20,10 @@ void Rk4::advance(double h) {
     N_VLinearCombination(5, c.data(), v.data(), z_.get());
 }
 
-std::string Rk4::spoiled(double h) const {
+std::string Rk4::non_finite_stage(double h) const {
     const std::array<double, 4> times{t_, t_ + 0.5 * h, t_ + 0.5 * h, t_ + h};
     for (std::size_t k = 0; k < k_.size(); ++k)
-        if (auto reason = spoiled_rate(k_[k].span(), times[k]); !reason.empty()) return reason;
+        if (auto reason = non_finite_rate(k_[k].span(), times[k]); !reason.empty()) return reason;
     return {};
 }
 

@@ -16,7 +16,7 @@ class Rk4 final : public FixedSteps {
   private:
     void begin() override { rates(t_, y_, k_[0]); }
     void advance(double h) override;
-    std::string spoiled(double h) const override;
+    std::string non_finite_stage(double h) const override;
 
     std::array<Vector, 4> k_;
 };

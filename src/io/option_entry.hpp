@@ -14,6 +14,9 @@ struct Options::Entry {
     bool is_flag = false;
     bool is_text = false;  ///< TOML must give a string
     bool in_case = true;
+    bool has_meaning = true;      ///< in this case
+    bool at_default = true;       ///< as settle() found it
+    std::string default_value;    ///< what get() said before anything was parsed
     bool in_file = false;         ///< set by the file of --config
     bool on_command = false;      ///< set on the command line
     std::function<void()> unset;  ///< back to unset, where that exists

@@ -58,7 +58,8 @@ Options::Entry& Options::add(std::string name, std::string help) {
 
 /// What numbers have in common, whole or not, with a default or without.
 template <class Target>
-void Options::number(std::string name, Target& target, std::string help, Allowed allowed) {
+Options::Added Options::number(std::string name, Target& target, std::string help,
+                               Allowed allowed) {
     constexpr bool whole =
         std::is_same_v<Target, int> || std::is_same_v<Target, std::optional<int>>;
     if (whole) allowed.words = "a whole number, " + allowed.words;
@@ -77,14 +78,15 @@ void Options::number(std::string name, Target& target, std::string help, Allowed
         entry.unset = [&target] { target.reset(); };
         entry.get = [&target] { return target ? fmt::format("{}", *target) : std::string{}; };
     }
+    return {*this, entry.name};
 }
 
-template void Options::number(std::string, double&, std::string, Allowed);
-template void Options::number(std::string, std::optional<double>&, std::string, Allowed);
-template void Options::number(std::string, int&, std::string, Allowed);
-template void Options::number(std::string, std::optional<int>&, std::string, Allowed);
+template Options::Added Options::number(std::string, double&, std::string, Allowed);
+template Options::Added Options::number(std::string, std::optional<double>&, std::string, Allowed);
+template Options::Added Options::number(std::string, int&, std::string, Allowed);
+template Options::Added Options::number(std::string, std::optional<int>&, std::string, Allowed);
 
-void Options::text(std::string name, std::string& target, std::string help) {
+Options::Added Options::text(std::string name, std::string& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = "TEXT";
     entry.allowed = "a text in quotes";
@@ -95,9 +97,10 @@ void Options::text(std::string name, std::string& target, std::string help) {
     };
     if (target.empty()) entry.unset = [&target] { target.clear(); };
     entry.get = [&target] { return target.empty() ? std::string{} : toml_string(target); };
+    return {*this, entry.name};
 }
 
-void Options::flag(std::string name, bool& target, std::string help) {
+Options::Added Options::flag(std::string name, bool& target, std::string help) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.is_flag = true;
     entry.allowed = "true or false";
@@ -108,10 +111,12 @@ void Options::flag(std::string name, bool& target, std::string help) {
     };
     entry.unset = [&target, before = target] { target = before; };
     entry.get = [&target] { return std::string(target ? "true" : "false"); };
+    return {*this, entry.name};
 }
 
-void Options::choice(std::string name, std::vector<std::string> names, std::string help,
-                     std::function<void(std::size_t)> set, std::function<std::size_t()> get) {
+Options::Added Options::choice(std::string name, std::vector<std::string> names, std::string help,
+                               std::function<void(std::size_t)> set,
+                               std::function<std::size_t()> get) {
     Entry& entry = add(std::move(name), std::move(help));
     entry.type = fmt::format("{}", fmt::join(names, "|"));
     entry.allowed = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
@@ -124,6 +129,7 @@ void Options::choice(std::string name, std::vector<std::string> names, std::stri
         set(static_cast<std::size_t>(it - names.begin()));
     };
     entry.get = [names, get = std::move(get)] { return toml_string(names[get()]); };
+    return {*this, entry.name};
 }
 
 void Options::exclude_from_case(const std::vector<std::string>& names) {
@@ -144,21 +150,6 @@ bool Options::given(std::string_view name) const {
         return e->name == name && (e->in_file || e->on_command) &&
                !(e->is_flag && e->get() == "false");
     });
-}
-
-void Options::command_line_wins(const std::vector<std::string>& names,
-                                const std::vector<std::string>& over) {
-    const auto among = [](const auto& entry, const auto& list) {
-        return std::find(list.begin(), list.end(), entry->name) != list.end();
-    };
-    if (std::none_of(entries_.begin(), entries_.end(),
-                     [&](const auto& e) { return among(e, names) && e->on_command; }))
-        return;
-    for (auto& entry : entries_) {
-        if (!among(entry, over) || entry->on_command) continue;
-        entry->in_file = false;
-        if (entry->unset) entry->unset();
-    }
 }
 
 std::string Options::first_given(const std::vector<std::string>& names) const {

@@ -138,12 +138,11 @@ void Options::read_case(const std::string& text_of_case, const std::string& path
     }
 }
 
-std::string Options::case_toml(const std::vector<std::string>& without,
-                               const std::map<std::string, std::string>& chosen) const {
+std::string Options::case_toml(const std::map<std::string, std::string>& chosen) const {
     std::string text = fmt::format(
         "# {}: the resolved case. Run it again with\n#   {} --config FILE\n", program_, program_);
     for (const auto& entry : entries_) {
-        if (std::find(without.begin(), without.end(), entry->name) != without.end()) continue;
+        if (!entry->has_meaning) continue;
         const auto choice = chosen.find(entry->name);
         std::string value = entry->in_case ? entry->get() : "";
         if (value.empty() && choice != chosen.end()) value = choice->second;

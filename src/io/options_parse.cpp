@@ -53,14 +53,14 @@ bool Options::parse(int argc, const char* const* argv) {
     std::vector<std::string> raw(entries_.size());
     std::vector<CLI::Option*> registered;
     for (std::size_t k = 0; k < entries_.size(); ++k) {
-        const Entry& entry = *entries_[k];
+        Entry& entry = *entries_[k];
+        entry.default_value = entry.get();
         CLI::Option* option = nullptr;
         if (entry.is_flag) {
             option = app.add_flag("--" + entry.name, entry.help);
         } else {
             std::string help = entry.help;
-            const std::string standard = entry.get();
-            if (!standard.empty()) help += fmt::format(" [{}]", standard);
+            if (!entry.default_value.empty()) help += fmt::format(" [{}]", entry.default_value);
             option = app.add_option("--" + entry.name, raw[k], help)->type_name(entry.type);
             option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/diagnostics/shape.hpp>
-#include <spam/problem/plan.hpp>
+#include <spam/problem/observer.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -33,7 +33,7 @@ std::string DriftGuard::Exceeded::describe() const {
     return fmt::format("{} changed by {:.3g}, more than the limit {:.3g}", name, change, limit);
 }
 
-std::vector<DriftGuard::Exceeded> DriftGuard::look(const std::vector<Drift>& drifts) {
+std::vector<DriftGuard::Exceeded> DriftGuard::newly_exceeded(const std::vector<Drift>& drifts) {
     std::vector<Exceeded> beyond;
     for (const Drift& drift : drifts) {
         const auto limit = limits_.limit_of(drift);

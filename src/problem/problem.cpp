@@ -47,8 +47,13 @@ Problem::Problem(std::string name, std::string summary, double default_dt)
     options_.flag("smoke", common_.smoke, "run a short version that takes seconds");
     options_.flag("quiet", common_.quiet, "print errors only");
     options_.flag("no-plots", common_.no_plots, "draw no pictures");
-    options_.integer("threads", common_.threads, "threads for the sums over particles",
-                     between(1, 1024));
+    options_
+        .integer(
+            "threads", common_.threads,
+            "threads for the sums over particles; auto: as many as there are cores, where there "
+            "are enough particles to gain by it. Results do not depend on it",
+            between(1, 1024))
+        .or_word("auto");
     options_.number("t-end", common_.t_end, "time at which the run ends", positive());
     options_.number("output-every", common_.output_every, "time between rows of invariants.csv",
                     positive());
@@ -88,22 +93,17 @@ void Problem::add_guard_options() {
     limit("momentum", guard.momentum);
     limit("angular-momentum", guard.angular_momentum);
     limit("energy", guard.energy);
+    const auto& all = guard_option_names();
+    options_.only_when(
+        {all.begin() + 1, all.end()}, {"guard"},
+        [&guard] { return guard.action != DriftAction::off; },
+        "has no meaning with --guard off; use --guard warn or stop");
 }
 
 const std::vector<std::string>& Problem::guard_option_names() {
     static const std::vector<std::string> names{"guard", "limit-momentum", "limit-angular-momentum",
                                                 "limit-energy"};
     return names;
-}
-
-void Problem::refuse_idle_limits() {
-    const auto& all = guard_option_names();
-    const std::vector<std::string> limits(all.begin() + 1, all.end());
-    options_.command_line_wins({"guard"}, limits);
-    if (common_.guard.action != DriftAction::off) return;
-    if (const auto name = options_.first_given(limits); !name.empty())
-        throw InputError(
-            fmt::format("{}: has no meaning with --guard off; use --guard warn or stop", name));
 }
 
 const std::vector<std::string>& Problem::scheme_option_names() {
@@ -148,25 +148,16 @@ void Problem::use_scheme(const Scheme& standard) {
     options_.number("closest-approach", scheme_.closest_approach,
                     "distance at which approaching pairs are reflected; 0 for no reflection",
                     non_negative());
+    options_.only_when(
+        {"balance"}, {"angular-momentum"},
+        [this] { return scheme_.angular_momentum != AngularMomentum::free; },
+        "has no meaning with --angular-momentum free; it needs gauss, "
+        "torque_particle or torque_pair");
+    options_.only_when(
+        {"gauss-singular"}, {"angular-momentum"},
+        [this] { return scheme_.angular_momentum == AngularMomentum::gauss; },
+        "has a meaning with --angular-momentum gauss only");
     options_.group("Problem");
-}
-
-/// Scheme options without effect: refused where given (no option may silently do nothing), else left
-/// out of case.toml.
-std::vector<std::string> Problem::idle_scheme_options() {
-    options_.command_line_wins({"angular-momentum"}, {"balance", "gauss-singular"});
-    std::vector<std::string> idle;
-    const auto add = [&](const char* option, const char* needs) {
-        if (options_.given(option))
-            throw InputError(
-                fmt::format("{}: has no meaning with --angular-momentum {}; it needs {}", option,
-                            to_string(scheme_.angular_momentum), needs));
-        idle.emplace_back(option);
-    };
-    if (scheme_.angular_momentum == AngularMomentum::free)
-        add("balance", "gauss, torque_particle or torque_pair");
-    if (scheme_.angular_momentum != AngularMomentum::gauss) add("gauss-singular", "gauss");
-    return idle;
 }
 
 int Problem::main(int argc, char** argv, const std::function<void(Session&)>& body) {
@@ -183,12 +174,10 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         if (!options_.parse(argc, argv)) return 0;
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
-        const auto idle = idle_scheme_options();
-        refuse_idle_limits();
+        options_.settle();
         const IntegratorOptions integrator = integrator_.resolve(options_);
-        start_threads(common_.threads);
+        start_threads(common_.threads.value_or(1));
         Session session(*this, integrator, command);
-        session.leave_out_of_case(idle);
         try {
             body(session);
         } catch (const DryRunDone&) {

@@ -20,8 +20,8 @@ class Recorder {
     /// `folder`: null for rows in memory only.
     Recorder(const Model<Dim>& model, const Plan<Dim>& plan, const RunFolder* folder)
         : model_(model),
-          plan_(plan),
           bodies_(model.particles().bodies()),
+          columns_(columns_of(plan)),
           history_(names()) {
         if (folder != nullptr) csv_.emplace(*folder / "invariants.csv", history_.names());
     }
@@ -43,7 +43,7 @@ class Recorder {
                 L.resize(static_cast<std::size_t>(bodies_));  // the columns of the start
                 row.insert(row.end(), L.begin(), L.end());
             }
-        for (const auto& column : plan_.columns) row.push_back(column.measure(model_, y));
+        for (const auto& column : columns_) row.push_back(column.measure(model_, y));
         if (csv_) csv_->add(row);
         history_.add(std::move(row));
         scales_.add(t, measure_scales(model_, y));
@@ -84,6 +84,13 @@ class Recorder {
     }
 
   private:
+    static std::vector<Column<Dim>> columns_of(const Plan<Dim>& plan) {
+        std::vector<Column<Dim>> all;
+        for (const auto& one : plan.observers)
+            all.insert(all.end(), one.columns.begin(), one.columns.end());
+        return all;
+    }
+
     /// Whether externals give something that is recorded.
     bool accounts() const { return model_.layout().has(Field::work); }
 
@@ -105,13 +112,13 @@ class Recorder {
         if (Dim == 2 && bodies_ > 1)
             for (int b = 1; b <= bodies_; ++b)
                 result.push_back(fmt::format("angular_momentum_body_{}", b));
-        for (const auto& column : plan_.columns) result.push_back(column.name);
+        for (const auto& column : columns_) result.push_back(column.name);
         return result;
     }
 
     const Model<Dim>& model_;
-    const Plan<Dim>& plan_;
     std::int32_t bodies_;
+    std::vector<Column<Dim>> columns_;  ///< of the observers
     History history_;
     std::optional<CsvWriter> csv_;
     DriftScales scales_;

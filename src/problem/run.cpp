@@ -13,14 +13,14 @@ namespace spam {
 template <int Dim>
 Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
     : one_(one),
-      promise_limit_(promise_limit(options, one.model)),
-      motion_(one.model, one.y0, options),
-      recorder_(one.model, one.plan, folder),
+      promise_limit_(promise_limit(options, *one.model)),
+      motion_(*one.model, one.y0, options),
+      recorder_(*one.model, one.plan, folder),
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
     one.y0 = {};  // the motion holds it from now on
     record_.label = one.label;
-    record_.statistics.particles = one.model.particles().size();
+    record_.statistics.particles = one.model->particles().size();
     if (folder != nullptr) events_ = *folder / "events.csv";
 }
 
@@ -48,7 +48,8 @@ void Run<Dim>::snapshot(double t, const Watchers& watchers) {
     if (!snapshot_times_.empty() && snapshot_times_.back() == t) return;
     snapshot_times_.push_back(t);
     if (watchers.snapshot) watchers.snapshot(t);
-    if (one_.plan.on_snapshot) one_.plan.on_snapshot(t, one_.model, motion_.y());
+    for (const Observer<Dim>& observer : one_.plan.observers)
+        if (observer.on_snapshot) observer.on_snapshot(t, *one_.model, motion_.y());
 }
 
 template <int Dim>
@@ -62,12 +63,13 @@ void Run<Dim>::remember_records(Archive& archive) {
         seconds_before_ = so_far;
         pairs_before_ = pairs - motion_.pair_interactions();
     }
-    if (one_.plan.memory) one_.plan.memory(archive);
+    for (const Observer<Dim>& observer : one_.plan.observers)
+        if (observer.memory) observer.memory(archive);
 }
 
 template <int Dim>
 CaseMemory Run<Dim>::memory() {
-    CaseMemory memory = case_memory<Dim>(one_.model, motion_.y(), motion_.t());
+    CaseMemory memory = case_memory<Dim>(*one_.model, motion_.y(), motion_.t());
     memory.label = one_.label;
     Archive motion, records;
     motion_.remember(motion);
@@ -79,7 +81,7 @@ CaseMemory Run<Dim>::memory() {
 
 template <int Dim>
 void Run<Dim>::recall(const CaseMemory& memory) {
-    const auto y = state_of(memory, one_.model);
+    const auto y = state_of(memory, *one_.model);
     motion_.edit([&](std::span<double> now) {
         std::copy(y.begin(), y.end(), now.begin());
         return true;
@@ -114,7 +116,7 @@ void Run<Dim>::rewrite_events() {
 
 template <int Dim>
 void Run<Dim>::watch(double t, const Watchers& watchers) {
-    for (const Remark& remark : one_.model.watch(t, motion_.y())) {
+    for (const Remark& remark : one_.model->watch(t, motion_.y())) {
         remember(t, remark);
         if (watchers.remark) watchers.remark(t, remark);
         if (remark.stop)
@@ -133,7 +135,7 @@ void Run<Dim>::guard(double t, const Watchers& watchers) {
                                             name, t));
     }
     if (guard_.action() == DriftAction::off) return;
-    for (const auto& beyond : guard_.look(recorder_.latest_drifts(promise_limit_))) {
+    for (const auto& beyond : guard_.newly_exceeded(recorder_.latest_drifts(promise_limit_))) {
         remember(t, {beyond.name + " beyond its limit", beyond.change});
         const std::string text = fmt::format("{} at t = {:.6g}", beyond.describe(), t);
         if (guard_.action() == DriftAction::stop) throw GuardStop(text);
@@ -177,6 +179,16 @@ void Run<Dim>::complete() {
 }
 
 template <int Dim>
+bool Run<Dim>::revise(double t) {
+    return motion_.edit([&](std::span<double> y) {
+        bool changed = false;
+        for (const Observer<Dim>& observer : one_.plan.observers)
+            if (observer.revise && observer.revise(t, *one_.model, y)) changed = true;
+        return changed;
+    });
+}
+
+template <int Dim>
 std::string Run<Dim>::drive(const Watchers& watchers) {
     const Plan<Dim>& plan = one_.plan;
     Observers observers;
@@ -184,6 +196,8 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         const auto& rows = recorder_.history().rows();
         if (!rows.empty() && rows.back().front() == t) return;
         recorder_.add(t, statistics().last_step, motion_.y());
+        for (const Observer<Dim>& observer : plan.observers)
+            if (observer.on_row) observer.on_row(t, *one_.model, motion_.y());
         guard(t, watchers);
     };
     observers.snapshot = [&](double t) { snapshot(t, watchers); };
@@ -193,11 +207,12 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         watch(t, watchers);
         if (watchers.step) watchers.step(t);
     };
-    if (plan.revise)
-        observers.revise = [&](double t) {
-            return motion_.edit([&](std::span<double> y) { return plan.revise(t, one_.model, y); });
-        };
-    if (plan.enough) observers.enough = [&](double) { return plan.enough(recorder_.history()); };
+    if (plan.may_change()) observers.revise = [&](double t) { return revise(t); };
+    observers.enough = [&](double) {
+        return std::any_of(plan.observers.begin(), plan.observers.end(), [&](const auto& one) {
+            return one.enough && one.enough(recorder_.history());
+        });
+    };
 
     std::string reason;
     try {

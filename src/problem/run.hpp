@@ -60,6 +60,7 @@ class Run {
     void rewrite_events();
     std::vector<RunStatistics::Limit> limits() const;
     void guard(double t, const Watchers& watchers);
+    bool revise(double t);
     void complete();
     std::size_t pair_interactions() const { return pairs_before_ + motion_.pair_interactions(); }
 

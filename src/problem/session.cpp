@@ -2,7 +2,7 @@
 #include "checkpoint.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
-#include <spam/core/parallel.hpp>
+#include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
 
@@ -24,6 +24,8 @@ constexpr const char* last_checkpoint = "checkpoint_last.h5";
 Session::Session(Problem& problem, const IntegratorOptions& integrator, std::string command)
     : problem_(problem),
       integrator_(integrator),
+      threads_(problem.common_.threads.value_or(1)),
+      chooses_threads_(!problem.common_.threads),
       command_(std::move(command)),
       terminal_(problem.common_.quiet),
       memory_(std::make_unique<SessionMemory>()) {
@@ -40,8 +42,16 @@ void Session::prefer_step(double dt) {
     if (problem_.integrator_.prefer_step(dt, problem_.options_)) integrator_.dt = dt;
 }
 
-void Session::leave_out_of_case(const std::vector<std::string>& names) {
-    left_out_.insert(left_out_.end(), names.begin(), names.end());
+/// As many as gain by it, of those that can be had, where none were asked for.
+void Session::choose_threads(std::size_t particles) {
+    if (!chooses_threads_) return;
+    const int wanted = worthwhile_threads(particles, usable_cores());
+    if (wanted <= threads_) return;
+    try {
+        start_threads(wanted);
+        threads_ = wanted;
+    } catch (const InputError&) {  // nobody asked for them
+    }
 }
 
 /// The folder comes into being with the first run: everything before may still be refused.
@@ -53,7 +63,7 @@ void Session::open_folder() {
         folder_.emplace(problem_.common_.out, problem_.common_.force);
     terminal_.log_to(*folder_ / "run.log");
     describe_environment();
-    memory_->case_toml = problem_.options_.case_toml(left_out_);
+    memory_->case_toml = problem_.options_.case_toml();
     write_case_file();
 }
 
@@ -81,7 +91,7 @@ std::string Session::case_file() const {
         else
             different += fmt::format("# {} of the cases, in order:{}\n", name, all);
     }
-    return problem_.options_.case_toml(left_out_, chosen) + different;
+    return problem_.options_.case_toml(chosen) + different;
 }
 
 void Session::write_case_file() { folder_->write("case.toml", case_file()); }
@@ -94,9 +104,8 @@ void Session::describe_environment() {
     terminal_.say(fmt::format("built       spam {}, SUNDIALS {}, Eigen {}.{}.{}, compiler {}",
                               version(), sundials_version(), EIGEN_WORLD_VERSION,
                               EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
-    terminal_.say(fmt::format("machine     {}, {} thread{}, {}", host.data(),
-                              problem_.common_.threads, problem_.common_.threads == 1 ? "" : "s",
-                              to_string(instruction_set())));
+    terminal_.say(fmt::format("machine     {}, {} thread{}, {}", host.data(), threads_,
+                              threads_ == 1 ? "" : "s", to_string(instruction_set())));
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
     const SessionMemory* earlier = problem_.earlier_.get();
     if (earlier == nullptr) return;
@@ -157,7 +166,16 @@ void Session::save_last(std::size_t number, CaseMemory&& state) {
     std::swap(memory_->cases[number], state);
 }
 
+void Session::measure(std::string name, double value, std::string source) {
+    check({std::move(name), value, {}, 0.0, std::move(source)});
+}
+
 void Session::check(Check check) { checks_.push_back(std::move(check)); }
+
+void Session::claim(Check check, bool known) {
+    if (known) return this->check(std::move(check));
+    measure(std::move(check.name), check.value);
+}
 
 void Session::check_promises(const RunRecord& record, const std::string& prefix) {
     std::erase_if(promised_, [&](const Promised& one) { return one.label == record.label; });

@@ -104,7 +104,7 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
 template <int Dim>
 void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
     for (const auto& one : cases)
-        if (one.model.particles().bodies() > 1 || one.plan.revise) return;
+        if (one.model->particles().bodies() > 1 || one.plan.may_change()) return;
     if (given("balance"))
         throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
@@ -114,7 +114,7 @@ void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
 template <int Dim>
 void Session::refuse_unstable(const Case<Dim>& one) const {
     constexpr double limit = 2.785;
-    const double rate = one.model.fastest_damping();
+    const double rate = one.model->fastest_damping();
     if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
     const auto name = problem_.options_.first_given({"damping", "viscosity", "conductivity"});
     throw InputError(fmt::format(
@@ -125,14 +125,14 @@ void Session::refuse_unstable(const Case<Dim>& one) const {
 
 template <int Dim>
 void Session::describe(const Case<Dim>& one) {
-    const auto& particles = one.model.particles();
-    const Promises p = one.model.promises();
+    const auto& particles = one.model->particles();
+    const Promises p = one.model->promises();
     terminal_.say("");
     if (!one.label.empty()) terminal_.say(fmt::format("case        {}", one.label));
     terminal_.say(fmt::format("particles   {} in {} bod{}, {} numbers in y", particles.size(),
                               particles.bodies(), particles.bodies() == 1 ? "y" : "ies",
-                              one.model.layout().size()));
-    terminal_.say(fmt::format("model       {}", one.model.describe()));
+                              one.model->layout().size()));
+    terminal_.say(fmt::format("model       {}", one.model->describe()));
     terminal_.say(fmt::format("promise     mass {}, momentum {}, angular momentum {}, energy {}",
                               to_string(p.mass), to_string(p.momentum),
                               to_string(p.angular_momentum), to_string(p.energy)));
@@ -142,7 +142,7 @@ void Session::describe(const Case<Dim>& one) {
         fmt::format("checkpoints every {:.6g}, and at the end", one.plan.checkpoint_every));
     terminal_.say(fmt::format(
         "guard       {}",
-        one.plan.guard.describe(drifts_at_start(p, Dim, promise_limit(integrator_, one.model)))));
+        one.plan.guard.describe(drifts_at_start(p, Dim, promise_limit(integrator_, *one.model)))));
     for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
                                          std::pair{"snapshot-every", one.plan.snapshot_every}})
         if (given(name) && interval > one.plan.t_end)
@@ -151,7 +151,7 @@ void Session::describe(const Case<Dim>& one) {
                 name, interval));
     if (integrator_.adaptive()) {
         std::string tolerances;
-        for (const auto& block : one.model.layout().blocks())
+        for (const auto& block : one.model->layout().blocks())
             if (block.field.role() == Role::integrated)
                 tolerances +=
                     fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", block.field.name(),
@@ -163,7 +163,7 @@ void Session::describe(const Case<Dim>& one) {
 template <int Dim>
 RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan) {
     std::vector<Case<Dim>> cases;
-    cases.push_back({model, std::move(y0), std::move(plan)});
+    cases.push_back({kept_elsewhere(model), std::move(y0), std::move(plan)});
     return std::move(run_all(std::move(cases)).front());
 }
 
@@ -178,7 +178,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         const SundialsContext context;
         Vector y(numbers, context);
         std::size_t unused = 0;
-        Ode ode = as_ode(one.model, integrator_, unused);
+        Ode ode = as_ode(*one.model, integrator_, unused);
         ode.absolute_tolerance.resize(std::min(numbers, ode.absolute_tolerance.size()));
         make_integrator(integrator_, ode, y, 0.0, context);
     }
@@ -188,6 +188,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         for (const auto& one : cases) describe(one);
         end_dry_run();
     }
+    for (const auto& one : cases) choose_threads(one.model->particles().size());
     {
         const InterruptWatch::Delay delay;
         open_folder();
@@ -213,7 +214,7 @@ void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
             throw InputError(
                 fmt::format("restart: the checkpoint holds the case '{}' in place of '{}'",
                             earlier->label, cases[k].label));
-        state_of(*earlier, cases[k].model);
+        state_of(*earlier, *cases[k].model);
         if (earlier->t > cases[k].plan.t_end)
             throw InputError(
                 fmt::format("t-end: {} lies before the checkpoint's t = {}; give a later "
@@ -295,7 +296,7 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     memory_->cases.emplace_back().label = one.label;
     Run<Dim> run(one, integrator_, &folder);
     run.record().statistics.problem = problem_.name_;
-    SnapshotSeries<Dim> snapshots(folder, one.model);
+    SnapshotSeries<Dim> snapshots(folder, *one.model);
     if (earlier != nullptr)
         resume(run, *earlier, folder, snapshots);
     else

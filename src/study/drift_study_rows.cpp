@@ -115,7 +115,7 @@ std::optional<StudyTable::Row> measure(const Trial<Dim>& trial, const LongRun& r
     plan.t_end = plan.snapshot_every = trial.t_end;
     plan.output_every = trial.t_end / rows_of_run;
     const RunRecord record =
-        run_in_memory<Dim>({*start.model, start.y0, std::move(plan)}, run.options);
+        run_in_memory<Dim>({start.model, start.y0, std::move(plan)}, run.options);
     const RunStatistics& s = record.statistics;
     if (s.stopped.starts_with("signal")) return {};
     const Drifts drifts = drifts_of<Dim>(start, record.history);

@@ -91,11 +91,8 @@ void report_cheapest(Session& session, const std::vector<TrialWords>& trials,
                                                  best->fixed ? "fixed" : "adaptive");
             terminal.say(fmt::format("{:<17}{:<7.0e}{:<42}{:>6.0f}  {:.3g}", trials[t].name, error,
                                      name, least, least / trials[t].t_end));
-            session.check({fmt::format("{}_calls_for_{:.0e}", trials[t].name, error),
-                           least,
-                           {},
-                           0.0,
-                           "fewest: " + name});
+            session.measure(fmt::format("{}_calls_for_{:.0e}", trials[t].name, error), least,
+                            "fewest: " + name);
         }
 }
 
@@ -104,11 +101,8 @@ void report_floor(Session& session, const TrialWords& trial, double smallest, do
     if (trial.rough.empty())
         floor = {floor.name, trial.floor, 0.0, 1e-10, "two references by different methods"};
     session.check(floor);
-    session.check({trial.name + "_decades_of_error",
-                   std::log10(largest / smallest),
-                   {},
-                   0.0,
-                   "measured, of errors that are known"});
+    session.measure(trial.name + "_decades_of_error", std::log10(largest / smallest),
+                    "measured, of errors that are known");
 }
 
 void draw(Session& session, const TrialWords& trial, std::size_t t,

@@ -60,14 +60,15 @@ BOOST_AUTO_TEST_CASE(totals_of_bodies_add_up_to_the_invariants) {
 BOOST_AUTO_TEST_CASE(bodies_join_while_they_can_act_on_each_other) {
     TwoHexagons two(2.5);  // apart by lattice, within the range of 3
     BodyLedger ledger;
-    BOOST_TEST(ledger.look(0.0, two.model, two.y, 0.0));
+    BOOST_TEST(ledger.find_bodies(0.0, two.model, two.y, 0.0));
     BOOST_TEST(two.model.particles().bodies() == 1);
     BOOST_TEST(ledger.entries().size() == 1u);
-    BOOST_TEST(!ledger.look(0.1, two.model, two.y, 0.0));
+    BOOST_TEST(!ledger.find_bodies(0.1, two.model, two.y, 0.0));
 
     two.move_apart(0.3);
-    BOOST_TEST(!ledger.look(1.0, two.model, two.y, 0.2));  // might touch before the next look
-    BOOST_TEST(ledger.look(1.0, two.model, two.y, 0.0));
+    BOOST_TEST(
+        !ledger.find_bodies(1.0, two.model, two.y, 0.2));  // might touch before the next search
+    BOOST_TEST(ledger.find_bodies(1.0, two.model, two.y, 0.0));
     BOOST_TEST(two.model.particles().bodies() == 2);
     const auto& parted = ledger.entries().back();
     BOOST_TEST(parted.t == 1.0);
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(bodies_join_while_they_can_act_on_each_other) {
         BOOST_TEST(parents[0] == 0u);
     }
     two.move_apart(-0.3);
-    BOOST_TEST(ledger.look(2.0, two.model, two.y, 0.0));
+    BOOST_TEST(ledger.find_bodies(2.0, two.model, two.y, 0.0));
     BOOST_TEST(ledger.entries().back().parents[0].size() == 2u);
 }
 
@@ -84,19 +85,19 @@ BOOST_AUTO_TEST_CASE(bodies_that_fly_towards_each_other_come_nearer_twice_as_fas
     for (const double until_next : {0.051, 0.04}) {
         TwoHexagons two(2.5);
         BodyLedger ledger;
-        ledger.look(0.0, two.model, two.y, 0.0);
+        ledger.find_bodies(0.0, two.model, two.y, 0.0);
         two.move_apart(0.3);  // 0.1 out of reach
         const State<2> state(two.model.layout(), two.y);
         for (Eigen::Index i = 0; i < state.velocity().cols(); ++i)
             state.velocity().col(i) << (state.position()(0, i) > 0.0 ? -1.0 : 1.0), 0.0;
-        BOOST_TEST(ledger.look(1.0, two.model, two.y, until_next) == (until_next < 0.045));
+        BOOST_TEST(ledger.find_bodies(1.0, two.model, two.y, until_next) == (until_next < 0.045));
     }
 }
 
 BOOST_AUTO_TEST_CASE(a_body_that_loses_angular_momentum_is_noticed) {
     TwoHexagons two(4.0);
     BodyLedger ledger;
-    ledger.look(0.0, two.model, two.y, 0.0);
+    ledger.find_bodies(0.0, two.model, two.y, 0.0);
     auto v = State<2>(two.model.layout(), two.y).velocity();
     const double L = ledger.entries().front().bodies[0].angular_momentum;
     for (Eigen::Index i = 0; i < v.cols(); ++i)

@@ -13,7 +13,7 @@ namespace {
 Drift energy(double change) { return {"energy", Promise::integrator_error, change, 1e-6}; }
 
 std::size_t beyond(const DriftLimits& limits, const Drift& drift) {
-    return DriftGuard(limits).look({drift}).size();
+    return DriftGuard(limits).newly_exceeded({drift}).size();
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ BOOST_AUTO_TEST_CASE(what_is_not_promised_has_no_limit_of_its_own) {
 
 BOOST_AUTO_TEST_CASE(a_warning_comes_once_and_a_stop_again_after_a_restart) {
     DriftGuard warns({.action = DriftAction::warn}), stops({.action = DriftAction::stop});
-    BOOST_TEST(warns.look({energy(2e-6)}).size() == 1u);
-    BOOST_TEST(warns.look({energy(3e-6)}).size() == 0u);
-    BOOST_TEST(warns.look({{"mass", Promise::exact, 1e-11, 1e-12}}).size() == 1u);
-    BOOST_TEST(stops.look({energy(2e-6)}).size() == 1u);
-    BOOST_TEST(stops.look({energy(3e-6)}).size() == 1u);
+    BOOST_TEST(warns.newly_exceeded({energy(2e-6)}).size() == 1u);
+    BOOST_TEST(warns.newly_exceeded({energy(3e-6)}).size() == 0u);
+    BOOST_TEST(warns.newly_exceeded({{"mass", Promise::exact, 1e-11, 1e-12}}).size() == 1u);
+    BOOST_TEST(stops.newly_exceeded({energy(2e-6)}).size() == 1u);
+    BOOST_TEST(stops.newly_exceeded({energy(3e-6)}).size() == 1u);
 }

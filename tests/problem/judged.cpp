@@ -50,7 +50,7 @@ Case<1> chain_case(PulledChain& chain, const std::string& label = "") {
     Plan<1> plan;
     plan.t_end = 2.0;
     plan.output_every = 1.0;
-    return {chain, std::move(y0), std::move(plan), label};
+    return {kept_elsewhere<1>(chain), std::move(y0), std::move(plan), label};
 }
 
 int run(const Scratch& folder, const std::function<void(Session&)>& body) {
@@ -138,16 +138,34 @@ BOOST_AUTO_TEST_CASE(no_result_that_is_no_number) {
         }
 }
 
+BOOST_AUTO_TEST_CASE(claimed_where_it_is_known_and_else_only_measured) {
+    for (const bool known : {true, false}) {
+        const Scratch folder;
+        PulledChain chain(0.0);
+        BOOST_TEST(run(folder, [&](Session& session) {
+                       session.run_all<1>({chain_case(chain)});
+                       session.claim({"two", 2.0, 3.0, 0.5, "the author"}, known);
+                       session.measure("three", 3.0);
+                       // --dt was given.
+                       BOOST_TEST(session.when_default({"t-end", "rtol"}));
+                       BOOST_TEST(!session.when_default({"t-end", "dt"}));
+                   }) == (known ? 1 : 0));
+        const auto results = json_of(folder / "out/result.json");
+        BOOST_TEST(results.at(0).at("source") == (known ? "the author" : "measured"));
+        BOOST_TEST(results.at(0).at("expected").is_null() != known);
+        BOOST_TEST(results.at(1).at("name") == "three");
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_measure_that_is_no_number_leaves_its_cell_empty_and_is_named) {
     const Scratch folder;
     PulledChain chain(0.0);
     auto one = chain_case(chain);
-    one.plan.columns = {
-        {"root",
-         [](const Model<1>&, std::span<const double> y) {
-             return std::sqrt(y[8] - 0.09);  // the speed of the first falls from 0.1
-         }},
-        {"last", [](const Model<1>&, std::span<const double>) { return 1.0; }}};
+    one.plan.record({{"root",
+                      [](const Model<1>&, std::span<const double> y) {
+                          return std::sqrt(y[8] - 0.09);  // the speed of the first falls from 0.1
+                      }},
+                     {"last", [](const Model<1>&, std::span<const double>) { return 1.0; }}});
     BOOST_TEST(run(folder, [&](Session& session) { session.run_all<1>({one}); }) == 0);
     const Csv rows(folder / "out/invariants.csv");
     BOOST_TEST(rows.names.at(7) == "root");

@@ -10,7 +10,7 @@ namespace spam {
 
 /// A periodic solid and a state to start from.
 struct PeriodicSolid {
-    std::unique_ptr<SmoothParticleModel<2>> model;
+    std::shared_ptr<SmoothParticleModel<2>> model;
     std::vector<double> y0;
 };
 

@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+
 namespace spam {
 
 /// Starts as many threads as later sweeps will use, and keeps them. Throws InputError where they cannot
 /// be had: OpenMP itself would end the program.
 void start_threads(int threads);
+
+/// Cores that this process may use: without the second thread of a core, without processors that its
+/// affinity or the quota of its control group (Linux) leave out. At least 1.
+int usable_cores();
+
+/// How many threads are worth starting for sums over so many particles on so many cores.
+int worthwhile_threads(std::size_t particles, int cores);
 
 }  // namespace spam

@@ -138,15 +138,17 @@ class Integrator {
 
   protected:
     virtual double take_step(double t_stop) = 0;
-    /// Throws GuardStop when the state z (about to be accepted at time t) is not finite, or the
-    /// latest rates had no meaning.
+    /// The first number of a state, about to be accepted at time t, that is not finite, in words; empty
+    /// where all are.
+    std::string non_finite_entry(std::span<const double> z, double t) const;
+    /// Throws GuardStop with these words.
     void guard(std::span<const double> z, double t) const;
     /// The first rate that is not finite, in words; empty where all are. The stage that spoils first
     /// knows where it began: later ones have spread it.
-    std::string spoiled_rate(std::span<const double> y_dot, double t) const;
+    std::string non_finite_rate(std::span<const double> y_dot, double t) const;
 
     /// Whether to find out what limited this adaptive step.
-    bool worth_a_look() const { return y_.size() < 8192 || statistics_.steps % 8 == 0; }
+    bool errors_due() const { return y_.size() < 8192 || statistics_.steps % 8 == 0; }
 
     const Ode& ode_;
     Vector& y_;

@@ -36,25 +36,41 @@ class Options {
     /// Heading under which the options added next appear in --help.
     void group(std::string title);
 
+    /// An option just added, for the rules that it comes with (below).
+    class Added {
+      public:
+        Added(Options& options, std::string name) : options_(options), name_(std::move(name)) {}
+        const Added& only_when(std::vector<std::string> by, std::function<bool()> holds,
+                               std::string why) const;
+        const Added& needs(const std::string& other) const;
+        const Added& excludes(std::vector<std::string> others) const;
+        /// `word` stands for no number, which is the default of an optional one.
+        const Added& or_word(const std::string& word) const;
+
+      private:
+        Options& options_;
+        std::string name_;
+    };
+
     // `target` holds the default and receives the value; it must outlive parse().
     // A number is a double or an int, or an optional one without default.
     template <class Target>
-    void number(std::string name, Target& target, std::string help, Allowed allowed);
+    Added number(std::string name, Target& target, std::string help, Allowed allowed);
     template <class Target>
-    void integer(std::string name, Target& target, std::string help, Allowed allowed) {
-        number(std::move(name), target, std::move(help), std::move(allowed));
+    Added integer(std::string name, Target& target, std::string help, Allowed allowed) {
+        return number(std::move(name), target, std::move(help), std::move(allowed));
     }
-    void text(std::string name, std::string& target, std::string help);
-    void flag(std::string name, bool& target, std::string help);
-    void choice(std::string name, std::vector<std::string> names, std::string help,
-                std::function<void(std::size_t)> set, std::function<std::size_t()> get);
+    Added text(std::string name, std::string& target, std::string help);
+    Added flag(std::string name, bool& target, std::string help);
+    Added choice(std::string name, std::vector<std::string> names, std::string help,
+                 std::function<void(std::size_t)> set, std::function<std::size_t()> get);
 
     /// One of an enumeration whose values are named by to_string(Enum).
     template <class Enum>
-    void choice(std::string name, Enum& target, std::vector<Enum> values, std::string help) {
+    Added choice(std::string name, Enum& target, std::vector<Enum> values, std::string help) {
         std::vector<std::string> names;
         for (const Enum v : values) names.emplace_back(to_string(v));
-        choice(
+        return choice(
             std::move(name), std::move(names), std::move(help),
             [&target, values](std::size_t k) { target = values[k]; },
             [&target, values] {
@@ -78,20 +94,41 @@ class Options {
     /// the version was asked for (and printed).
     bool parse(int argc, const char* const* argv);
 
-    /// Where one of `names` was given on the command line, `over` from the file no longer count: a
-    /// case read back can be changed without editing it.
+    // Rules of options that mean nothing in some cases. settle() applies them in their order: what has no
+    // meaning is refused where it was given ("<option>: <why>"), and else is no part of the case. Where
+    // one of the options that decide, `by`, was given on the command line, what a file says of the others
+    // no longer counts: a case read back can be changed without editing it.
+
+    /// `names` have a meaning only where `holds`. An empty `why`: they are never refused.
+    void only_when(std::vector<std::string> names, std::vector<std::string> by,
+                   std::function<bool()> holds, std::string why);
+    /// `names` have a meaning only beside `other`.
+    void need(std::vector<std::string> names, const std::string& other);
+    /// Where `name` was given, it settles what `others` would.
+    void exclude(const std::string& name, std::vector<std::string> others, std::string why = {});
+    /// No more than one of them may be given: each sets `what`. The first one holds where none is.
+    void one_of(const std::vector<std::string>& names, const std::string& what);
+    /// For what is only known later: these are no part of the case.
+    void leave_out(const std::vector<std::string>& names);
+
+    /// Where one of `names` was given on the command line, `over` from the file no longer count.
     void command_line_wins(const std::vector<std::string>& names,
                            const std::vector<std::string>& over);
+
+    /// Applies the rules, once all is parsed.
+    void settle();
+
+    /// Whether every one of `names` has the value that it has when nothing is given. After settle().
+    bool at_default(const std::vector<std::string>& names) const;
 
     /// Whether the user set the option (command line or file).
     bool given(std::string_view name) const;
     /// The first of `names` that the user set; empty if none.
     std::string first_given(const std::vector<std::string>& names) const;
 
-    /// The resolved case as TOML, without the options named. `chosen`: values, as TOML, that the program
-    /// has chosen for options that were left open.
-    std::string case_toml(const std::vector<std::string>& without = {},
-                          const std::map<std::string, std::string>& chosen = {}) const;
+    /// The resolved case as TOML. `chosen`: values, as TOML, that the program has chosen for options that
+    /// were left open.
+    std::string case_toml(const std::map<std::string, std::string>& chosen = {}) const;
 
   private:
     struct Entry;
@@ -100,6 +137,14 @@ class Options {
     bool read_earlier_case(const std::vector<std::string>& raw, bool has_config);
     void refuse_change(const Entry& entry, const std::string& before) const;
     std::vector<std::string> names() const;
+    Entry& entry(std::string_view name) const;
+
+    struct Rule {
+        std::vector<std::string> names, by;
+        std::function<bool()> holds;
+        std::string why;
+        bool mutual = false;  ///< the command line's of either side wins over a file's of the other
+    };
 
     std::string program_, summary_, version_, group_;
     std::string config_;
@@ -109,6 +154,7 @@ class Options {
         std::vector<std::string> may_change;
     } earlier_;
     std::vector<std::unique_ptr<Entry>> entries_;
+    std::vector<Rule> rules_;
 };
 
 }  // namespace spam

@@ -38,7 +38,7 @@ class DriftGuard {
         std::string describe() const;  ///< "energy changed by 1.2e-3, more than the limit 1e-6"
     };
     /// What is beyond its limit now and was not before. A change that is not a number is beyond all.
-    std::vector<Exceeded> look(const std::vector<Drift>& drifts);
+    std::vector<Exceeded> newly_exceeded(const std::vector<Drift>& drifts);
 
     DriftAction action() const { return limits_.action; }
     void remember(Archive& archive) { archive(known_); }

@@ -21,7 +21,7 @@ struct SessionMemory;
 struct CommonOptions {
     std::string out;
     bool force = false, dry_run = false, smoke = false, quiet = false, no_plots = false;
-    int threads = 1;
+    std::optional<int> threads;  ///< unset: as many as gain
     std::optional<double> t_end, output_every, snapshot_every, checkpoint_every;
     std::string restart;
     DriftLimits guard{DriftAction::warn, {}, {}, {}};
@@ -53,8 +53,6 @@ class Problem {
     std::string recall_case(const std::string& name);
     void settle_restart();
     void add_guard_options();
-    std::vector<std::string> idle_scheme_options();
-    void refuse_idle_limits();
 
     std::string name_, summary_;
     IntegratorSettings integrator_;

@@ -33,8 +33,13 @@ class Session {
     /// The step of rk4, where none is given, of a case that needs another one than the problem's.
     void prefer_step(double dt);
 
-    /// Keys that case.toml must not hold (because another option settles them).
-    void leave_out_of_case(const std::vector<std::string>& names);
+    /// Sums in one thread where --threads does not ask for more: for who measures processor time.
+    void prefer_one_thread() { chooses_threads_ = false; }
+
+    /// Keys that case.toml must not hold, where only the body can know (else a rule of Options says so).
+    void leave_out_of_case(const std::vector<std::string>& names) {
+        problem_.options_.leave_out(names);
+    }
 
     /// Runs one case; its results are the result folder itself.
     template <int Dim>
@@ -65,7 +70,16 @@ class Session {
     void evaluate(const std::function<void()>& computation);
 
     /// Something measured, for result.json; printed at the end.
+    void measure(std::string name, double value, std::string source = "measured");
+    /// The same, and what it must be.
     void check(Check check);
+    /// Claimed where `known`, else only measured.
+    void claim(Check check, bool known);
+    /// Whether these options have their default values, and the run is no smoke test: where something is
+    /// known of the default case alone.
+    bool when_default(const std::vector<std::string>& options) const {
+        return !problem_.common_.smoke && problem_.options_.at_default(options);
+    }
     /// Checks that every invariant drifted no more than promised, here and under this prefix. Of runs that
     /// are not given to this the session does so itself at the end, with the label of the case.
     void check_promises(const RunRecord& record, const std::string& prefix = "");
@@ -85,6 +99,7 @@ class Session {
     Session(Problem& problem, const IntegratorOptions& integrator, std::string command);
 
     [[noreturn]] void end_dry_run();
+    void choose_threads(std::size_t particles);
     void open_folder();
     std::string case_file() const;
     void write_case_file();
@@ -125,10 +140,11 @@ class Session {
 
     Problem& problem_;
     IntegratorOptions integrator_;
+    int threads_;
+    bool chooses_threads_;
     std::string command_;
     Terminal terminal_;
     std::optional<RunFolder> folder_;
-    std::vector<std::string> left_out_;
     std::unique_ptr<SessionMemory> memory_;      ///< of the cases begun
     std::optional<CheckpointPair> checkpoints_;  ///< in the folder
     std::vector<Check> checks_;

@@ -12,7 +12,7 @@ namespace spam {
 /// A system ready to go: its equations and the state it starts from.
 template <int Dim>
 struct Start {
-    std::unique_ptr<Model<Dim>> model;
+    std::shared_ptr<Model<Dim>> model;
     std::vector<double> y0;
 };
 

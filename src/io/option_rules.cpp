@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options that mean nothing in some cases: refused where given, else left out of the case.
+#include "option_entry.hpp"
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace spam {
+
+const Options::Added& Options::Added::only_when(std::vector<std::string> by,
+                                                std::function<bool()> holds,
+                                                std::string why) const {
+    options_.only_when({name_}, std::move(by), std::move(holds), std::move(why));
+    return *this;
+}
+
+const Options::Added& Options::Added::needs(const std::string& other) const {
+    options_.need({name_}, other);
+    return *this;
+}
+
+const Options::Added& Options::Added::excludes(std::vector<std::string> others) const {
+    options_.exclude(name_, std::move(others));
+    return *this;
+}
+
+const Options::Added& Options::Added::or_word(const std::string& word) const {
+    Entry& entry = options_.entry(name_);
+    entry.allowed = fmt::format("\"{}\", or {}", word, entry.allowed);
+    entry.is_text = true;
+    entry.set = [&entry, word, number = entry.set](const std::string& text) {
+        try {
+            text == word ? entry.unset() : number(text);
+        } catch (const InputError&) {
+            throw InputError(fmt::format("{}: '{}' must be {}", entry.name, text, entry.allowed));
+        }
+    };
+    entry.get = [word, number = entry.get] {
+        const std::string value = number();
+        return value.empty() ? toml_string(word) : value;
+    };
+    return *this;
+}
+
+Options::Entry& Options::entry(std::string_view name) const {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [name](const auto& e) { return e->name == name; });
+    if (found == entries_.end())
+        throw std::logic_error(fmt::format("there is no option '{}'", name));
+    return **found;
+}
+
+void Options::only_when(std::vector<std::string> names, std::vector<std::string> by,
+                        std::function<bool()> holds, std::string why) {
+    rules_.push_back({std::move(names), std::move(by), std::move(holds), std::move(why)});
+}
+
+void Options::need(std::vector<std::string> names, const std::string& other) {
+    only_when(
+        std::move(names), {other}, [this, other] { return given(other); },
+        fmt::format("has no meaning without --{}; add it, or leave this one out", other));
+}
+
+void Options::exclude(const std::string& name, std::vector<std::string> others, std::string why) {
+    if (why.empty()) why = fmt::format("--{} settles it; leave one out", name);
+    only_when(
+        std::move(others), {name}, [this, name] { return !given(name); }, std::move(why));
+}
+
+void Options::one_of(const std::vector<std::string>& names, const std::string& what) {
+    for (const auto& name : names) {
+        std::vector<std::string> others = names;
+        std::erase(others, name);
+        exclude(name, others, fmt::format("--{} sets {} too; leave one out", name, what));
+        rules_.back().mutual = true;
+    }
+    only_when({names.begin() + 1, names.end()}, {},
+              [this, names] { return !first_given(names).empty(); }, {});
+}
+
+void Options::leave_out(const std::vector<std::string>& names) {
+    for (const auto& name : names) entry(name).has_meaning = false;
+}
+
+void Options::command_line_wins(const std::vector<std::string>& names,
+                                const std::vector<std::string>& over) {
+    if (std::none_of(names.begin(), names.end(),
+                     [this](const auto& name) { return entry(name).on_command; }))
+        return;
+    for (const auto& name : over) {
+        Entry& other = entry(name);
+        if (other.on_command) continue;
+        other.in_file = false;
+        if (other.unset) other.unset();
+    }
+}
+
+void Options::settle() {
+    for (const auto& one : entries_) one->at_default = one->get() == one->default_value;
+    for (const Rule& rule : rules_) {
+        if (rule.mutual) command_line_wins(rule.names, rule.by);
+        if (rule.holds()) continue;
+        command_line_wins(rule.by, rule.names);
+        if (const auto name = first_given(rule.names); !name.empty() && !rule.why.empty())
+            throw InputError(fmt::format("{}: {}", name, rule.why));
+        leave_out(rule.names);
+    }
+}
+
+bool Options::at_default(const std::vector<std::string>& names) const {
+    return std::all_of(names.begin(), names.end(),
+                       [this](const auto& name) { return entry(name).at_default; });
+}
+
+}  // namespace spam
