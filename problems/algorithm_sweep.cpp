@@ -41,16 +41,6 @@ struct Parameters {
     double turn() const { return 2.0 * pi / omega(); }
 };
 
-const std::vector<std::string> columns{"case",           "closest_approach",
-                                       "viscosity",      "density",
-                                       "transport",      "angular_momentum",
-                                       "turns_survived", "end",
-                                       "L_after_turn",   "L_final",
-                                       "energy_change",  "shape_error_after_turn",
-                                       "closest_pair",   "t_end",
-                                       "steps",          "events",
-                                       "promise",        "seconds"};
-
 /// In the order of the paper's list, the last varying fastest.
 std::vector<Scheme> combinations(const Parameters& p) {
     std::vector<Scheme> all;
@@ -77,6 +67,72 @@ std::string broken_promises(const RunRecord& run) {
     return broken.empty() ? "kept" : broken;
 }
 
+/// One combination that was tried.
+struct Trial {
+    const Parameters& p;
+    const Scheme& scheme;
+    RunRecord run;
+
+    const History& history() const { return run.history; }
+    Survival survived() const { return survival(run.history); }
+    double one_turn() const { return std::min(p.turn(), history().last("t")); }
+    /// L(t)/L(0) at the end.
+    double L() const {
+        return history().last("angular_momentum") / history().first("angular_momentum");
+    }
+    double L_after_turn() const {
+        return history().at(one_turn(), "angular_momentum") / history().first("angular_momentum");
+    }
+    std::string end() const {
+        if (!run.statistics.stopped.empty()) return "stopped: " + run.statistics.stopped;
+        // A hexagon that has stopped turning is no success.
+        if (survived().whole && std::abs(L()) < 0.5) return "whole, but L lost";
+        return std::string(survived().end);
+    }
+};
+
+std::string number(double x) { return fmt::format("{:.6g}", x); }
+std::string precise(double x) { return fmt::format("{:.15g}", x); }
+std::string number_or_none(double x) { return x > 0.0 ? number(x) : "none"; }
+
+/// A column of sweep.csv beside the name of the case: what it is called, and what a trial has there.
+struct SweepColumn {
+    const char* name;
+    std::function<std::string(const Trial&)> cell;
+};
+
+const std::vector<SweepColumn> sweep_columns{
+    {"closest_approach", [](const Trial& a) { return number_or_none(a.scheme.closest_approach); }},
+    {"viscosity", [](const Trial& a) { return number_or_none(a.scheme.viscosity); }},
+    {"density", [](const Trial& a) { return std::string(to_string(a.scheme.density)); }},
+    {"transport", [](const Trial& a) { return std::string(to_string(a.scheme.transport)); }},
+    {"angular_momentum",
+     [](const Trial& a) { return std::string(to_string(a.scheme.angular_momentum)); }},
+    {"turns_survived", [](const Trial& a) { return number(a.survived().t / a.p.turn()); }},
+    {"end", [](const Trial& a) { return a.end(); }},
+    {"L_after_turn", [](const Trial& a) { return precise(a.L_after_turn()); }},
+    {"L_final", [](const Trial& a) { return precise(a.L()); }},
+    {"energy_change",
+     [](const Trial& a) {
+         return number(a.history().largest_change("energy") /
+                       std::abs(a.history().first("energy")));
+     }},
+    {"shape_error_after_turn",
+     [](const Trial& a) { return number(a.history().at(a.one_turn(), "shape_error")); }},
+    {"closest_pair", [](const Trial& a) { return number(a.history().smallest("closest_pair")); }},
+    {"t_end", [](const Trial& a) { return number(a.run.statistics.t_end); }},
+    {"steps", [](const Trial& a) { return fmt::format("{}", a.run.statistics.steps); }},
+    {"events", [](const Trial& a) { return fmt::format("{}", a.run.statistics.events); }},
+    {"promise", [](const Trial& a) { return broken_promises(a.run); }},
+    {"seconds",
+     [](const Trial& a) { return fmt::format("{:.2f}", a.run.statistics.wall_seconds); }}};
+
+std::vector<std::string> names_of_columns() {
+    std::vector<std::string> names{"case"};
+    for (const auto& column : sweep_columns) names.emplace_back(column.name);
+    return names;
+}
+
 /// Nothing where a signal interrupted it.
 std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const Scheme& scheme,
                                                      const IntegratorOptions& integrator) {
@@ -92,37 +148,13 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
                   .enough = [&p](const History& h) {
                       return h.last("t") >= 0.999 * p.turn() && !survival(h).whole;
                   }});
-    const RunRecord run =
-        run_in_memory<2>({kept_elsewhere<2>(model), std::move(y0), std::move(plan)}, integrator);
-    const std::string& stopped = run.statistics.stopped;
-    if (stopped.starts_with("signal")) return {};
-
-    const History& h = run.history;
-    const Survival survived = survival(h);
-    const double one_turn = std::min(p.turn(), h.last("t")), L0 = h.first("angular_momentum");
-    const double L = h.last("angular_momentum") / L0;
-    // A hexagon that has stopped turning is no success.
-    const std::string end(survived.whole && std::abs(L) < 0.5 ? "whole, but L lost" : survived.end);
-    const auto number = [](double x) { return fmt::format("{:.6g}", x); };
-    const auto precise = [](double x) { return fmt::format("{:.15g}", x); };
-    return std::vector<std::string>{
-        scheme.closest_approach > 0.0 ? number(scheme.closest_approach) : "none",
-        scheme.viscosity > 0.0 ? number(scheme.viscosity) : "none",
-        std::string(to_string(scheme.density)),
-        std::string(to_string(scheme.transport)),
-        std::string(to_string(scheme.angular_momentum)),
-        number(survived.t / p.turn()),
-        stopped.empty() ? end : "stopped: " + stopped,
-        precise(h.at(one_turn, "angular_momentum") / L0),
-        precise(L),
-        number(h.largest_change("energy") / std::abs(h.first("energy"))),
-        number(h.at(one_turn, "shape_error")),
-        number(h.smallest("closest_pair")),
-        number(run.statistics.t_end),
-        fmt::format("{}", run.statistics.steps),
-        fmt::format("{}", run.statistics.events),
-        broken_promises(run),
-        fmt::format("{:.2f}", run.statistics.wall_seconds)};
+    const Trial trial{
+        p, scheme,
+        run_in_memory<2>({kept_elsewhere<2>(model), std::move(y0), std::move(plan)}, integrator)};
+    if (trial.run.statistics.stopped.starts_with("signal")) return {};
+    std::vector<std::string> cells;
+    for (const auto& column : sweep_columns) cells.push_back(column.cell(trial));
+    return cells;
 }
 
 std::string name_of(const Scheme& s) {
@@ -131,13 +163,13 @@ std::string name_of(const Scheme& s) {
         s.viscosity > 0.0 ? "-viscous" : "", to_string(s.transport), to_string(s.angular_momentum));
 }
 
-double cell(const StudyTable::Row& row, const char* column) {
-    const auto k = std::find(columns.begin(), columns.end(), column) - columns.begin();
-    return std::stod(row[static_cast<std::size_t>(k)]);
+const std::string& words(const StudyTable::Row& row, std::string_view column) {
+    std::size_t k = 0;
+    while (sweep_columns.at(k).name != column) ++k;
+    return row[k + 1];
 }
-const std::string& words(const StudyTable::Row& row, const char* column) {
-    const auto k = std::find(columns.begin(), columns.end(), column) - columns.begin();
-    return row[static_cast<std::size_t>(k)];
+double cell(const StudyTable::Row& row, std::string_view column) {
+    return std::stod(words(row, column));
 }
 
 /// Cells: turns survived, and L after one turn.
@@ -217,7 +249,7 @@ int main(int argc, char** argv) {
         }
         refuse_endless(session.integrator(), p.turns * p.turn());
         StudyTable table = session.begin_study(
-            "sweep", columns,
+            "sweep", names_of_columns(),
             {fmt::format(
                 "{} combinations, hexagon of {} particles, at most {:g} turns, {} at a time",
                 tasks.size(), 1 + 3 * p.size * (p.size + 1), p.turns, p.jobs)});

@@ -131,34 +131,36 @@ void write_mesh(const RunFolder& folder, const Particles<2>& particles, const Re
 void draw(Session& session, const Region& region, const Ruler& ruler, const RunRecord& run,
           const Points<2>& x_0, const Points<2>& x) {
     const auto folder = session.plots_folder();
+    const auto panel = [&](const std::string& title, const Points<2>& at,
+                           std::vector<double> colour) {
+        return ConfigurationPanel{.title = title,
+                                  .position = at,
+                                  .colour = std::move(colour),
+                                  .outlines = {region.polygon()}};
+    };
+    const auto percent = [&](const Points<2>& at) { return 100.0 * scatter(ruler.density(at)); };
+    const auto before = fmt::format("t = 0: density scatter {:.3g} %", percent(x_0));
+    const auto after = fmt::format("t = {:g}: {:.2g} %", run.history.last("t"), percent(x));
     session.note_drawn(draw_configurations(
         folder, "configurations",
         fmt::format("{} particles before and after viscous relaxation", x.cols()),
-        {{fmt::format("t = 0: density scatter {:.3g} %", 100.0 * scatter(ruler.density(x_0))),
-          x_0,
-          ruler.density(x_0),
-          {region.polygon()}},
-         {fmt::format("t = {:g}: {:.2g} %", run.history.last("t"),
-                      100.0 * scatter(ruler.density(x))),
-          x,
-          ruler.density(x),
-          {region.polygon()}}},
-        2, "density"));
+        {panel(before, x_0, ruler.density(x_0)), panel(after, x, ruler.density(x))}, 2, "density"));
     const auto count = ruler.neighbours(x);
-    session.note_drawn(draw_configurations(folder, "neighbours", "Neighbours of particles",
-                                           {{"off the border six, but for defects",
-                                             x,
-                                             std::vector<double>(count.begin(), count.end()),
-                                             {region.polygon()}}},
-                                           1, "nearer than 1.47"));
+    session.note_drawn(draw_configurations(
+        folder, "neighbours", "Neighbours of particles",
+        {panel("off the border six, but for defects", x, {count.begin(), count.end()})}, 1,
+        "nearer than 1.47"));
     const History& h = run.history;
-    const CurvePanel evenness{"evenness",
-                              "t",
-                              "relative standard deviation",
-                              true,
-                              {{"density", h.column("t"), h.column("density_scatter")}}};
-    const CurvePanel motion{
-        "motion", "t", "rms speed", true, {{"speed", h.column("t"), h.column("rms_speed")}}};
+    const CurvePanel evenness{.title = "evenness",
+                              .x_label = "t",
+                              .y_label = "relative standard deviation",
+                              .log_y = true,
+                              .curves = {{"density", h.column("t"), h.column("density_scatter")}}};
+    const CurvePanel motion{.title = "motion",
+                            .x_label = "t",
+                            .y_label = "rms speed",
+                            .log_y = true,
+                            .curves = {{"speed", h.column("t"), h.column("rms_speed")}}};
     session.note_drawn(draw_curves(folder, "relaxation", "Coming to rest", {evenness, motion}));
 }
 

@@ -4,6 +4,7 @@
 #include "entropy.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/image_file.hpp>
+#include <spam/io/snapshot.hpp>
 #include <spam/kernel/weight_integrals.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
@@ -207,13 +208,11 @@ void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<co
     const auto name = [](std::size_t k) { return fmt::format("fields_{:04}", k); };
     write_image(folder, name(gas.field_times.size()), t, gas.model->box(), fields.grid, images);
     gas.field_times.push_back(t);
-    std::string list =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
+    std::vector<std::pair<double, std::string>> files;
     for (std::size_t k = 0; k < gas.field_times.size(); ++k)
         if (std::filesystem::exists(folder / (name(k) + ".vti")))  // not all, where a run went on
-            list += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}.vti\"/>\n",
-                                gas.field_times[k], name(k));
-    folder.write("fields.pvd", list + "  </Collection>\n</VTKFile>\n");
+            files.emplace_back(gas.field_times[k], name(k) + ".vti");
+    write_file_series(folder, "fields", files);
 }
 
 template double step_for<1>(const Parameters&);

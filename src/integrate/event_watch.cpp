@@ -100,10 +100,13 @@ EventWatch::Piece EventWatch::locate(double h, double at_h, const Retake& retake
 }
 
 std::size_t EventWatch::apply(double t, std::span<double> y) {
-    const double least = distance(t, y);
+    // Due is what is within its tolerance, and what is nearest even where the step could be cut no closer.
+    const double nearest = distance(t, y);
     std::size_t happened = 0;
     for (const Event& event : events_) {
-        if (event.distance(t, y) / event.tolerance > std::max(least, 1.0)) continue;
+        const double in_tolerances = event.distance(t, y) / event.tolerance;
+        const bool due = in_tolerances <= std::max(nearest, 1.0);
+        if (!due) continue;
         happened += event.apply(t, y);
         count(t, y.size(), event.name);
     }

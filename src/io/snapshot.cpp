@@ -92,12 +92,17 @@ void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
     const std::string name = snapshot_name(files_.size());
     folder_.write(name, [&](std::ostream& out) { write_snapshot(out, model_, t, y); });
     files_.emplace_back(t, name);
+    write_file_series(folder_, "snapshots", files_);
+}
+
+void write_file_series(const RunFolder& folder, std::string_view name,
+                       const std::vector<std::pair<double, std::string>>& files) {
     std::string list =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
-    for (const auto& [time, file] : files_)
+    for (const auto& [time, file] : files)
         list +=
             fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, file);
-    folder_.write("snapshots.pvd", list + "  </Collection>\n</VTKFile>\n");
+    folder.write(fmt::format("{}.pvd", name), list + "  </Collection>\n</VTKFile>\n");
 }
 
 template class SnapshotSeries<1>;

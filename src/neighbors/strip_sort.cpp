@@ -104,13 +104,7 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
     for (const Int c : count_) bins *= static_cast<std::size_t>(c);
 
     parallel_for(n, [&](std::size_t i) {
-        Int sequence = 0;
-        for (std::size_t a = 0; a < Dim; ++a) {
-            const Int k =
-                bin(a, position(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(i)));
-            sequence = sequence * count_[a] + (sequence % 2 != 0 ? count_[a] - 1 - k : k);
-        }
-        bin_of_[i] = static_cast<std::uint32_t>(sequence);
+        bin_of_[i] = place_in_sequence(position.col(static_cast<Eigen::Index>(i)));
     });
     // A counting sort: start_[b] is where bin b - 1 begins, then, filled, where b begins.
     start_.assign(bins + 2, 0);
@@ -119,26 +113,48 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
     for (std::size_t i = 0; i < n; ++i)
         order_[start_[bin_of_[i] + 1]++] = static_cast<std::uint32_t>(i);
 
-    const auto last = position.row(Dim - 1);
     const auto rows = static_cast<std::size_t>(count_[Dim - 1]);
     parallel_for(bins, [&](std::size_t b) {
-        const double sign = (b / rows) % 2 != 0 ? -1.0 : 1.0;
-        if (start_[b + 1] - start_[b] > 64) {  // flung far apart
-            std::sort(order_.begin() + start_[b], order_.begin() + start_[b + 1],
-                      [&](std::uint32_t i, std::uint32_t j) {
-                          return sign * last[i] < sign * last[j] || (last[i] == last[j] && i < j);
-                      });
-            return;
-        }
-        // Few particles share a bin: insertion.
-        for (std::uint32_t k = start_[b] + 1; k < start_[b + 1]; ++k) {
-            const std::uint32_t moving = order_[k];
-            std::uint32_t to = k;
-            for (; to > start_[b] && sign * last[order_[to - 1]] > sign * last[moving]; --to)
-                order_[to] = order_[to - 1];
-            order_[to] = moving;
-        }
+        const bool downwards = (b / rows) % 2 != 0;
+        sort_bin(b, position, downwards ? -1.0 : 1.0);
     });
+}
+
+/// Bins follow each other as an ox ploughs: every other strip is gone through backwards, so that bins next
+/// to each other in the sequence touch, and so do the particles at its turns.
+template <int Dim>
+std::uint32_t StripSort<Dim>::place_in_sequence(const Point<Dim>& x) const {
+    Int place = 0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+        const Int k = bin(a, x[static_cast<Eigen::Index>(a)]);
+        const bool backwards = place % 2 != 0;
+        place = place * count_[a] + (backwards ? count_[a] - 1 - k : k);
+    }
+    return static_cast<std::uint32_t>(place);
+}
+
+/// The particles of bin b by their last coordinate, upwards where sign = 1, downwards where it is -1; those
+/// at the same one by number.
+template <int Dim>
+void StripSort<Dim>::sort_bin(std::size_t b, const Points<Dim>& position, double sign) {
+    const auto last = position.row(Dim - 1);
+    const std::uint32_t begin = start_[b], end = start_[b + 1];
+    // Bins hold about one particle. Where some have been flung far apart the others may all be in one.
+    constexpr std::uint32_t most_for_insertion = 64;
+    if (end - begin > most_for_insertion) {
+        std::sort(order_.begin() + begin, order_.begin() + end,
+                  [&](std::uint32_t i, std::uint32_t j) {
+                      return sign * last[i] < sign * last[j] || (last[i] == last[j] && i < j);
+                  });
+        return;
+    }
+    for (std::uint32_t k = begin + 1; k < end; ++k) {
+        const std::uint32_t moving = order_[k];
+        std::uint32_t to = k;
+        for (; to > begin && sign * last[order_[to - 1]] > sign * last[moving]; --to)
+            order_[to] = order_[to - 1];
+        order_[to] = moving;
+    }
 }
 
 template <int Dim>

@@ -46,9 +46,7 @@ void Scheme::validate_distances(double spacing) const {
 Promises Scheme::promises(int dim) const {
     Promises p;
     // Gauss' principle lets L go wherever it is singular.
-    if (angular_momentum == AngularMomentum::torque_pair ||
-        angular_momentum == AngularMomentum::torque_particle || dim == 1)
-        p.angular_momentum = Promise::integrator_error;
+    if (balances_torques() || dim == 1) p.angular_momentum = Promise::integrator_error;
     return p;
 }
 

@@ -16,13 +16,14 @@ struct SecondSweeps {
 
     static Sweep<Dim> viscous(const Scheme& scheme) {
         if constexpr (Dim == 2)
-            if (balances(scheme)) return with<ChainRuleContinuity, BalancedStressForce, Viscous>;
+            if (scheme.balances_torques())
+                return with<ChainRuleContinuity, BalancedStressForce, Viscous>;
         return with<ChainRuleContinuity, Viscous>;
     }
     static Sweep<Dim> inviscid(const Scheme& scheme) {
         const bool chain_rule = scheme.density == Density::chain_rule;
         if constexpr (Dim == 2)
-            if (balances(scheme))
+            if (scheme.balances_torques())
                 return chain_rule ? with<ChainRuleContinuity, BalancedStressForce>
                                   : with<BalancedStressForce>;
         return chain_rule ? with<ChainRuleContinuity> : nullptr;

@@ -21,19 +21,9 @@ constexpr double most_pairs = 2e9;
 /// Returns how many particles have moved too far for the list.
 template <int Dim>
 std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_only) {
-    PackInput<Dim> in;
-    in.order = list_.order().data();
-    in.slots = list_.order().size();
-    in.x = fields.x;
-    in.v = fields.v;
-    in.m = fields.m;
-    in.rho = fields.rho;
-    in.sigma = fields.sigma;
-    in.box = &list_.box();
-    in.displacement = list_.displacement();
-    in.stride = stride_;
-    in.mean_density = fields.mean_density;
-    const PackCount count = make_records_(in, density_only, records_.data());
+    const PackCount count =
+        make_records_({fields, list_.order(), &list_.box(), list_.displacement(), stride_},
+                      density_only, records_.data());
     invalid_ = count.invalid;
     return count.far;
 }

@@ -8,14 +8,6 @@
 
 namespace spam {
 
-/// Fields by number of particle, as records are made from them.
-struct PackedFields {
-    const double *x, *v, *m;        ///< v is not read for PointRecord
-    const double* rho = nullptr;    ///< null where it is not part of the state
-    const double* sigma = nullptr;  ///< D(D+1)/2 each
-    MeanDensityKind mean_density = MeanDensityKind::arithmetic;
-};
-
 enum class ListUse { once, again_and_again };
 
 /// The cluster list of a model, and in its order the records that sweeps read. Both follow the

@@ -20,12 +20,6 @@ inline namespace SPAM_LANES {
 
 inline constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
 
-/// Whether torques are balanced, by a second sweep.
-inline bool balances(const Scheme& scheme) {
-    return scheme.angular_momentum == AngularMomentum::torque_pair ||
-           scheme.angular_momentum == AngularMomentum::torque_particle;
-}
-
 /// The sweep that finds, with the transport velocity, the forces or, where torques are balanced, the
 /// torques; and what goes with them. A solid's velocity gradient is found on the way.
 template <class Kind, int Dim, class Mean>
@@ -66,7 +60,7 @@ struct ForceSweeps {
     template <class Make, class Velocity>
     static Sweep<Dim> by_force(const Scheme& scheme, const Make& make, Velocity velocity) {
         if constexpr (Dim == 2)
-            if (balances(scheme)) return make(velocity, TorqueSums{});
+            if (scheme.balances_torques()) return make(velocity, TorqueSums{});
         return make(velocity, StressForce<Dim>{});
     }
 };

@@ -18,7 +18,8 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
         return sweeps;
     sweeps.force = ForceSweeps<LucysSweep, Dim, ArithmeticMean>::solid(scheme);
     if constexpr (Dim == 2)
-        if (balances(scheme) && scheme.density != Density::chain_rule && scheme.viscosity == 0.0) {
+        if (scheme.balances_torques() && scheme.density != Density::chain_rule &&
+            scheme.viscosity == 0.0) {
             sweeps.second =
                 run_sweep<LucysSweep, W, Dim, TransportRecord<Dim>, BalancedStressForce>;
             if (scheme.angular_momentum == AngularMomentum::torque_pair)

@@ -11,6 +11,10 @@
 
 namespace spam {
 
+/// Writes <name>.pvd, a list of files and the times they show, for ParaView. Throws OutputError.
+void write_file_series(const RunFolder& folder, std::string_view name,
+                       const std::vector<std::pair<double, std::string>>& files);
+
 /// Configurations for ParaView: one PolyData file per time, snapshot_0000.vtp, ... (raw appended
 /// data, little endian) and snapshots.pvd, the list of them with their times, complete after every
 /// snapshot. Points are inside the box where it is periodic (those of y are not). Point arrays: id (no two

@@ -51,6 +51,8 @@ class StripSort {
     void choose_bins(const Points<Dim>& position, const Box<Dim>& box);
     double volume_per_particle(const Points<Dim>& position);
     void divide(std::size_t a, double edge);
+    std::uint32_t place_in_sequence(const Point<Dim>& x) const;
+    void sort_bin(std::size_t b, const Points<Dim>& position, double sign);
 
     /// `sequence`: number of the strip so far; in odd ones the next direction runs backwards.
     template <int Axis, class Visit>

@@ -53,6 +53,12 @@ struct Scheme {
 
     Promises promises(int dim) const;
 
+    /// Whether torques of pairs are scaled so that every group keeps its angular momentum.
+    bool balances_torques() const {
+        return angular_momentum == AngularMomentum::torque_pair ||
+               angular_momentum == AngularMomentum::torque_particle;
+    }
+
     /// One line: "density continuity, transport monaghan (arithmetic mean density), ..."
     std::string describe() const;
 

@@ -40,46 +40,28 @@ SPAM_INLINE std::size_t pack_motion(const PackInput<Dim>& in, std::size_t i, dou
     return far;
 }
 
-/// Both numbers of a PackCount from one, `far` in the lower half: fewer than 2^32 particles have slots.
-template <class Body>
-PackCount pack_count(std::size_t slots, const Body& body) {
-    const std::size_t both = parallel_count(slots, body);
-    return {both & 0xffffffffU, both >> 32};
-}
-
 template <int Dim, class R>
 PackCount pack(const PackInput<Dim>& whole, bool density_only, double* records) {
     const PackInput<Dim> in = whole;  // a copy that the stores below cannot be suspected to change
-    const auto motion = [=](std::size_t slot) {
-        return pack_motion<Dim, R>(in, in.order[slot], records + slot * in.stride);
-    };
-    PackCount counted;
-    if constexpr (R::template has<column::Density>) {
-        if (density_only)
-            return pack_count(in.slots, [=](std::size_t slot) {
-                return pack_density<Dim, R>(in, in.order[slot], records + slot * in.stride) << 32;
-            });
-        if (in.rho != nullptr)
-            counted = pack_count(in.slots, [=](std::size_t slot) {
-                const std::size_t i = in.order[slot];
-                double* const record = records + slot * in.stride;
-                return pack_motion<Dim, R>(in, i, record) +
-                       (pack_density<Dim, R>(in, i, record) << 32);
-            });
-        else
-            counted = pack_count(in.slots, motion);
-    } else {
-        if (density_only) return {};
-        counted = pack_count(in.slots, motion);
-    }
-    if (in.box->periodic())
-        parallel_for(in.slots, [=](std::size_t slot) {
+    const bool motion = !density_only, density = in.rho != nullptr;
+    // Both counts in one number, `far` in the lower half: fewer than 2^32 particles have slots.
+    const std::size_t both = parallel_count(in.order.size(), [=](std::size_t slot) {
+        const std::size_t i = in.order[slot];
+        double* const record = records + slot * in.stride;
+        std::size_t far = 0, invalid = 0;
+        if (motion) far = pack_motion<Dim, R>(in, i, record);
+        if constexpr (R::template has<column::Density>)
+            if (density) invalid = pack_density<Dim, R>(in, i, record);
+        return far + (invalid << 32);
+    });
+    if (motion && in.box->periodic())
+        parallel_for(in.order.size(), [=](std::size_t slot) {
             for (int a = 0; a < Dim; ++a) {
                 double& x = records[slot * in.stride + static_cast<std::size_t>(a)];
                 if (in.box->periodic(a)) x = in.box->wrap(a, x);
             }
         });
-    return counted;
+    return {both & 0xffffffffU, both >> 32};
 }
 
 }  // namespace SPAM_LANES

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 /// Sweeps over pairs as functions of one type, whatever they sum: made by run_sweep.hpp in a *.lanes.cpp
@@ -66,18 +67,21 @@ struct SweepOutput {
 template <int Dim>
 using Sweep = void (*)(const SweepInput<Dim>&, const SweepOutput<Dim>&);
 
-/// Fields by number of particle, as records are made from them, and the slots they go to.
+/// Fields by number of particle, as records are made from them.
+struct PackedFields {
+    const double *x, *v, *m;        ///< v is not read for PointRecord
+    const double* rho = nullptr;    ///< null where it is not known yet, or not part of the state
+    const double* sigma = nullptr;  ///< D(D+1)/2 each; null where A is not made of it
+    MeanDensityKind mean_density = MeanDensityKind::arithmetic;
+};
+
+/// The same, and the slots they go to.
 template <int Dim>
-struct PackInput {
-    const std::uint32_t* order;  ///< slot -> particle
-    std::size_t slots;
-    const double *x, *v, *m;
-    const double* rho;    ///< null where it is not known yet
-    const double* sigma;  ///< D(D+1)/2 each; null where A is not made of it
+struct PackInput : PackedFields {
+    std::span<const std::uint32_t> order;  ///< slot -> particle
     const Box<Dim>* box;
     Displacement<Dim> displacement;
     std::size_t stride;
-    MeanDensityKind mean_density;
 };
 
 /// How many particles ...
