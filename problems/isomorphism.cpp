@@ -10,12 +10,11 @@
 //     + + + + +      A square lattice in a periodic box, the same velocities at random in three systems:
 //     + + + + +      the fluid (density summed, pressure, energy integrated), the molecules (forces of
 //     + + + + +      the potential; another model, other sums), and the molecules once more, one of them
-//     + + + + +      moved by `perturbation`. They take the same steps side by side.
+//     + + + + +      moved by `perturbation`. They are parts of one model and take the same steps.
 //
 // Fluid and molecules differ by rounding. In a chaotic system every difference grows like
 // exp(lambda t), lambda the largest Lyapunov exponent: that of rounding as fast as that of the moved
 // molecule.
-#include "isomorphism/side_by_side.hpp"
 #include <spam/diagnostics/fits.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/lucy_gas.hpp>
@@ -33,6 +32,9 @@
 #include <random>
 
 namespace isomorphism {
+
+using namespace spam;
+
 namespace {
 
 enum class Law { both, lucy, embedded_atom };
@@ -60,49 +62,66 @@ Points<2> random_velocities(Eigen::Index n, double speed) {
 
 struct Experiment {
     std::string label, title;
-    std::shared_ptr<SideBySide> model;
+    std::shared_ptr<ParticleModel<2>> model;
     std::vector<double> y0;
 };
 
+/// The same particles three times, one set behind the other.
+Particles<2> three_times(const Particles<2>& one) {
+    const auto n = static_cast<std::int64_t>(one.size());
+    Particles<2> all{.reference_position = one.reference_position.replicate(1, 3),
+                     .spacing = one.spacing};
+    for (const std::int64_t k : {0, 1, 2}) {
+        all.mass.insert(all.mass.end(), one.mass.begin(), one.mass.end());
+        all.body.insert(all.body.end(), one.body.begin(), one.body.end());
+        for (const std::int64_t id : one.id) all.id.push_back(id + k * n);
+    }
+    return all;
+}
+
+/// A fluid and twice its molecules: terms among a third of the particles each.
 Experiment prepare(const Parameters& p, Law law) {
     const double side = p.cells;
     const Box<2> box({side, side});
     const auto particles = make_particles<2>(square_lattice<2>({p.cells, p.cells}), 1.0, 1.0, box);
-    const auto twin = [&]() -> std::unique_ptr<Model<2>> {
-        if (law == Law::lucy)
-            return std::make_unique<PairPotentialModel<2>>(particles, p.range, box);
-        return std::make_unique<DensityPotentialModel<2>>(
-            particles, DensityPotentials{.state = EmbeddedAtom{}, .range = p.range}, box);
-    };
+    const std::size_t n = particles.size();
+    const Scheme scheme{.density = Density::summed, .range = p.range};
     const Fluid matter = law == Law::lucy ? Fluid{LucyGas{}} : Fluid{EmbeddedAtom{}};
-    auto smooth = std::make_unique<FluidModel<2>>(
-        particles, matter, Scheme{.density = Density::summed, .range = p.range}, box);
-    const Points<2> v = random_velocities(particles.reference_position.cols(), p.speed);
-    const auto y_fluid = smooth->state(particles.reference_position, v);
 
-    std::vector<std::unique_ptr<Model<2>>> parts;
-    parts.push_back(std::move(smooth));
-    parts.push_back(twin());
-    parts.push_back(twin());
     Experiment e;
     e.label = to_string(law);
     e.title = law == Law::lucy ? "Lucy gas" : "embedded atoms";
-    e.model = std::make_unique<SideBySide>(std::move(parts));
+    e.model = std::make_shared<ParticleModel<2>>(three_times(particles), box);
+    e.model->add_term_among<SmoothParticles<2>>(fluid * n, n, matter, scheme);
+    for (const std::size_t k : {molecules, moved})
+        if (law == Law::lucy)
+            e.model->add_term_among<LucyPairPotential<2>>(k * n, n, p.range);
+        else
+            e.model->add_term_among<DensityPotentialTerm<2>>(
+                k * n, n, DensityPotentials{.state = EmbeddedAtom{}, .range = p.range});
+
+    const Points<2> x = particles.reference_position;
+    const Points<2> v = random_velocities(x.cols(), p.speed);
+    FluidModel<2> alone(particles, matter, scheme, box);
+    const auto y_fluid = alone.state(x, v);
     e.y0.assign(e.model->layout().size(), 0.0);
-    e.model->set_part(fluid, y_fluid, e.y0);
     const State<2> all(e.model->layout(), e.y0);
-    const auto n = v.cols();
-    for (const Eigen::Index k : {1, 2}) {
-        all.position().middleCols(k * n, n) = particles.reference_position;
-        all.velocity().middleCols(k * n, n) = v;
-    }
-    all.position()(0, 2 * n) += p.perturbation;
+    all.position() = x.replicate(1, 3);
+    all.velocity() = v.replicate(1, 3);
+    all.part(fluid * n, n).energy() = ConstState<2>(alone.layout(), y_fluid).energy();
+    all.part(moved * n, n).position()(0, 0) += p.perturbation;
+    for (const Field field : {Field::position, Field::velocity, Field::energy})
+        e.model->layout().set_scale(field, alone.layout().find(field)->scale);
     return e;
 }
 
+/// sqrt of the mean square distance between the particles of two of the three systems.
 Column<2> separation_column(const char* name, std::size_t a, std::size_t b) {
     return {name, [a, b](const Model<2>& model, std::span<const double> y) {
-                return dynamic_cast<const SideBySide&>(model).separation(a, b, y);
+                const std::size_t n = model.particles().size() / 3;
+                const ConstState<2> all(model.layout(), y);
+                const Points<2> r = all.part(a * n, n).position() - all.part(b * n, n).position();
+                return std::sqrt(r.squaredNorm() / static_cast<double>(n));
             }};
 }
 

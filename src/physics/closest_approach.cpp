@@ -202,21 +202,24 @@ std::size_t ClosestApproach<Dim>::reflect(const Points_& x, Eigen::Ref<Points<Di
 }
 
 template <int Dim>
-Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout) {
+Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
+                             std::size_t first) {
+    const std::size_t count = approach.particles();
     const auto shared = std::make_shared<ClosestApproach<Dim>>(std::move(approach));
+    const auto of = [&layout, first, count](std::span<const double> y) {
+        return ConstState<Dim>(layout, y).part(first, count);
+    };
     Event event;
     event.name = "closest approach";
     event.tolerance = shared->tolerance();
-    event.arm = [shared, &layout](double t, std::span<const double> y) {
-        const ConstState<Dim> state(layout, y);
-        shared->arm(t, state.position(), state.velocity());
+    event.arm = [shared, of](double t, std::span<const double> y) {
+        shared->arm(t, of(y).position(), of(y).velocity());
     };
-    event.distance = [shared, &layout](double t, std::span<const double> y) {
-        const ConstState<Dim> state(layout, y);
-        return shared->distance(t, state.position(), state.velocity());
+    event.distance = [shared, of](double t, std::span<const double> y) {
+        return shared->distance(t, of(y).position(), of(y).velocity());
     };
-    event.apply = [shared, &layout](double, std::span<double> y) {
-        const State<Dim> state(layout, y);
+    event.apply = [shared, &layout, first, count](double, std::span<double> y) {
+        const State<Dim> state = State<Dim>(layout, y).part(first, count);
         return shared->reflect(state.position(), state.velocity());
     };
     event.remember = [shared](Archive& archive) { shared->remember(archive); };
@@ -226,7 +229,7 @@ Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Di
 #define SPAM_INSTANTIATE(D)               \
     template struct ElasticReflection<D>; \
     template class ClosestApproach<D>;    \
-    template Event closest_approach_event(ClosestApproach<D>, const FieldLayout<D>&);
+    template Event closest_approach_event(ClosestApproach<D>, const FieldLayout<D>&, std::size_t);
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)
 SPAM_INSTANTIATE(3)

@@ -16,11 +16,11 @@ namespace spam {
 
 /// sum m e
 template <int Dim>
-double carried_energy(const Model<Dim>& model, std::span<const double> y) {
-    const auto e = ConstState<Dim>(model.layout(), y).energy();
+double carried_energy(const Particles<Dim>& particles, const ConstState<Dim>& state) {
+    const auto e = state.energy();
     CompensatedSum sum;
     for (Eigen::Index i = 0; i < e.cols(); ++i)
-        sum += model.particles().mass[static_cast<std::size_t>(i)] * e(0, i);
+        sum += particles.mass[static_cast<std::size_t>(i)] * e(0, i);
     return sum;
 }
 

@@ -196,9 +196,9 @@ double DensityPotentialTerm<Dim>::Parts::energy(double m, const double* record) 
 }
 
 template <int Dim>
-DensityPotentialTerm<Dim>::DensityPotentialTerm(Model<Dim>& model,
+DensityPotentialTerm<Dim>::DensityPotentialTerm(const Selection<Dim>& among,
                                                 const DensityPotentials& potentials)
-    : Term<Dim>(model),
+    : Term<Dim>(among),
       potentials_(validated(potentials, this->particles())),
       parts_(std::make_unique<Parts>(potentials_)) {
     parts_->packed = packed_with(ListUse::again_and_again);

@@ -68,8 +68,9 @@ template <int Dim>
 OwnRanges<Dim>::~OwnRanges() = default;
 
 template <int Dim>
-OwnRanges<Dim>::OwnRanges(Model<Dim>& model, const Fluid& fluid, const VariableRangeScheme& scheme)
-    : Term<Dim>(model),
+OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
+                          const VariableRangeScheme& scheme)
+    : Term<Dim>(among),
       fluid_(fluid),
       scheme_(scheme),
       unit_(scheme.kernel, 1.0),
@@ -252,7 +253,7 @@ std::vector<double> OwnRanges<Dim>::start(const Points<Dim>& position, const Poi
 
 template <int Dim>
 std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
-    const auto rho = ConstState<Dim>(this->layout(), y).density();
+    const auto rho = this->state_of(y).density();
     std::vector<double> h(range_.size());
     for (std::size_t i = 0; i < h.size(); ++i)
         h[i] = range_of(i, rho(0, static_cast<Eigen::Index>(i)));
@@ -261,7 +262,7 @@ std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
 
 template <int Dim>
 double OwnRanges<Dim>::energy(std::span<const double> y) const {
-    return carried_energy(this->model(), y);
+    return carried_energy(this->particles(), this->state_of(y));
 }
 
 template <int Dim>

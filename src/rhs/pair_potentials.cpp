@@ -38,12 +38,12 @@ PairLaw<Dim> lucys_law(const Particles<Dim>& particles, double range) {
 }  // namespace
 
 template <int Dim>
-Core<Dim>::Core(Model<Dim>& model, const CorePotential& core)
-    : PairTerm<Dim>(model, law_of<Dim>(core)) {}
+Core<Dim>::Core(const Selection<Dim>& among, const CorePotential& core)
+    : PairTerm<Dim>(among, law_of<Dim>(core)) {}
 
 template <int Dim>
-LucyPairPotential<Dim>::LucyPairPotential(Model<Dim>& model, double range)
-    : PairTerm<Dim>(model, lucys_law<Dim>(model.particles(), range)) {}
+LucyPairPotential<Dim>::LucyPairPotential(const Selection<Dim>& among, double range)
+    : PairTerm<Dim>(among, lucys_law<Dim>(among.particles(), range)) {}
 
 template class Core<1>;
 template class Core<2>;

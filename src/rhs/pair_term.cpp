@@ -34,9 +34,9 @@ PairLaw<Dim> validated(PairLaw<Dim> law, std::size_t particles) {
 }  // namespace
 
 template <int Dim>
-PairTerm<Dim>::PairTerm(Model<Dim>& model, PairLaw<Dim> law)
-    : Term<Dim>(model),
-      law_(validated(std::move(law), model.particles().size())),
+PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
+    : Term<Dim>(among),
+      law_(validated(std::move(law), among.particles().size())),
       packed_(packed_with(ListUse::again_and_again)) {}
 
 template <int Dim>

@@ -28,6 +28,7 @@ ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
     for (const auto& other : terms_) {
+        if (!other->among().overlaps(term->among())) continue;
         for (const Field field : term->fields())
             for (const Field taken : other->fields())
                 if (field == taken)
@@ -45,8 +46,9 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 fixed.describe()));
     }
     for (const Field field : term->fields()) this->layout().add(field);
+    whole_ = whole_ && term->among().whole();
     terms_.push_back(std::move(term));
-    if (terms_.size() > 1) more_.resize(Dim * this->particles().size());
+    if (terms_.size() > 1 || !whole_) more_.resize(Dim * this->particles().size());
 }
 
 template <int Dim>
@@ -63,25 +65,35 @@ bool ParticleModel<Dim>::moves_with_velocity() const {
                        [](const auto& term) { return term->moves_with_velocity(); });
 }
 
-/// In their order. The first finds its v_dot in place; what the others find is added.
+/// In their order. The first finds its v_dot in place, where it finds all of it; what the others find is
+/// added. Of particles that not every term acts among, the rates that none finds are zero and x_dot is v.
 template <int Dim>
 bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::span<double> y_dot) {
     const ConstState<Dim> state(this->layout(), y);
     const State<Dim> rate(this->layout(), y_dot);
     double* const v_dot = rate.velocity().data();
     bool moved = false;
+    if (!whole_ || terms_.empty()) {
+        std::fill(y_dot.begin(), y_dot.end(), 0.0);
+        rate.position() = state.velocity();
+        moved = true;
+    }
     for (const auto& term : terms_) {
-        const bool first = term == terms_.front();
-        if (auto reason = term->rates({t, state, rate, first ? v_dot : more_.data()});
+        const Selection<Dim>& among = term->among();
+        const bool in_place = whole_ && term == terms_.front();
+        double* const found = in_place ? v_dot : more_.data() + Dim * among.first();
+        if (auto reason = term->rates({t, among.of(state), among.of(rate), found});
             !reason.empty()) {
             this->fail(y_dot, std::move(reason));
             return false;
         }
-        if (!first) parallel_for(more_.size(), [&](std::size_t k) { v_dot[k] += more_[k]; });
+        if (!in_place) {
+            double* const sum = v_dot + Dim * among.first();
+            parallel_for(Dim * among.count(), [=](std::size_t k) { sum[k] += found[k]; });
+        }
         moved = moved || term->moves();
     }
     if (!moved) rate.position() = state.velocity();
-    if (terms_.empty()) rate.velocity().setZero();
     return true;
 }
 
@@ -172,10 +184,19 @@ double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
 
 template <int Dim>
 std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const {
-    std::vector<double> rho;
-    for (const auto& term : terms_)
-        if (rho.empty()) rho = term->density(y);
-    if (rho.empty()) rho = Model<Dim>::density(y);
+    std::vector<double> rho = Model<Dim>::density(y);
+    std::vector<bool> known(this->particles().size(), !rho.empty()), of_term(known.size(), false);
+    rho.resize(known.size());
+    for (const auto& term : terms_) {
+        const std::size_t first = term->among().first();
+        if (of_term[first]) continue;
+        const auto found = term->density(y);
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            rho[first + k] = found[k];
+            known[first + k] = of_term[first + k] = true;
+        }
+    }
+    if (std::find(known.begin(), known.end(), false) != known.end()) rho.clear();
     if (!rho.empty())
         for (const auto& external : externals_) external->add_density({this->layout(), y}, rho);
     return rho;
@@ -257,9 +278,13 @@ bool ParticleModel<Dim>::smooth() const {
 
 template <int Dim>
 std::size_t ParticleModel<Dim>::pairs() const {
-    std::size_t pairs = 0;
-    for (const auto& term : terms_) pairs = std::max(pairs, term->pairs());
-    return pairs;
+    std::size_t of_all = 0, of_parts = 0;  // terms of the same particles have the same neighbours
+    for (const auto& term : terms_)
+        if (term->among().whole())
+            of_all = std::max(of_all, term->pairs());
+        else
+            of_parts += term->pairs();
+    return of_all + of_parts;
 }
 
 template <int Dim>
@@ -287,7 +312,7 @@ std::vector<Remark> ParticleModel<Dim>::watch(double t, std::span<const double> 
 template <int Dim>
 void ParticleModel<Dim>::set_bodies(std::vector<std::int32_t> bodies) {
     Model<Dim>::set_bodies(std::move(bodies));
-    for (const auto& term : terms_) term->set_bodies();
+    for (const auto& term : terms_) term->bodies_changed();
 }
 
 template <int Dim>
@@ -299,7 +324,8 @@ void ParticleModel<Dim>::remember(Archive& archive) {
 template <int Dim>
 bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
     bool changed = false;
-    for (const auto& term : terms_) changed = term->settle(t, {this->layout(), y}) || changed;
+    for (const auto& term : terms_)
+        changed = term->settle(t, term->among().of(State<Dim>(this->layout(), y))) || changed;
     return changed;
 }
 

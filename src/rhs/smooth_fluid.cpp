@@ -13,14 +13,14 @@ const Fluid& SmoothParticles<Dim>::fluid() const {
 
 template <int Dim>
 std::vector<double> SmoothParticles<Dim>::pressure(std::span<const double> y) const {
-    const auto rho = this->model().density(y);
+    const auto rho = this->densities(y);
     return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
         .pressures(rho, {this->state_of(y).energy().data(), rho.size()});
 }
 
 template <int Dim>
 std::vector<double> SmoothParticles<Dim>::temperature(std::span<const double> y) const {
-    const auto rho = this->model().density(y);
+    const auto rho = this->densities(y);
     return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
         .temperatures(rho, {this->state_of(y).energy().data(), rho.size()});
 }

@@ -35,23 +35,23 @@ template <int Dim>
 SmoothParticles<Dim>::~SmoothParticles() = default;
 
 template <int Dim>
-SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model, std::vector<Material<Dim>> solids,
-                                      const Scheme& scheme)
-    : SmoothParticles(model, solid_constitution<Dim>(model.particles(), std::move(solids)),
+SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
+                                      std::vector<Material<Dim>> solids, const Scheme& scheme)
+    : SmoothParticles(among, solid_constitution<Dim>(among.particles(), std::move(solids)),
                       scheme) {}
 
 template <int Dim>
-SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model, std::vector<Fluid> fluids,
+SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among, std::vector<Fluid> fluids,
                                       const Scheme& scheme)
     : SmoothParticles(
-          model, std::make_unique<FluidConstitution<Dim>>(model.particles(), std::move(fluids)),
+          among, std::make_unique<FluidConstitution<Dim>>(among.particles(), std::move(fluids)),
           scheme) {}
 
 template <int Dim>
-SmoothParticles<Dim>::SmoothParticles(Model<Dim>& model,
+SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
                                       std::unique_ptr<Constitution<Dim>> constitution,
                                       const Scheme& scheme)
-    : Term<Dim>(model),
+    : Term<Dim>(among),
       constitution_(std::move(constitution)),
       scheme_(validated(scheme, Dim)),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
@@ -277,7 +277,7 @@ bool SmoothParticles<Dim>::settle(double t, const State<Dim>& state) {
 
 template <int Dim>
 double SmoothParticles<Dim>::energy(std::span<const double> y) const {
-    return carried_energy(this->model(), y);
+    return carried_energy(this->particles(), this->state_of(y));
 }
 
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
@@ -300,7 +300,7 @@ double SmoothParticles<Dim>::neighbour_forces(std::span<const double> y) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < mass.size(); ++i)
         sum += mass[i] * std::abs(state.energy()(0, static_cast<Eigen::Index>(i)));
-    sum += constitution_->stress_forces(state, this->model().density(y));
+    sum += constitution_->stress_forces(state, this->densities(y));
     return sum / this->particles().spacing;
 }
 
@@ -317,7 +317,7 @@ std::vector<Event> SmoothParticles<Dim>::events() const {
     if (scheme_.closest_approach == 0.0) return {};
     return {closest_approach_event<Dim>(
         {this->particles().mass, this->box(), scheme_.closest_approach, moves_with_velocity()},
-        this->layout())};
+        this->layout(), this->among().first())};
 }
 
 template <int Dim>

@@ -11,8 +11,8 @@
 namespace spam {
 
 template <int Dim>
-Springs<Dim>::Springs(Model<Dim>& model, const HarmonicSpring& spring)
-    : Term<Dim>(model),
+Springs<Dim>::Springs(const Selection<Dim>& among, const HarmonicSpring& spring)
+    : Term<Dim>(among),
       spring_(spring),
       bond_reach_(1.2 * this->particles().spacing) {
     const PairList<Dim> list(this->particles().reference_position, bond_reach_, this->box());
@@ -57,7 +57,7 @@ std::string Springs<Dim>::rates(const Now& now) {
 
 template <int Dim>
 double Springs<Dim>::energy(std::span<const double> y) const {
-    const auto x = ConstState<Dim>(this->layout(), y).position();
+    const auto x = this->state_of(y).position();
     CompensatedSum sum;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
@@ -67,7 +67,7 @@ double Springs<Dim>::energy(std::span<const double> y) const {
 
 template <int Dim>
 double Springs<Dim>::neighbour_forces(std::span<const double> y) const {
-    const auto x = ConstState<Dim>(this->layout(), y).position();
+    const auto x = this->state_of(y).position();
     double sum = 0.0;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
@@ -77,7 +77,7 @@ double Springs<Dim>::neighbour_forces(std::span<const double> y) const {
 
 template <int Dim>
 std::vector<SymTensor<Dim>> Springs<Dim>::stress(std::span<const double> y, double volume) const {
-    const auto x = ConstState<Dim>(this->layout(), y).position();
+    const auto x = this->state_of(y).position();
     std::vector<SymTensor<Dim>> all(this->particles().size());
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {

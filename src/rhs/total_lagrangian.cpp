@@ -92,9 +92,10 @@ template <int Dim>
 TotalLagrangian<Dim>::~TotalLagrangian() = default;
 
 template <int Dim>
-TotalLagrangian<Dim>::TotalLagrangian(Model<Dim>& model, const HyperelasticMaterial<Dim>& material,
+TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
+                                      const HyperelasticMaterial<Dim>& material,
                                       const TotalLagrangianScheme& scheme)
-    : Term<Dim>(model),
+    : Term<Dim>(among),
       material_(material),
       scheme_(validated(scheme, this->particles(), material.stiffness())),
       sweeps_(std::make_unique<const Sweeps<Dim>>(

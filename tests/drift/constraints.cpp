@@ -28,7 +28,8 @@ RunRecord turn_hexagon(const Scheme& scheme, double t_end, double output_every) 
     plan.t_end = t_end;
     plan.output_every = output_every;
     plan.snapshot_every = t_end;
-    return run_in_memory<2>({model, std::move(y0), std::move(plan)}, {.method = "rk4", .dt = 0.1});
+    return run_in_memory<2>({kept_elsewhere<2>(model), std::move(y0), std::move(plan)},
+                            {.method = "rk4", .dt = 0.1});
 }
 
 /// Largest relative change of a column between rows in [from, to].

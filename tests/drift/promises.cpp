@@ -27,7 +27,7 @@ enum class Loss { none, momentum, energy };
 /// A law that loses a part of what neighbours do to each other, as force or as power.
 class LossyModel final : public Model<2> {
   public:
-    LossyModel(std::unique_ptr<Model<2>> model, Loss loss, double part)
+    LossyModel(std::shared_ptr<Model<2>> model, Loss loss, double part)
         : Model<2>(model->particles(), model->box(), fields_of(*model)),
           model_(std::move(model)),
           loss_(loss),
@@ -63,13 +63,13 @@ class LossyModel final : public Model<2> {
         for (const auto& block : model.layout().blocks()) fields.push_back(block.field);
         return fields;
     }
-    std::unique_ptr<Model<2>> model_;
+    std::shared_ptr<Model<2>> model_;
     Loss loss_;
     double part_;
 };
 
 struct Begun {
-    std::unique_ptr<Model<2>> model;
+    std::shared_ptr<Model<2>> model;
     std::vector<double> y0;
 };
 
@@ -105,7 +105,7 @@ Begun fluid(const Law& law, double speed) {
     return {std::move(model), std::move(y0)};
 }
 
-Begun molecules(std::unique_ptr<Model<2>> model, double speed) {
+Begun molecules(std::shared_ptr<Model<2>> model, double speed) {
     auto y0 =
         initial_state<2>(*model, 1.0, 1.0, [speed](const Point<2>& x) { return wave(x, speed); });
     return {std::move(model), std::move(y0)};
@@ -134,8 +134,9 @@ Drift drift_of(const std::string& what, double speed, Loss loss, const std::stri
     Plan<2> plan;
     plan.t_end = 20.0;
     plan.output_every = plan.snapshot_every = 0.5;
-    const auto run = run_in_memory<2>({model, std::move(begun.y0), std::move(plan)},
-                                      {.method = "rk4", .dt = 0.1});
+    const auto run =
+        run_in_memory<2>({kept_elsewhere<2>(model), std::move(begun.y0), std::move(plan)},
+                         {.method = "rk4", .dt = 0.1});
     BOOST_REQUIRE(run.complete);
     for (const Drift& drift : run.drifts)
         if (drift.name == invariant) {

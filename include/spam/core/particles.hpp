@@ -12,10 +12,10 @@ namespace spam {
 /// the number the problem gave them and never changes.
 template <int Dim>
 struct Particles {
-    std::vector<double> mass;              ///< N
-    std::vector<std::int64_t> id;          ///< N
-    std::vector<std::int32_t> body;        ///< N, connected part 0, 1, ...
-    Points<Dim> reference_position;        ///< Dim x N, the stress-free configuration
+    std::vector<double> mass{};            ///< N
+    std::vector<std::int64_t> id{};        ///< N
+    std::vector<std::int32_t> body{};      ///< N, connected part 0, 1, ...
+    Points<Dim> reference_position{};      ///< Dim x N, the stress-free configuration
     double spacing = 1.0;                  ///< nearest-neighbour distance of the reference lattice
     std::vector<std::int32_t> material{};  ///< N, place in a term's list of materials; empty: all 0
 

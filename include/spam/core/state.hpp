@@ -31,8 +31,20 @@ class StateView {
                            Eigen::Matrix<double, Rows, -1>>>;
 
   public:
-    StateView(const FieldLayout<Dim>& layout, std::span<Scalar> y) : layout_(&layout), y_(y) {
+    StateView(const FieldLayout<Dim>& layout, std::span<Scalar> y)
+        : layout_(&layout),
+          y_(y),
+          count_(layout.particles()) {
         assert(y.size() == layout.size());
+    }
+
+    /// Of particles first, ..., first + count - 1 alone; accounts are those of all.
+    StateView part(std::size_t first, std::size_t count) const {
+        assert(first + count <= count_);
+        StateView part = *this;
+        part.first_ += first;
+        part.count_ = count;
+        return part;
     }
 
     Block<Dim> position() const { return block<Dim>(Field::position); }
@@ -44,8 +56,11 @@ class StateView {
     Block<Eigen::Dynamic> field(Field field) const {
         const auto* b = layout_->find(field);
         assert(b != nullptr);
-        const auto rows = static_cast<Eigen::Index>(b->components);
-        return {y_.data() + b->offset, rows, static_cast<Eigen::Index>(b->size) / rows};
+        const std::size_t rows = b->components;
+        const bool account = b->size != rows * layout_->particles();
+        return {y_.data() + b->offset + (account ? 0 : rows * first_),
+                static_cast<Eigen::Index>(rows),
+                static_cast<Eigen::Index>(account ? b->size / rows : count_)};
     }
 
     bool has(Field field) const { return layout_->has(field); }
@@ -56,11 +71,12 @@ class StateView {
     Block<Rows> block(Field field) const {
         const auto* b = layout_->find(field);
         assert(b != nullptr && b->components == Rows);
-        return {y_.data() + b->offset, Rows, static_cast<Eigen::Index>(layout_->particles())};
+        return {y_.data() + b->offset + Rows * first_, Rows, static_cast<Eigen::Index>(count_)};
     }
 
     const FieldLayout<Dim>* layout_;
     std::span<Scalar> y_;
+    std::size_t first_ = 0, count_;
 };
 
 template <int Dim>

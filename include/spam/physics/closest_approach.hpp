@@ -55,6 +55,7 @@ class ClosestApproach {
 
     /// How near the surface a pair must be found.
     double tolerance() const { return 1e-12 * R_; }
+    std::size_t particles() const { return mass_.size(); }
     std::size_t list_builds() const { return list_->builds(); }
 
   private:
@@ -90,9 +91,11 @@ class ClosestApproach {
     Displacement<Dim> then_{};
 };
 
-/// The event of a model whose y holds x and v. `layout` must outlive it.
+/// The event of a model whose y holds x and v, for particles first, first + 1, ... of it. `layout` must
+/// outlive it.
 template <int Dim>
-Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout);
+Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
+                             std::size_t first = 0);
 
 extern template struct ElasticReflection<1>;
 extern template struct ElasticReflection<2>;

@@ -36,7 +36,7 @@ class DensityPotentialTerm final : public Term<Dim> {
     /// enough for a potential (physics/density_potential.hpp), a potential needs more dimensions, a
     /// strength, energy or range makes no sense (the core's must be below the range), or a periodic box
     /// is not wider than twice the range.
-    DensityPotentialTerm(Model<Dim>& model, const DensityPotentials& potentials);
+    DensityPotentialTerm(const Selection<Dim>& among, const DensityPotentials& potentials);
     ~DensityPotentialTerm() override;
 
     using typename Term<Dim>::Now;

@@ -34,7 +34,7 @@ class OwnRanges final : public Term<Dim> {
   public:
     /// Throws InputError where eta is so small that a particle would be its own only neighbour, and for a
     /// law with friction or conduction.
-    OwnRanges(Model<Dim>& model, const Fluid& fluid, const VariableRangeScheme& scheme);
+    OwnRanges(const Selection<Dim>& among, const Fluid& fluid, const VariableRangeScheme& scheme);
     ~OwnRanges() override;
 
     using typename Term<Dim>::Now;

@@ -14,7 +14,7 @@ class Core final : public PairTerm<Dim> {
   public:
     /// Throws InputError for an energy or a range that is not above 0, and for a periodic box not wider than
     /// twice the range.
-    Core(Model<Dim>& model, const CorePotential& core);
+    Core(const Selection<Dim>& among, const CorePotential& core);
 };
 
 /// Molecular dynamics with Lucy's weight function as pair potential, phi = m_i m_j w(r), [HHM04] III.
@@ -23,7 +23,7 @@ class LucyPairPotential final : public PairTerm<Dim> {
   public:
     /// `range`: of the weight function, > spacing. Throws InputError for another, and for a periodic
     /// box that is not wider than twice the range.
-    LucyPairPotential(Model<Dim>& model, double range);
+    LucyPairPotential(const Selection<Dim>& among, double range);
 };
 
 /// The latter and nothing else.

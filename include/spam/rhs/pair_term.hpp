@@ -31,7 +31,7 @@ class PairTerm : public Term<Dim> {
   public:
     /// Throws InputError for a range that is not above 0, for a periodic box not wider than twice the range
     /// and for columns that are not as long as there are particles.
-    PairTerm(Model<Dim>& model, PairLaw<Dim> law);
+    PairTerm(const Selection<Dim>& among, PairLaw<Dim> law);
     ~PairTerm() override;
 
     using typename Term<Dim>::Now;

@@ -32,6 +32,17 @@ class ParticleModel : public Model<Dim> {
         take(std::move(term));
         return law;
     }
+    /// The same among the particles stored as first, ..., first + count - 1 alone: populations that do
+    /// not meet, or meet by a further term, in one y. Terms of different particles may find the same
+    /// fields; those of particles that no term integrates stay as they are.
+    template <class Law, class... Arguments>
+    Law& add_term_among(std::size_t first, std::size_t count, Arguments&&... arguments) {
+        auto term = std::make_unique<Law>(Selection<Dim>(*this, first, count),
+                                          std::forward<Arguments>(arguments)...);
+        Law& law = *term;
+        take(std::move(term));
+        return law;
+    }
     const Terms& terms() const { return terms_; }
     /// The first term that is a Law; null where there is none.
     template <class Law>
@@ -48,6 +59,7 @@ class ParticleModel : public Model<Dim> {
     void rates(double t, std::span<const double> y, std::span<double> y_dot) final;
     /// With the potentials of externals.
     double internal_energy(std::span<const double> y) const final;
+    /// Of the first term that has its own, else what is in y; empty unless those of all are known.
     std::vector<double> density(std::span<const double> y) const final;
     /// Throws InputError where some particles are held and others are reflected: a reflection would move
     /// what is held.
@@ -95,7 +107,8 @@ class ParticleModel : public Model<Dim> {
 
     Terms terms_;
     Externals externals_;
-    std::vector<double> more_;  ///< v_dot of a term that is not the first
+    bool whole_ = true;         ///< every term acts among all particles
+    std::vector<double> more_;  ///< v_dot of a term that is not the first, or of a part
     std::vector<Given> given_;  ///< by block
 };
 

@@ -43,12 +43,13 @@ class SmoothParticles final : public Term<Dim> {
     /// there, a solid's law tells no sound speed and the scheme has viscosity, a fluid has conduction
     /// without temperature or negative coefficients (eta, bulk viscosity, kappa), or its density is summed
     /// while its particles move with an averaged velocity.
-    SmoothParticles(Model<Dim>& model, std::vector<Material<Dim>> solids, const Scheme& scheme);
-    SmoothParticles(Model<Dim>& model, std::vector<Fluid> fluids, const Scheme& scheme);
-    SmoothParticles(Model<Dim>& model, const Material<Dim>& solid, const Scheme& scheme)
-        : SmoothParticles(model, std::vector<Material<Dim>>{solid}, scheme) {}
-    SmoothParticles(Model<Dim>& model, const Fluid& fluid, const Scheme& scheme)
-        : SmoothParticles(model, std::vector<Fluid>{fluid}, scheme) {}
+    SmoothParticles(const Selection<Dim>& among, std::vector<Material<Dim>> solids,
+                    const Scheme& scheme);
+    SmoothParticles(const Selection<Dim>& among, std::vector<Fluid> fluids, const Scheme& scheme);
+    SmoothParticles(const Selection<Dim>& among, const Material<Dim>& solid, const Scheme& scheme)
+        : SmoothParticles(among, std::vector<Material<Dim>>{solid}, scheme) {}
+    SmoothParticles(const Selection<Dim>& among, const Fluid& fluid, const Scheme& scheme)
+        : SmoothParticles(among, std::vector<Fluid>{fluid}, scheme) {}
     ~SmoothParticles() override;
 
     std::vector<Field> fields() const override;
@@ -92,7 +93,7 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<double> start(const Points<Dim>& position, const Points<Dim>& velocity, double T);
 
   private:
-    SmoothParticles(Model<Dim>& model, std::unique_ptr<Constitution<Dim>> constitution,
+    SmoothParticles(const Selection<Dim>& among, std::unique_ptr<Constitution<Dim>> constitution,
                     const Scheme& scheme);
     std::string load(const Now& now);
     std::string complaint(std::span<const double> rho) const;

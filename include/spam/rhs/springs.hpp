@@ -17,7 +17,7 @@ class Springs final : public Term<Dim> {
     /// Bonds every pair closer than 1.2 spacings in the reference configuration.
     using typename Term<Dim>::Now;
 
-    Springs(Model<Dim>& model, const HarmonicSpring& spring);
+    Springs(const Selection<Dim>& among, const HarmonicSpring& spring);
 
     std::string rates(const Now& now) override;
     double energy(std::span<const double> y) const override;

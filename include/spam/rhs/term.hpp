@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/selection.hpp>
 
 #include <span>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace spam {
 
-/// One law by which the particles of a model act on each other: stress, a pair potential, springs. A
-/// model is a list of terms (particle_model.hpp); what they give adds up. Terms are called once a
+/// One law by which the particles of a model, or a selection of them, act on each other: stress, a pair
+/// potential, springs. A model is a list of terms (particle_model.hpp); what they give adds up. Terms are called once a
 /// right-hand side, never per pair; what they do with pairs is a sweep (run_sweep.hpp).
 template <int Dim>
 class Term {
   public:
-    /// What a term reads, and what it finds.
+    /// What a term reads, and what it finds. N and the states are those of its selection.
     struct Now {
         double t;
         ConstState<Dim> state;
@@ -23,8 +23,8 @@ class Term {
         double* v_dot;  ///< Dim x N, the term's own: set it whole
     };
 
-    /// Of particles, box and layout of `model`, which must outlive the term.
-    explicit Term(Model<Dim>& model) : model_(model) {}
+    /// `among`: a model, or some of its particles.
+    explicit Term(const Selection<Dim>& among) : among_(among) {}
     virtual ~Term() = default;
     Term(const Term&) = delete;
     Term& operator=(const Term&) = delete;
@@ -47,7 +47,7 @@ class Term {
 
     /// The energy that is not kinetic.
     virtual double energy(std::span<const double> y) const = 0;
-    /// Of all particles; empty where the term has no density of its own (then what is in y counts).
+    /// N, empty where the term has no density of its own (then what is in y counts).
     virtual std::vector<double> density(std::span<const double>) const { return {}; }
     /// Model::neighbour_forces()
     virtual double neighbour_forces(std::span<const double> y) const {
@@ -72,19 +72,35 @@ class Term {
     virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
     virtual void set_bodies() {}
     virtual void remember(Archive&) {}
+
+    const Selection<Dim>& among() const { return among_; }
+    void bodies_changed() {
+        among_.update_bodies();
+        set_bodies();
+    }
+
     /// After an accepted step, and before anybody looks at it: the term may change its history fields,
     /// and the stress that goes with them. Returns whether it did.
     virtual bool settle(double, const State<Dim>&) { return false; }
 
   protected:
-    const Particles<Dim>& particles() const { return model_.particles(); }
-    const Box<Dim>& box() const { return model_.box(); }
-    const FieldLayout<Dim>& layout() const { return model_.layout(); }
-    Model<Dim>& model() const { return model_; }
-    ConstState<Dim> state_of(std::span<const double> y) const { return {layout(), y}; }
+    const Particles<Dim>& particles() const { return among_.particles(); }
+    const Box<Dim>& box() const { return model().box(); }
+    const FieldLayout<Dim>& layout() const { return model().layout(); }
+    Model<Dim>& model() const { return among_.model(); }
+    ConstState<Dim> state_of(std::span<const double> y) const {
+        return among_.of(ConstState<Dim>(layout(), y));
+    }
+    /// N, the term's own densities or those in y.
+    std::vector<double> densities(std::span<const double> y) const {
+        auto rho = density(y);
+        if (!rho.empty()) return rho;
+        const auto in_y = state_of(y).density();
+        return {in_y.data(), in_y.data() + in_y.size()};
+    }
 
   private:
-    Model<Dim>& model_;
+    Selection<Dim> among_;
 };
 
 }  // namespace spam

@@ -34,7 +34,7 @@ class TotalLagrangian final : public Term<Dim> {
     /// itself as in the reference configuration. Throws InputError for a density, range or penalty
     /// that makes no sense, a periodic box not wider than twice the range, and a particle whose
     /// neighbours do not span space.
-    TotalLagrangian(Model<Dim>& model, const HyperelasticMaterial<Dim>& material,
+    TotalLagrangian(const Selection<Dim>& among, const HyperelasticMaterial<Dim>& material,
                     const TotalLagrangianScheme& scheme);
     ~TotalLagrangian() override;
 
