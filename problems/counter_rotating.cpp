@@ -30,7 +30,7 @@ using std::numbers::pi;
 struct Hexagons {
     std::string title;
     std::shared_ptr<SmoothParticleModel<2>> model;
-    std::vector<NearestState> end{};
+    std::vector<NearestState<2>> end{};
 };
 
 /// The second hexagon is the mirror image of the first in the y axis.

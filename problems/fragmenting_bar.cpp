@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
                               return ledger.find_bodies(t, m, y, row_interval);
                           },
                       .memory = [&ledger](Archive& archive) { archive(ledger); }});
-        std::vector<NearestState> drawn;
+        std::vector<NearestState<2>> drawn;
         for (const double part : {0.0, 0.15, 0.5, 1.0}) drawn.push_back({part * plan.t_end});
         plan.observe(keep_nearest<2>(drawn));
         const auto run = session.run(model, std::move(y0), std::move(plan));
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
                       run.complete && session.when_default(known));
         if (session.plots()) {
             std::vector<ConfigurationPanel> panels;
-            for (const NearestState& state : drawn) {
+            for (const NearestState<2>& state : drawn) {
                 panels.push_back(speed_panel(fmt::format("t = {:.3g}", state.t), model, state));
                 panels.back().outlines.clear();
             }

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     options.only_when(
         {"size", "speed"}, {"problem"},
         [&p] { return p.problem != "wave" && p.problem != "expansion"; },
-        "is of the hexagons, which this --problem has none of; leave it out");
+        "is of the hexagons, there are none with {by}; leave it out");
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {

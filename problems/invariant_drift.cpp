@@ -70,11 +70,11 @@ int main(int argc, char** argv) {
     options.number("periods", p.periods, "number of periods of the wave", positive());
     options.only_when(
         {"size", "speed", "turns"}, {"problem"}, [&p] { return p.problem != "wave"; },
-        "is of the hexagons, which this --problem has none of; leave it out");
+        "is of the hexagons, there are none with {by}; leave it out");
     options.only_when(
         {"cells", "periods"}, {"problem"},
         [&p] { return p.problem == "wave" || p.problem == "all"; },
-        "is of the wave, which this --problem is not; leave it out");
+        "is of the wave, there is none with {by}; leave it out");
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {

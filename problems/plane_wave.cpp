@@ -49,7 +49,7 @@ using std::numbers::pi;
 
 struct Ringing : StandingWave {
     std::string label{}, prefix{};
-    std::vector<NearestState> turned{};  // the state nearest to a quarter of the period
+    std::vector<NearestState<2>> turned{};  // the state nearest to a quarter of the period
 
     bool transverse() const { return wave.polarization == Polarization::transverse; }
     double period_continuum() const { return 2.0 * pi / wave.frequency(); }
@@ -330,10 +330,9 @@ int main(int argc, char** argv) {
         if (session.plots()) draw_energies(session, all, runs);
         const Ringing& first = all.front();
         if (!first.transverse() || first.turned.empty()) return;  // only this one turns
-        const NearestState& turned_at = first.turned.front();
-        const ConstState<2> state(first.solid.model->layout(), turned_at.y);
+        const NearestState<2>& turned_at = first.turned.front();
         const auto turned =
-            profile(first, state.position(), state.velocity(), p.block, [&](double y) {
+            profile(first, turned_at.position, turned_at.velocity, p.block, [&](double y) {
                 return first.wave.block_angular_momentum(p.block, first.omega_lattice(), y,
                                                          turned_at.t);
             });

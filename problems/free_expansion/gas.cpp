@@ -157,17 +157,15 @@ std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
 }
 
 template <int Dim>
-Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
-    const ConstState<Dim> state(gas.model->layout(), y);
-    const Points<Dim> v = state.velocity();
+Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position, const Points<Dim>& v) {
     Eigen::MatrixXd carried(Dim + 2, v.cols());
     carried.row(0).setOnes();
     carried.row(1) = v.colwise().squaredNorm();
     carried.template bottomRows<Dim>() = v;
     // Smooth contours of small gases, too.
     Fields<Dim> fields{grid_of(gas, std::min(1.0, gas.side() / 96.0)), {}, {}, {}, {}};
-    const FieldInterpolation<Dim> interpolation(gas.weight, gas.model->particles().mass,
-                                                state.position(), gas.model->box());
+    const FieldInterpolation<Dim> interpolation(gas.weight, gas.model->particles().mass, position,
+                                                gas.model->box());
     const std::size_t nodes = fields.grid.size();
     fields.velocity.setZero(Dim, static_cast<Eigen::Index>(nodes));
     for (auto* values : {&fields.density, &fields.kinetic, &fields.hidden}) values->reserve(nodes);
@@ -193,7 +191,8 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y) {
 
 template <int Dim>
 void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<const double> y) {
-    Fields<Dim> fields = fields_of(gas, y);
+    const ConstState<Dim> state(gas.model->layout(), y);
+    Fields<Dim> fields = fields_of<Dim>(gas, state.position(), state.velocity());
     // There may be four nodes a particle: nothing of them is held twice.
     std::vector<ImageField> images;
     const auto add = [&](const char* name, std::vector<double>& values) {
@@ -221,8 +220,8 @@ template Gas<1> make_gas(int, const Parameters&);
 template Gas<2> make_gas(int, const Parameters&);
 template std::vector<Column<1>> entropy_columns(const Gas<1>&);
 template std::vector<Column<2>> entropy_columns(const Gas<2>&);
-template Fields<1> fields_of(const Gas<1>&, std::span<const double>);
-template Fields<2> fields_of(const Gas<2>&, std::span<const double>);
+template Fields<1> fields_of(const Gas<1>&, const Points<1>&, const Points<1>&);
+template Fields<2> fields_of(const Gas<2>&, const Points<2>&, const Points<2>&);
 template void write_fields(const RunFolder&, Gas<1>&, double, std::span<const double>);
 template void write_fields(const RunFolder&, Gas<2>&, double, std::span<const double>);
 

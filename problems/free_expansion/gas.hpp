@@ -40,9 +40,9 @@ struct Gas {
     std::shared_ptr<Model<Dim>> model;
     std::vector<double> y0;
     std::string label{}, prefix{};
-    std::vector<NearestState> drawn{};  ///< in pictures
-    std::vector<double> field_times{};  ///< of the files of gridded fields
-    int frames = 0;                     ///< of a film
+    std::vector<NearestState<Dim>> drawn{};  ///< in pictures
+    std::vector<double> field_times{};       ///< of the files of gridded fields
+    int frames = 0;                          ///< of a film
 
     double side() const { return 2.0 * cells; }
     std::size_t particles() const { return model->particles().size(); }
@@ -77,7 +77,8 @@ struct Fields {
     std::vector<double> hidden;   ///< (<v^2> - <v>^2)/2 per mass
 };
 template <int Dim>
-Fields<Dim> fields_of(const Gas<Dim>& gas, std::span<const double> y);
+Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position,
+                      const Points<Dim>& velocity);
 
 /// fields_0000.vti, ... beside the snapshots, and fields.pvd, the list of them with their times.
 template <int Dim>

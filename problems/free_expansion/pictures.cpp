@@ -18,9 +18,9 @@ double mean(const std::vector<double>& values) {
 
 /// States that came about, each close to its time.
 template <int Dim>
-std::vector<const NearestState*> reached(const Gas<Dim>& gas) {
-    std::vector<const NearestState*> states;
-    for (const NearestState& state : gas.drawn)
+std::vector<const NearestState<Dim>*> reached(const Gas<Dim>& gas) {
+    std::vector<const NearestState<Dim>*> states;
+    for (const NearestState<Dim>& state : gas.drawn)
         if (state.t > 0.0 && std::abs(state.t - state.wanted) <= 0.05 * gas.cells)
             states.push_back(&state);
     return states;
@@ -30,12 +30,8 @@ ContourRoom room_of(const Gas<2>& gas) {
     return {Point<2>::Zero(), Point<2>::Constant(gas.side())};
 }
 
-ContourPanel dots(const Gas<2>& gas, std::span<const double> y) {
-    const ConstState<2> state(gas.model->layout(), y);
-    return {.title = "",
-            .grid = {},
-            .particles = gas.model->box().wrapped(state.position()),
-            .dot = 0.8};
+ContourPanel dots(const Gas<2>& gas, const Points<2>& position) {
+    return {.title = "", .grid = {}, .particles = gas.model->box().wrapped(position), .dot = 0.8};
 }
 
 ContourPanel tones(const FieldGrid<2>& grid, const std::vector<double>& values) {
@@ -45,10 +41,10 @@ ContourPanel tones(const FieldGrid<2>& grid, const std::vector<double>& values) 
 /// [HH01] Fig. 2: rows of particles, density and kinetic energy.
 void draw_fields(Session& session, const Gas<2>& gas) {
     std::vector<ContourPanel> rows[3];
-    for (const NearestState* state : reached(gas)) {
-        const auto fields = fields_of(gas, state->y);
+    for (const auto* state : reached(gas)) {
+        const auto fields = fields_of(gas, state->position, state->velocity);
         const bool first = rows[0].empty();
-        rows[0].push_back(dots(gas, state->y));
+        rows[0].push_back(dots(gas, state->position));
         rows[0].back().title = fmt::format("t = {:.4g}", state->t);
         rows[1].push_back(tones(fields.grid, fields.density));
         rows[2].push_back(tones(fields.grid, fields.kinetic));
@@ -75,8 +71,8 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
                           {},
                           "",
                           false};
-    for (const NearestState* state : reached(gas)) {
-        const auto fields = fields_of(gas, state->y);
+    for (const auto* state : reached(gas)) {
+        const auto fields = fields_of(gas, state->position, state->velocity);
         const WaveSpectrum spectrum = wave_spectrum(fields.grid, fields.density);
         LogLogCurve curve{picture.key.size(), false, {}, {}};
         const double all = std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
@@ -158,8 +154,8 @@ void draw(Session& session, const Gas<1>& gas) {
         {"density", "x / N", "ρ", false, {}},
         {"velocity", "x / N", "<v>", false, {}},
         {"velocity fluctuation", "x / N", "(<v²> − <v>²) / 2", false, {}}};
-    for (const NearestState* state : reached(gas)) {
-        const auto fields = fields_of(gas, state->y);
+    for (const auto* state : reached(gas)) {
+        const auto fields = fields_of(gas, state->position, state->velocity);
         const Points<1> at = fields.grid.points();
         std::vector<double> x(at.data(), at.data() + at.size());
         for (double& place : x) place /= gas.cells;
@@ -178,15 +174,16 @@ void draw(Session& session, const Gas<1>& gas) {
 
 bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
                 std::span<const double> y) {
-    const auto fields = fields_of(gas, y);
+    const ConstState<2> state(gas.model->layout(), y);
+    const auto fields = fields_of<2>(gas, state.position(), state.velocity());
     ContourPanel density = tones(fields.grid, fields.density), kinetic = density;
     density.colours = ContourPanel::Colours{0.0, 1.0, "density"};
     kinetic.values = fields.kinetic;
     kinetic.colours = ContourPanel::Colours{0.0, 0.25, "kinetic energy"};
     const RunFolder frames = folder.inside("frames");
     const std::string name = fmt::format("frame_{:04}", number);
-    if (!draw_contours(frames, name, fmt::format("t = {:.1f}", t), {dots(gas, y), density, kinetic},
-                       3, room_of(gas)))
+    if (!draw_contours(frames, name, fmt::format("t = {:.1f}", t),
+                       {dots(gas, state.position()), density, kinetic}, 3, room_of(gas)))
         return false;
     for (const char* part : {".dat", ".gp"}) {  // a hundred scripts help nobody
         std::error_code ignored;

@@ -159,7 +159,7 @@ void draw_figure(Session& session, const Parameters& p, const std::vector<Hexago
     for (const Panel& panel : layout.panels) {
         if (panel.hexagon >= runs.size()) continue;  // interrupted
         const Hexagon& hexagon = hexagons[panel.hexagon];
-        for (const NearestState& state : hexagon.drawn)
+        for (const NearestState<2>& state : hexagon.drawn)
             if (std::abs(state.wanted - panel.turns * p.turn()) < 1e-6 * p.turn())
                 panels.push_back(speed_panel(panel.title, *hexagon.model, state));
     }

@@ -43,7 +43,7 @@ struct Hexagon {
     std::string label;
     std::string title;
     std::shared_ptr<Model<2>> model;
-    std::vector<NearestState> drawn{};  ///< in pictures
+    std::vector<NearestState<2>> drawn{};  ///< in pictures
 };
 
 Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,

@@ -12,7 +12,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
     std::vector<ConfigurationPanel> panels;
     for (std::size_t s = 0; s < hexagons.front().drawn.size(); ++s)
         for (std::size_t k = 0; k < runs.size(); ++k) {
-            const NearestState& state = hexagons[k].drawn[s];
+            const NearestState<2>& state = hexagons[k].drawn[s];
             const std::string angle = state.wanted == p.turn() / 3.0
                                           ? std::string("2π/3")
                                           : fmt::format("{:.3g} turn", state.t / p.turn());

@@ -64,7 +64,7 @@ void Options::need(std::vector<std::string> names, const std::string& other) {
 }
 
 void Options::exclude(const std::string& name, std::vector<std::string> others, std::string why) {
-    if (why.empty()) why = fmt::format("--{} settles it; leave one out", name);
+    if (why.empty()) why = "{by} settles it; leave one out";
     only_when(
         std::move(others), {name}, [this, name] { return !given(name); }, std::move(why));
 }
@@ -81,7 +81,9 @@ void Options::one_of(const std::vector<std::string>& names, const std::string& w
 }
 
 void Options::leave_out(const std::vector<std::string>& names) {
-    for (const auto& name : names) entry(name).has_meaning = false;
+    for (const auto& one : entries_)
+        if (std::find(names.begin(), names.end(), one->name) != names.end())
+            one->has_meaning = false;
 }
 
 void Options::command_line_wins(const std::vector<std::string>& names,
@@ -97,6 +99,18 @@ void Options::command_line_wins(const std::vector<std::string>& names,
     }
 }
 
+/// "{by}" in it stands for the option that decides, as it was given: "--figure 5".
+std::string Options::reason(const Rule& rule) const {
+    const auto at = rule.why.find("{by}");
+    if (at == std::string::npos || rule.by.empty()) return rule.why;
+    std::string given = first_given(rule.by);
+    if (given.empty()) given = rule.by.front();
+    const Entry& by = entry(given);
+    std::string value = by.is_flag ? "" : " " + by.get();
+    std::erase(value, '"');
+    return fmt::format("{}--{}{}{}", rule.why.substr(0, at), given, value, rule.why.substr(at + 4));
+}
+
 void Options::settle() {
     for (const auto& one : entries_) one->at_default = one->get() == one->default_value;
     for (const Rule& rule : rules_) {
@@ -104,7 +118,7 @@ void Options::settle() {
         if (rule.holds()) continue;
         command_line_wins(rule.by, rule.names);
         if (const auto name = first_given(rule.names); !name.empty() && !rule.why.empty())
-            throw InputError(fmt::format("{}: {}", name, rule.why));
+            throw InputError(fmt::format("{}: {}", name, reason(rule)));
         leave_out(rule.names);
     }
 }

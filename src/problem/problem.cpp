@@ -151,12 +151,11 @@ void Problem::use_scheme(const Scheme& standard) {
     options_.only_when(
         {"balance"}, {"angular-momentum"},
         [this] { return scheme_.angular_momentum != AngularMomentum::free; },
-        "has no meaning with --angular-momentum free; it needs gauss, "
-        "torque_particle or torque_pair");
+        "has no meaning with {by}; it needs gauss, torque_particle or torque_pair");
     options_.only_when(
         {"gauss-singular"}, {"angular-momentum"},
         [this] { return scheme_.angular_momentum == AngularMomentum::gauss; },
-        "has a meaning with --angular-momentum gauss only");
+        "has no meaning with {by}; it needs gauss");
     options_.group("Problem");
 }
 

@@ -37,16 +37,6 @@ Sweep<Dim> second_sweep(const Scheme& scheme, Matter matter) {
                                         : SecondSweeps<Dim, TransportRecord<Dim>>::viscous(scheme);
 }
 
-template <int Dim>
-constexpr int numbers_of(Matter matter, bool second) {
-    const int first = matter == Matter::inviscid     ? InviscidRecord<Dim>::numbers
-                      : matter == Matter::conducting ? ConductingRecord<Dim>::numbers
-                                                     : Record<Dim>::numbers;
-    const int later =
-        matter == Matter::conducting ? ViscousRecord<Dim>::numbers : TransportRecord<Dim>::numbers;
-    return second ? std::max(first, later) : first;
-}
-
 }  // namespace
 
 template <int Dim, InstructionSet Level>
@@ -70,7 +60,12 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
         sweeps.gradient =
             run_sweep<GeneralSweep, W, Dim, ConductingRecord<Dim>,
                       VelocityGradient<Dim, EitherMean>, TemperatureGradient<Dim, EitherMean>>;
-    sweeps.numbers = numbers_of<Dim>(matter, sweeps.second != nullptr);
+    const int first = matter == Matter::inviscid     ? InviscidRecord<Dim>::numbers
+                      : matter == Matter::conducting ? ConductingRecord<Dim>::numbers
+                                                     : Record<Dim>::numbers;
+    const int later =
+        matter == Matter::conducting ? ViscousRecord<Dim>::numbers : TransportRecord<Dim>::numbers;
+    sweeps.numbers = sweeps.second != nullptr ? std::max(first, later) : first;
     return sweeps;
 }
 

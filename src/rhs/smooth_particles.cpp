@@ -133,14 +133,14 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
     const std::span<const double> rho =
         sweeps_->density != nullptr
             ? std::span<const double>(summed_density_)
-            : std::span<const double>(now.state.density().data(), this->particles().size());
+            : std::span<const double>(now.state.find(Field::density), this->particles().size());
     if (auto reason = constitution_->prepare(now, rho, in, *sweeps_, *packed_); !reason.empty())
         return reason;
     SweepOutput<Dim> out;
     out.x_dot = now.rate.position().data();
     out.v_dot = now.v_dot;
     out.e_dot = now.rate.energy().data();
-    if (now.rate.has(Field::density)) out.rho_dot = now.rate.density().data();
+    out.rho_dot = now.rate.find(Field::density);
     constitution_->close_forces(now, out);
     if (torques_) {
         balance(now, in, out);
@@ -195,10 +195,8 @@ std::unique_ptr<PackedParticles<Dim>> SmoothParticles<Dim>::packed_with(ListUse 
 
 template <int Dim>
 PackedFields SmoothParticles<Dim>::fields_of(const ConstState<Dim>& state) const {
-    return {
-        state.position().data(),       state.velocity().data(),
-        this->particles().mass.data(), state.has(Field::density) ? state.density().data() : nullptr,
-        constitution_->stress(state),  scheme_.mean_density};
+    return {state.position().data(),    state.velocity().data(),      this->particles().mass.data(),
+            state.find(Field::density), constitution_->stress(state), scheme_.mean_density};
 }
 
 /// List and records for this state. Returns why it has no meaning.

@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(needs_and_excludes) {
                "movie: has no meaning without --figure; add it, or leave this one out");
     BOOST_TEST(refusal({"--movie", "--figure", "2"}) == "");
     BOOST_TEST(refusal({"--figure", "2", "--speed", "1"}) ==
-               "speed: --figure settles it; leave one out");
+               "speed: --figure 2 settles it; leave one out");
     BOOST_TEST(!holds("speed", {"--figure", "2"}));
     BOOST_TEST(holds("speed", {}));
 }

@@ -63,6 +63,12 @@ class StateView {
                 static_cast<Eigen::Index>(account ? b->size / rows : count_)};
     }
 
+    /// Its first number; null where the layout has no such field.
+    Scalar* find(Field field) const {
+        const auto* b = layout_->find(field);
+        return b == nullptr ? nullptr : y_.data() + b->offset + b->components * first_;
+    }
+
     bool has(Field field) const { return layout_->has(field); }
     const FieldLayout<Dim>& layout() const { return *layout_; }
 

@@ -99,7 +99,8 @@ class Options {
     // one of the options that decide, `by`, was given on the command line, what a file says of the others
     // no longer counts: a case read back can be changed without editing it.
 
-    /// `names` have a meaning only where `holds`. An empty `why`: they are never refused.
+    /// `names` have a meaning only where `holds`. An empty `why`: they are never refused. "{by}" in it
+    /// stands for the option that decides and its value.
     void only_when(std::vector<std::string> names, std::vector<std::string> by,
                    std::function<bool()> holds, std::string why);
     /// `names` have a meaning only beside `other`.
@@ -108,7 +109,7 @@ class Options {
     void exclude(const std::string& name, std::vector<std::string> others, std::string why = {});
     /// No more than one of them may be given: each sets `what`. The first one holds where none is.
     void one_of(const std::vector<std::string>& names, const std::string& what);
-    /// For what is only known later: these are no part of the case.
+    /// For what is only known later: these, where there are such options, are no part of the case.
     void leave_out(const std::vector<std::string>& names);
 
     /// Where one of `names` was given on the command line, `over` from the file no longer count.
@@ -145,6 +146,8 @@ class Options {
         std::string why;
         bool mutual = false;  ///< the command line's of either side wins over a file's of the other
     };
+
+    std::string reason(const Rule& rule) const;
 
     std::string program_, summary_, version_, group_;
     std::string config_;

@@ -6,25 +6,26 @@
 
 namespace spam {
 
-/// A state worth drawing: of the snapshots of a run, the one nearest to a wanted time.
+/// A configuration worth drawing: of the snapshots of a run, the one nearest to a wanted time.
+template <int Dim>
 struct NearestState {
     double wanted;
-    double t = -1.0;          ///< of the state kept; below 0 before any was offered
-    std::vector<double> y{};  ///< the state, as long as the model's layout
+    double t = -1.0;  ///< of the state kept; below 0 before any was offered
+    Points<Dim> position{}, velocity{};
 
     bool there() const { return t >= 0.0; }
     /// Keeps `state`, at time `now`, where no other is nearer.
-    void offer(double now, std::span<const double> state);
-    void remember(Archive& archive) { archive(t, y); }
+    void offer(double now, const ConstState<Dim>& state);
+    void remember(Archive& archive) { archive(t, position, velocity); }
 };
 
 /// Keeps states at every snapshot of a run, and in its checkpoints. A run that is restarted to a later end
 /// may want other times: each then takes the nearest of the states kept. `states` must outlive the run.
 template <int Dim>
-Observer<Dim> keep_nearest(std::vector<NearestState>& states);
+Observer<Dim> keep_nearest(std::vector<NearestState<Dim>>& states);
 
 /// Particles coloured by speed, the body's outline drawn. Precondition: state.there().
 ConfigurationPanel speed_panel(const std::string& title, const Model<2>& model,
-                               const NearestState& state);
+                               const NearestState<2>& state);
 
 }  // namespace spam

@@ -43,18 +43,25 @@ SPAM_INLINE std::size_t pack_motion(const PackInput<Dim>& in, std::size_t i, dou
 template <int Dim, class R>
 PackCount pack(const PackInput<Dim>& whole, bool density_only, double* records) {
     const PackInput<Dim> in = whole;  // a copy that the stores below cannot be suspected to change
-    const bool motion = !density_only, density = in.rho != nullptr;
-    // Both counts in one number, `far` in the lower half: fewer than 2^32 particles have slots.
-    const std::size_t both = parallel_count(in.order.size(), [=](std::size_t slot) {
-        const std::size_t i = in.order[slot];
-        double* const record = records + slot * in.stride;
-        std::size_t far = 0, invalid = 0;
-        if (motion) far = pack_motion<Dim, R>(in, i, record);
-        if constexpr (R::template has<column::Density>)
-            if (density) invalid = pack_density<Dim, R>(in, i, record);
-        return far + (invalid << 32);
-    });
-    if (motion && in.box->periodic())
+    // Both counts in one number, `far` in the lower half: fewer than 2^32 particles have slots. What is
+    // packed is known when this is compiled: choosing for every particle would cost.
+    const auto count = [&](auto motion, auto density) {
+        return parallel_count(in.order.size(), [=](std::size_t slot) {
+            const std::size_t i = in.order[slot];
+            double* const record = records + slot * in.stride;
+            std::size_t far = 0, invalid = 0;
+            if constexpr (motion) far = pack_motion<Dim, R>(in, i, record);
+            if constexpr (density && R::template has<column::Density>)
+                invalid = pack_density<Dim, R>(in, i, record);
+            return far + (invalid << 32);
+        });
+    };
+    constexpr std::true_type yes;
+    constexpr std::false_type no;
+    const std::size_t both = density_only        ? count(no, yes)
+                             : in.rho != nullptr ? count(yes, yes)
+                                                 : count(yes, no);
+    if (!density_only && in.box->periodic())
         parallel_for(in.order.size(), [=](std::size_t slot) {
             for (int a = 0; a < Dim; ++a) {
                 double& x = records[slot * in.stride + static_cast<std::size_t>(a)];

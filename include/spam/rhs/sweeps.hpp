@@ -46,18 +46,15 @@ struct SweptBlock {
 /// records, by slot, that later sweeps read; and sums kept for a block, which `close` is given.
 template <int Dim>
 struct SweepOutput {
-    double* x_dot = nullptr;            ///< Dim x N, the transport velocity
-    double* v_dot = nullptr;            ///< Dim x N
-    double* rho_dot = nullptr;          ///< N
-    double* e_dot = nullptr;            ///< N
-    double* rho = nullptr;              ///< N, the summed density
-    double* energy = nullptr;           ///< N, a potential's
-    double* positive_torque = nullptr;  ///< N, TorqueSums
-    double* negative_torque = nullptr;  ///< N
-    double* torque_parts = nullptr;     ///< 6 N, TorqueParts
-    double* spread = nullptr;           ///< N, OwnRangeSums
-    double* approach = nullptr;         ///< N
-    double* records = nullptr;          ///< those of SweepInput
+    double* x_dot = nullptr;                      ///< Dim x N, the transport velocity
+    double* v_dot = nullptr;                      ///< Dim x N
+    double *rho_dot = nullptr, *e_dot = nullptr;  ///< N
+    double* rho = nullptr;                        ///< N, the summed density
+    double* energy = nullptr;                     ///< N, a potential's
+    double *positive_torque = nullptr, *negative_torque = nullptr;  ///< N, TorqueSums
+    double* torque_parts = nullptr;                                 ///< 6 N, TorqueParts
+    double *spread = nullptr, *approach = nullptr;                  ///< N, OwnRangeSums
+    double* records = nullptr;                                      ///< those of SweepInput
 
     /// Called once for every block, from any thread; null where nobody is interested.
     void (*close)(const void* context, const SweptBlock&) = nullptr;
