@@ -16,6 +16,7 @@ struct Options::Entry {
     bool in_case = true;
     bool has_meaning = true;      ///< in this case
     bool at_default = true;       ///< as settle() found it
+    std::string word;             ///< that stands for no number; empty where none does
     std::string default_value;    ///< what get() said before anything was parsed
     bool in_file = false;         ///< set by the file of --config
     bool on_command = false;      ///< set on the command line

@@ -30,6 +30,7 @@ const Options::Added& Options::Added::or_word(const std::string& word) const {
     Entry& entry = options_.entry(name_);
     entry.allowed = fmt::format("\"{}\", or {}", word, entry.allowed);
     entry.is_text = true;
+    entry.word = word;
     entry.set = [&entry, word, number = entry.set](const std::string& text) {
         try {
             text == word ? entry.unset() : number(text);

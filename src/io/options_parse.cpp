@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace spam {
 namespace {
@@ -57,11 +58,14 @@ bool Options::parse(int argc, const char* const* argv) {
         entry.default_value = entry.get();
         CLI::Option* option = nullptr;
         if (entry.is_flag) {
-            option = app.add_flag("--" + entry.name, entry.help);
+            // As a constant: a string that may be changed would be taken for the flag's target.
+            option = app.add_flag("--" + entry.name, std::as_const(entry.help));
         } else {
             std::string help = entry.help;
             if (!entry.default_value.empty()) help += fmt::format(" [{}]", entry.default_value);
-            option = app.add_option("--" + entry.name, raw[k], help)->type_name(entry.type);
+            option =
+                app.add_option("--" + entry.name, raw[k], help)
+                    ->type_name(entry.word.empty() ? entry.type : entry.type + "|" + entry.word);
             option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
         }
         registered.push_back(option->group(entry.group));

@@ -180,6 +180,12 @@ BOOST_AUTO_TEST_CASE(help_and_the_list_of_problems_know_it) {
             const Outcome help = run_in(folder, name, {"--help"});
             BOOST_TEST(help.status == 0);
             BOOST_TEST(help.out.find("--smoke") != std::string::npos);
+            for (std::size_t at = 0; (at = help.out.find("\n  --", at)) != std::string::npos;
+                 ++at) {
+                const std::string line = help.out.substr(at + 1, help.out.find('\n', at + 1) - at);
+                BOOST_TEST(line.find_first_not_of(" \n", 30) != std::string::npos,
+                           line << " says nothing");
+            }
             const std::string source =
                 contents_of(std::string(SPAM_SOURCE) + "/problems/" + name + ".cpp");
             const auto at = source.find("// spam-list: ");
