@@ -60,6 +60,7 @@ spam_test(drift/promises drift)
 spam_test(drift/total_lagrangian drift)
 spam_test(io/text unit)
 spam_test(io/option_rules unit)
+spam_test(core/threads unit)
 spam_test(io/study_table unit)
 spam_test(io/pictures unit)
 find_package(nlohmann_json REQUIRED)  # result_files.hpp

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/text.hpp>
 #include <spam/core/threads.hpp>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <latch>
 #include <set>
@@ -62,8 +64,10 @@ double quota() {
 }  // namespace
 
 int usable_cores() {
-    return std::max(1,
-                    static_cast<int>(std::min<double>(cores_of_affinity(), std::floor(quota()))));
+    int cores = static_cast<int>(std::min<double>(cores_of_affinity(), std::floor(quota())));
+    if (const char* wanted = std::getenv("OMP_NUM_THREADS"))
+        if (const auto threads = whole_number_in(wanted)) cores = std::min(cores, *threads);
+    return std::max(1, cores);
 }
 
 int worthwhile_threads(std::size_t particles, int cores) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The files of a run: all there, right, and enough to run the same case again, bit for bit.
 #include "problem/result_files.hpp"
+#include <spam/core/threads.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -279,4 +280,21 @@ BOOST_AUTO_TEST_CASE(a_drift_is_judged_only_where_it_can_be_too_large) {
         BOOST_TEST(check["expected"].is_null(), check.dump() << outcome.out << outcome.err);
     }
     BOOST_TEST(drifts == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(threads_are_chosen_by_size_and_change_no_bit) {
+    const Scratch folder;
+    const int chosen = spam::worthwhile_threads(4096, spam::usable_cores());
+    for (const std::string threads : {"auto", "1", "2"})
+        BOOST_TEST(run(problem("free_expansion",
+                               {"--cells", "64", "--t-end", "0.5", "--no-plots", "--quiet",
+                                "--threads", threads, "--out", (folder / threads).string()}))
+                       .status == 0);
+    const std::string rows = contents_of(folder / "auto/invariants.csv");
+    BOOST_TEST(rows == contents_of(folder / "1/invariants.csv"));
+    BOOST_TEST(rows == contents_of(folder / "2/invariants.csv"));
+    const std::string log = contents_of(folder / "auto/run.log");
+    const std::string said =
+        ", " + std::to_string(chosen) + (chosen == 1 ? " thread," : " threads,");
+    BOOST_TEST(log.find(said) != std::string::npos, log);
 }

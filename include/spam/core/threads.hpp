@@ -10,7 +10,8 @@ namespace spam {
 void start_threads(int threads);
 
 /// Cores that this process may use: without the second thread of a core, without processors that its
-/// affinity or the quota of its control group (Linux) leave out. At least 1.
+/// affinity or the quota of its control group (Linux) leave out; no more than OMP_NUM_THREADS, where that is
+/// a number. At least 1.
 int usable_cores();
 
 /// How many threads are worth starting for sums over so many particles on so many cores.
