@@ -245,6 +245,9 @@ int main(int argc, char** argv) {
     options.choice<MeanDensityKind>("mean-density", p.scheme.mean_density,
                                     {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
                                     "mean density of a pair, in gradients");
+    options.only_when(
+        {"density", "mean-density"}, {"wave"}, [&p] { return p.wave != Wave::thermal; },
+        "has no effect with {by}, where particles stay on their lattice; leave it out");
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
     options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 20.0));
 

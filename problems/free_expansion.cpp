@@ -52,7 +52,7 @@ void settle_particles(Session& session, Parameters& p) {
             fmt::format("particles: {} is not a square; near it are {} and {}", n,
                         static_cast<int>(std::pow(std::floor(std::sqrt(n)), 2)),
                         static_cast<int>(std::pow(std::floor(std::sqrt(n)) + 1.0, 2))));
-    if (session.given("cells") && p.cells != edge)
+    if (session.given("cells") && session.given("particles") && p.cells != edge)
         throw InputError(
             fmt::format("particles: {} and --cells {} contradict; leave one out", n, p.cells));
     p.cells = edge;
@@ -61,10 +61,12 @@ void settle_particles(Session& session, Parameters& p) {
 
 /// Options that have no meaning beside others.
 void add_rules(Options& options, const Parameters& p) {
-    options.exclude("compare", {"cells", "particles", "dimension", "movie", "cost"},
-                    "has no effect with --compare (three sizes); leave one out");
+    options.exclude("compare", {"cells", "particles", "dimension", "movie"},
+                    "has no effect with {by} (three sizes); leave one out");
+    options.exclude("cost", {"compare"}, "has no effect with {by} (five sizes); leave one out",
+                    true);
     options.exclude("cost", {"cells", "particles", "dimension", "movie"},
-                    "has no effect with --cost (five sizes); leave one out");
+                    "has no effect with {by} (five sizes); leave one out");
     options.exclude("cost", {"restart"},
                     "times that --cost measured are of one run; start it again without --restart");
     options.only_when(
@@ -158,7 +160,11 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         p.only_described = session.common().dry_run;
-        if (session.common().smoke && !session.given("cells") && !p.particles) p.cells = 16;
+        options.command_line_wins({"particles"}, {"cells"});
+        options.command_line_wins({"cells"}, {"particles"});
+        // On a line of fewer, ranges that follow the density come to fill half of the box.
+        if (session.common().smoke && !session.given("cells") && !p.particles)
+            p.cells = p.dimension == 1 && p.ranges == Ranges::density ? 64 : 16;
         settle_particles(session, p);
         session.prefer_step(p.dimension == 1 ? step_for<1>(p) : step_for<2>(p));
         if (p.cost) return measure_cost(session, p);

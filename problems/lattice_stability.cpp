@@ -42,8 +42,7 @@ void add_rules(Options& options, const Parameters& p) {
     const auto one = [&options] { return options.given("potential"); };
     options.only_when({"potential"}, {}, one, {});
     const std::string why =
-        "has no meaning for this --potential (nothing moves, and only what is named acts); leave "
-        "it out";
+        "has no meaning with {by} (nothing moves, and only what is named acts); leave it out";
     options.only_when(
         {"strength"}, {"potential"}, [&p, one] { return !one() || has_curvature(p.acting); }, why);
     options.only_when(

@@ -301,16 +301,19 @@ int main(int argc, char** argv) {
     options.only_when({"polarization"}, {}, [&] { return options.given("polarization"); }, {});
     options.integer("cells", p.cells, "cells x cells particles (an even number)", between(4, 400));
     options.number("amplitude", p.amplitude, "largest displacement", between(1e-9, 2.0));
-    options.number("block", p.block, "side d of the blocks whose rotation is measured",
-                   at_least(2.0));
+    options
+        .number("block", p.block, "side d of the blocks whose rotation is measured", at_least(2.0))
+        .only_when(
+            {"polarization", "compare-sizes"}, [&] { return has_blocks(options, p); },
+            "has no meaning with {by}, where no turning is measured; leave it out");
     options.flag("compare-sizes", p.compare_sizes, "find the order of the error from three sizes");
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 10;
+        if (session.common().smoke && !session.given("cells")) p.cells = p.compare_sizes ? 16 : 10;
         if (p.compare_sizes && !session.given("amplitude")) p.amplitude = 0.01 * p.cells / 24.0;
         const bool single = session.given("polarization");
-        refuse_blocks(session, p, single);
+        refuse_blocks(options, p);
         refuse_small(p, session.scheme().range);
         auto all = cases_of(p, single, session.scheme());
         std::vector<double> periods;

@@ -23,16 +23,14 @@ struct Parameters {
 };
 
 /// Blocks are of the transverse wave, and a part of one bulge of it.
-inline void refuse_blocks(Session& session, const Parameters& p, bool single) {
-    const bool none = single && p.polarization == Polarization::longitudinal;
-    if (p.compare_sizes || none) {
-        if (session.given("block"))
-            throw InputError(fmt::format(
-                "block: has no meaning with --{}, where no turning is measured; leave it out",
-                none ? "polarization longitudinal" : "compare-sizes"));
-        session.leave_out_of_case({"block"});
-        return;
-    }
+/// Turning is measured in a transverse wave of one size.
+inline bool has_blocks(const Options& options, const Parameters& p) {
+    return !p.compare_sizes &&
+           !(options.given("polarization") && p.polarization == Polarization::longitudinal);
+}
+
+inline void refuse_blocks(const Options& options, const Parameters& p) {
+    if (!has_blocks(options, p)) return;
     const double half = 0.5 * p.cells * std::sqrt(0.75);
     if (p.block > half)
         throw InputError(fmt::format(

@@ -89,11 +89,12 @@ template <int Dim>
 LatticeModes<Dim>::LatticeModes(SmoothParticleModel<Dim>& model, std::span<const double> y,
                                 double step) {
     if (model.scheme().angular_momentum != AngularMomentum::free)
-        refuse(
-            "balanced torques have no derivative at rest, where all torques vanish (a factor "
-            "depends on their signs); use --angular-momentum free");
+        throw InputError(
+            "angular-momentum: balanced torques have no derivative at rest, where all torques vanish "
+            "(a factor depends on their signs); use free");
     if (model.scheme().viscosity > 0.0)
-        refuse("viscosity has no derivative at rest (it resists approach only); use --viscosity 0");
+        throw InputError(
+            "viscosity: it has no derivative at rest, because it resists approach only; use 0");
     const FieldLayout<Dim>& layout = model.layout();
     const ConstState<Dim> state(layout, y);
     require_wide_box(model);

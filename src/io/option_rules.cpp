@@ -64,18 +64,19 @@ void Options::need(std::vector<std::string> names, const std::string& other) {
         fmt::format("has no meaning without --{}; add it, or leave this one out", other));
 }
 
-void Options::exclude(const std::string& name, std::vector<std::string> others, std::string why) {
+void Options::exclude(const std::string& name, std::vector<std::string> others, std::string why,
+                      bool mutual) {
     if (why.empty()) why = "{by} settles it; leave one out";
     only_when(
         std::move(others), {name}, [this, name] { return !given(name); }, std::move(why));
+    rules_.back().mutual = mutual;
 }
 
 void Options::one_of(const std::vector<std::string>& names, const std::string& what) {
     for (const auto& name : names) {
         std::vector<std::string> others = names;
         std::erase(others, name);
-        exclude(name, others, fmt::format("--{} sets {} too; leave one out", name, what));
-        rules_.back().mutual = true;
+        exclude(name, others, fmt::format("--{} sets {} too; leave one out", name, what), true);
     }
     only_when({names.begin() + 1, names.end()}, {},
               [this, names] { return !first_given(names).empty(); }, {});
@@ -109,7 +110,8 @@ std::string Options::reason(const Rule& rule) const {
     const Entry& by = entry(given);
     std::string value = by.is_flag ? "" : " " + by.get();
     std::erase(value, '"');
-    return fmt::format("{}--{}{}{}", rule.why.substr(0, at), given, value, rule.why.substr(at + 4));
+    return fmt::format("{}--{}{}{}{}", rule.why.substr(0, at), given, value,
+                       by.in_file && !by.on_command ? " of the file" : "", rule.why.substr(at + 4));
 }
 
 void Options::settle() {

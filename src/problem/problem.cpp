@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <system_error>
 
@@ -174,9 +175,15 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         options_.settle();
-        const IntegratorOptions integrator = integrator_.resolve(options_);
+        IntegratorOptions integrator;
+        std::exception_ptr refused;  // of no account where nothing is integrated
+        try {
+            integrator = integrator_.resolve(options_);
+        } catch (const InputError&) {
+            refused = std::current_exception();
+        }
         start_threads(common_.threads.value_or(1));
-        Session session(*this, integrator, command);
+        Session session(*this, integrator, refused, command);
         try {
             body(session);
         } catch (const DryRunDone&) {

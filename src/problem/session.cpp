@@ -21,9 +21,11 @@ constexpr const char* last_checkpoint = "checkpoint_last.h5";
 
 }  // namespace
 
-Session::Session(Problem& problem, const IntegratorOptions& integrator, std::string command)
+Session::Session(Problem& problem, const IntegratorOptions& integrator, std::exception_ptr refused,
+                 std::string command)
     : problem_(problem),
       integrator_(integrator),
+      refused_integrator_(std::move(refused)),
       threads_(problem.common_.threads.value_or(1)),
       chooses_threads_(!problem.common_.threads),
       command_(std::move(command)),

@@ -169,6 +169,7 @@ RunRecord Session::run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan
 
 template <int Dim>
 std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
+    integrator();  // first of all, where its options mean nothing
     for (auto& one : cases) settle_plan(one.plan, memory_->plans.size());
     refuse_idle_balance(cases);
     for (const auto& one : cases) refuse_unstable(one);

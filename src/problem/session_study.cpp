@@ -79,6 +79,7 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
     if (given("balance"))
         throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
+    integrator();
     begin(description, nullptr);
     return statistics_.back();
 }
@@ -104,6 +105,7 @@ StudyTable Session::begin_study(const std::string& table, const std::vector<std:
         throw InputError(fmt::format("{}: has no meaning for the many runs of {}; leave it out",
                                      name, problem_.name_));
     leave_out_of_case(of_one_run);
+    integrator();
     begin(description, table.c_str(), of_integrators);
     return {*folder_, table, columns};
 }

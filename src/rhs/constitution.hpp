@@ -103,14 +103,15 @@ class FluidConstitution final : public Constitution<Dim> {
     std::string complaint(std::span<const double> rho, std::span<const double> e) const;
     void fill(std::span<const double> rho, MeanDensityKind mean,
               PackedParticles<Dim>& packed) const;
-    void close_gradients(const SweptBlock& block, std::span<const double> rho,
-                         PackedParticles<Dim>& packed) const;
+    void close_gradients(const SweptBlock& block, std::span<const double> rho);
+    void load_fluxes(PackedParticles<Dim>& packed) const;
 
     std::vector<Fluid> fluids_;
     bool thermal_, gradients_;
     Matter matter_ = Matter::inviscid;
     std::span<const double> rho_, e_;  ///< of the latest prepare()
     std::vector<double> pressure_, temperature_;
+    std::vector<std::pair<SymTensor<Dim>, Vec<Dim>>> fluxes_;  ///< A and q, by slot
 };
 
 /// f(material, first, count) for the runs of equal material among the entries [first, first + count) of

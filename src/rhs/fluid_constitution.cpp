@@ -107,17 +107,18 @@ std::string FluidConstitution<Dim>::prepare(const Now& now, std::span<const doub
     if (auto reason = complaint(rho, e); !reason.empty()) return reason;
     fill(rho, in.constants.mean_density, packed);
     if (!gradients_) return {};
+    fluxes_.resize(packed.list().order().size());
     struct Context {
-        const FluidConstitution& self;
-        PackedParticles<Dim>& packed;
-    } const context{*this, packed};
+        FluidConstitution& self;
+    } const context{*this};
     SweepOutput<Dim> out;
     out.context = &context;
     out.close = [](const void* given, const SweptBlock& block) {
-        const auto& c = *static_cast<const Context*>(given);
-        c.self.close_gradients(block, c.self.rho_, c.packed);
+        FluidConstitution& self = static_cast<const Context*>(given)->self;
+        self.close_gradients(block, self.rho_);
     };
     sweeps.gradient(in, out);
+    load_fluxes(packed);
     return {};
 }
 
@@ -181,11 +182,9 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind m
     });
 }
 
-/// Stress and heat flux of some particles from their gradients, into their records.
+/// Stress and heat flux of some particles from their gradients, by slot. Their records are being read.
 template <int Dim>
-void FluidConstitution<Dim>::close_gradients(const SweptBlock& block, std::span<const double> rho,
-                                             PackedParticles<Dim>& packed) const {
-    using R = ConductingRecord<Dim>;
+void FluidConstitution<Dim>::close_gradients(const SweptBlock& block, std::span<const double> rho) {
     const Mat<Dim>* const grad_v = block.sums<Mat<Dim>>(0);
     const Vec<Dim>* const grad_T = block.sums<Vec<Dim>>(1);
     for (std::size_t k = 0; k < block.count; ++k) {
@@ -197,11 +196,20 @@ void FluidConstitution<Dim>::close_gradients(const SweptBlock& block, std::span<
         if (fluid.conduction) Q = fluid.conduction->heat_flux(grad_T[k]);
         for (int a = 0; a < Dim; ++a) sigma(a, a) -= pressure_[i];
         const double scale = 1.0 / (rho[i] * rho[i]);
-        double* const record = packed.record(block.first_slot + k);
-        for (std::size_t c = 0; c < sigma.c.size(); ++c)
-            record[R::template at<column::Stress> + static_cast<int>(c)] = scale * sigma.c[c];
-        for (int a = 0; a < Dim; ++a) record[R::template at<column::HeatFlux> + a] = scale * Q[a];
+        fluxes_[block.first_slot + k] = {scale * sigma, scale * Q};
     }
+}
+
+/// Into the records, once all are known.
+template <int Dim>
+void FluidConstitution<Dim>::load_fluxes(PackedParticles<Dim>& packed) const {
+    using R = ConductingRecord<Dim>;
+    parallel_for(fluxes_.size(), [&](std::size_t slot) {
+        double* const record = packed.record(slot);
+        const auto& [A, q] = fluxes_[slot];
+        std::copy(A.c.begin(), A.c.end(), record + R::template at<column::Stress>);
+        std::copy(q.c.begin(), q.c.end(), record + R::template at<column::HeatFlux>);
+    });
 }
 
 template <int Dim>

@@ -13,7 +13,7 @@ Sweeps<Dim> lagrangian_sweeps() {
     constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
     Sweeps<Dim> sweeps{W, StressedRecord<Dim>::numbers};
     sweeps.gradient = run_sweep<LucysSweep, W, Dim, ReferenceRecord<Dim>, DeformationGradient<Dim>>;
-    sweeps.second = run_sweep<LucysSweep, W, Dim, StressedRecord<Dim>, ZeroEnergyPenalty<Dim>>;
+    sweeps.second = run_sweep<LucysSweep, W, Dim, DeformedRecord<Dim>, ZeroEnergyPenalty<Dim>>;
     sweeps.force = run_sweep<LucysSweep, W, Dim, StressedRecord<Dim>, ReferenceForce<Dim>>;
     sweeps.energy = run_sweep<LucysSweep, W, Dim, DeformedRecord<Dim>, PenaltyEnergy<Dim>>;
     return sweeps;

@@ -69,7 +69,7 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
             throw InputError(
                 "angular-momentum: gauss turns bodies about their centres, which a periodic box "
                 "does "
-                "not have; use torque_pair, or a box without periods");
+                "not have; use free or torque_pair, or a box without periods");
         gauss_ = std::make_unique<GaussForces>();
     } else if (law != AngularMomentum::free) {
         torques_ = std::make_unique<TorqueFactors>(n, law);

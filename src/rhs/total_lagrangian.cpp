@@ -69,7 +69,6 @@ template <int Dim>
 struct TotalLagrangian<Dim>::Stresses {
     const HyperelasticMaterial<Dim>& material;
     std::vector<double>& records;
-    bool penalised;  ///< the sweep of the penalty makes B of P
     mutable std::atomic<bool> finite = true;
 
     static void call(const void* context, const SweptBlock& block) {
@@ -78,7 +77,6 @@ struct TotalLagrangian<Dim>::Stresses {
         double* const record = self.records.data() + block.first_slot * stride<Dim>;
         double* const B = record + B_at<Dim>;
         if (!self.material.stresses(count, stride<Dim>, record + F_at<Dim>, B)) self.finite = false;
-        if (self.penalised) return;
         for (std::size_t k = 0; k < count * stride<Dim>; k += stride<Dim>) {
             SymTensor<Dim> K;
             std::copy_n(record + k + K_at<Dim>, K.c.size(), K.c.begin());
@@ -182,13 +180,13 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.records = records_.data();
     out.v_dot = now.v_dot;
-    const Stresses stresses{material_, records_, scheme_.penalty > 0.0};
+    const Stresses stresses{material_, records_};
     out.close = Stresses::call;
     out.context = &stresses;
     sweeps_->gradient(in, out);
     if (!stresses.finite) return complaint();
     out.close = nullptr;
-    if (stresses.penalised)
+    if (scheme_.penalty > 0.0)
         sweeps_->second(in, out);
     else
         std::fill_n(now.v_dot, Dim * this->particles().size(), 0.0);

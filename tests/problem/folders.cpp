@@ -190,6 +190,21 @@ BOOST_AUTO_TEST_CASE(the_command_line_wins_over_a_case_read_back) {
     BOOST_TEST(shorter.status == 0, shorter.err);
     const auto log = contents_of(folder / "rotating_hexagon-out/run.log");  // not wrapped
     BOOST_TEST((log.find("to t = 3\n") != std::string::npos), log);
+    // Keys that every case of these problems holds, or that the other way of saying it has put there.
+    const std::vector<std::tuple<std::string, std::string, Words>> others{
+        {"plane_wave", "block = 3.0\ncells = 16\n", {"--polarization", "longitudinal"}},
+        {"plane_wave", "block = 3.0\n", {"--compare-sizes"}},
+        {"free_expansion", "cells = 8\n", {"--particles", "49"}},
+        {"free_expansion", "particles = 49\n", {"--cells", "8"}},
+        {"free_expansion", "compare = true\n", {"--cost"}},
+        {"free_expansion", "cost = true\n", {"--compare"}}};
+    for (const auto& [name, toml, words] : others) {
+        folder.write("other.toml", toml);
+        Words all{"--config", "other.toml", "--dry-run", "--smoke"};
+        all.insert(all.end(), words.begin(), words.end());
+        const auto other = Child(problem(name, all), {folder.path()}).finish(Child::Seconds(60));
+        BOOST_TEST(other.status == 0, name << " " << words.front() << ": " << other.err);
+    }
     const auto fixed = run({"--integrator", "rk4", "--turns", "0.01"});
     BOOST_TEST(fixed.status == 0, fixed.err);
     BOOST_TEST((fixed.out.find("rk4, fixed step dt = 0.1") != std::string::npos), fixed.out);

@@ -105,8 +105,10 @@ class Options {
                    std::function<bool()> holds, std::string why);
     /// `names` have a meaning only beside `other`.
     void need(std::vector<std::string> names, const std::string& other);
-    /// Where `name` was given, it settles what `others` would.
-    void exclude(const std::string& name, std::vector<std::string> others, std::string why = {});
+    /// Where `name` was given, it settles what `others` would. `mutual`: on the command line either wins
+    /// over a file that holds the other.
+    void exclude(const std::string& name, std::vector<std::string> others, std::string why = {},
+                 bool mutual = false);
     /// No more than one of them may be given: each sets `what`. The first one holds where none is.
     void one_of(const std::vector<std::string>& names, const std::string& what);
     /// For what is only known later: these, where there are such options, are no part of the case.

@@ -18,7 +18,7 @@ struct Continuity {
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
-        to.set_wanted(to.out.rho_dot, sums.rho_dot);
+        if (to.out.rho_dot != nullptr) to.set(to.out.rho_dot, sums.rho_dot);
     }
 };
 
@@ -35,7 +35,7 @@ struct ChainRuleContinuity {
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
-        to.set_wanted(to.out.rho_dot, sums.rho_dot);
+        if (to.out.rho_dot != nullptr) to.set(to.out.rho_dot, sums.rho_dot);
     }
 };
 

@@ -26,7 +26,7 @@ struct Deformation {
 };
 template <int Dim, class T>
 struct ReferenceStress {
-    Mat<Dim, T> B;  ///< what pairs feel, (P - M/V) K^t; P before that is known
+    Mat<Dim, T> B;  ///< what pairs feel, (P - M/V) K^t; without M before that is known
 };
 
 }  // namespace column

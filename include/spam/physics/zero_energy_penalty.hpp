@@ -50,15 +50,15 @@ struct ZeroEnergyPenalty {
         sums.force += f;
         add_outer(sums.M, T(0.5) * f, pair.r_ji);
     }
-    /// `i.B` is P as the law has told it.
+    /// What it adds to B = P K^t, which the law has told. Neighbours may not read B meanwhile.
     template <class T, class Record>
     Result<T> result(const Record& i, const Sums<T>& sums) const {
-        return {T(stiffness * inverse_density) * sums.force, (i.B + T(-stiffness) * sums.M) * i.K};
+        return {T(stiffness * inverse_density) * sums.force, T(-stiffness) * (sums.M * i.K)};
     }
     template <class To, class T>
     static void store(const To& to, const Result<T>& result) {
         to.set(to.out.v_dot, result.v_dot);
-        to.template write<StressedRecord<Dim>, column::ReferenceStress>(result.B);
+        to.template write_more<StressedRecord<Dim>, column::ReferenceStress>(result.B);
     }
 };
 

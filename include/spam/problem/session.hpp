@@ -9,6 +9,7 @@
 #include <spam/problem/problem.hpp>
 
 #include <chrono>
+#include <exception>
 
 namespace spam {
 
@@ -28,7 +29,11 @@ class Session {
     bool given(std::string_view option) const { return problem_.options_.given(option); }
     const CommonOptions& common() const { return problem_.common_; }
     const Scheme& scheme() const { return problem_.scheme_; }
-    const IntegratorOptions& integrator() const { return integrator_; }
+    /// Throws InputError where the options of the integrator mean nothing.
+    const IntegratorOptions& integrator() const {
+        if (refused_integrator_) std::rethrow_exception(refused_integrator_);
+        return integrator_;
+    }
 
     /// The step of rk4, where none is given, of a case that needs another one than the problem's.
     void prefer_step(double dt);
@@ -96,7 +101,8 @@ class Session {
 
   private:
     friend class Problem;
-    Session(Problem& problem, const IntegratorOptions& integrator, std::string command);
+    Session(Problem& problem, const IntegratorOptions& integrator, std::exception_ptr refused,
+            std::string command);
 
     [[noreturn]] void end_dry_run();
     void choose_threads(std::size_t particles);
@@ -140,6 +146,7 @@ class Session {
 
     Problem& problem_;
     IntegratorOptions integrator_;
+    std::exception_ptr refused_integrator_;  ///< why there is none; null where there is one
     int threads_;
     bool chooses_threads_;
     std::string command_;

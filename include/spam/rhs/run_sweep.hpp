@@ -70,21 +70,21 @@ struct Lane {
         double* to = at<Value>(field);
         for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ = lane(n, lane_number); });
     }
-    /// Where somebody wants it.
-    template <class Value>
-    SPAM_INLINE void set_wanted(double* field, const Value& value) const {
-        if (field != nullptr) set(field, value);
-    }
     template <class Value>
     SPAM_INLINE void add(double* field, const Value& value) const {
         double* to = at<Value>(field);
         for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ += lane(n, lane_number); });
     }
-    /// A column of the record, which may lie behind those that the sweep reads.
+    /// A column of the record, behind those that the sweep reads: of neighbours it may be read at any time.
     template <class R, template <int, class> class Column, class Value>
     SPAM_INLINE void write(const Value& value) const {
         double* to = out.records + record + R::template at<Column>;
         for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ = lane(n, lane_number); });
+    }
+    template <class R, template <int, class> class Column, class Value>
+    SPAM_INLINE void write_more(const Value& value) const {
+        double* to = out.records + record + R::template at<Column>;
+        for_each_number(value, [&](const auto& n) SPAM_FLAT { *to++ += lane(n, lane_number); });
     }
 
   private:
