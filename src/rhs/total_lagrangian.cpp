@@ -172,7 +172,7 @@ void TotalLagrangian<Dim>::load(const ConstState<Dim>& state, std::vector<double
     });
 }
 
-/// The order that the equations force: A, F, P - penalty and M, B - force.
+/// The order that the equations force: A, F, P and B = P K^t - the penalty, which takes M/V K^t off B - force.
 template <int Dim>
 std::string TotalLagrangian<Dim>::rates(const Now& now) {
     load(now.state, records_);

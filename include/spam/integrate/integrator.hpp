@@ -118,7 +118,7 @@ class Integrator {
         // last number is shared by all blocks from there on. Of a long y only every eighth step is looked
         // at: it takes three passes.
         static constexpr std::size_t most_blocks = 6;
-        std::array<std::size_t, most_blocks> limited_by{};  ///< accepted steps looked at
+        std::array<std::size_t, most_blocks> limited_by{};  ///< steps, of those measured
         std::array<double, most_blocks> error_share{};      ///< of the error, summed over steps
         std::optional<std::size_t> limiting{};              ///< the latest step
 
