@@ -44,9 +44,13 @@ PairTorques pair_torques(const SmoothParticleModel<2>& model, std::span<const do
     for (std::size_t i = 0; i < particle.size(); ++i)
         for (const std::uint32_t j : list.neighbours(i)) {
             if (j <= i) continue;
-            const auto pair =
-                make_pair<2, double>(weight, separation(model.box(), particle[i].x, particle[j].x),
-                                     particle[i], particle[j]);
+            Vec<2> x_j = particle[j].x;
+            for (int a = 0; a < 2; ++a)
+                if (model.box().periodic(a))
+                    x_j[a] =
+                        particle[i].x[a] + model.box().nearest_image(a, x_j[a] - particle[i].x[a]);
+            const auto pair = make_pair<2, double>(weight, separation(particle[i].x, x_j),
+                                                   particle[i], particle[j]);
             const double T = particle[i].m * particle[j].m *
                              cross(stress_force(pair, particle[i], particle[j]), pair.r_ji);
             torques.pair.push_back(T);

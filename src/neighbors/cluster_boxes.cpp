@@ -8,30 +8,20 @@ namespace spam {
 
 template <int Dim>
 void ClusterBoxes<Dim>::build(const std::array<std::vector<double>, Dim>& x, std::size_t width,
-                              std::size_t clusters, const Box<Dim>& box) {
-    box_ = box;
+                              std::size_t clusters) {
     bounds_.resize(clusters);
     parallel_for(
         bounds_.size(),
         [&](std::size_t c) {
             for (std::size_t a = 0; a < Dim; ++a) {
-                const int axis = static_cast<int>(a);
                 const double* const p = x[a].data() + c * width;
                 double low = 0.0, high = 0.0;  // from the first member
                 for (std::size_t l = 1; l < width; ++l) {
                     low = std::min(low, p[l] - p[0]);
                     high = std::max(high, p[l] - p[0]);
                 }
-                if (box.periodic(axis) && high - low > 0.5 * box.length(axis)) {
-                    low = high = 0.0;  // the cluster lies across the border
-                    for (std::size_t l = 1; l < width; ++l) {
-                        const double s = box.nearest_image(axis, p[l] - p[0]);
-                        low = std::min(low, s);
-                        high = std::max(high, s);
-                    }
-                }
                 bounds_[c].half[a] = 0.5 * (high - low);
-                bounds_[c].centre[a] = box.wrap(axis, p[0] + 0.5 * (high + low));
+                bounds_[c].centre[a] = p[0] + 0.5 * (high + low);
             }
         },
         width);
@@ -61,7 +51,7 @@ bool ClusterBoxes<Dim>::sort() {
         for (int a = 0; a < Dim; ++a)
             centres(a, static_cast<Eigen::Index>(k)) =
                 bounds_[sorted_[k]].centre[static_cast<std::size_t>(a)];
-    centres_.build(centres, box_);
+    centres_.build(centres, {});
     return true;
 }
 
@@ -69,16 +59,14 @@ template <int Dim>
 Bounds<Dim> ClusterBoxes<Dim>::around(std::size_t first, std::size_t last) const {
     Bounds<Dim> all = bounds_[first];
     for (std::size_t a = 0; a < Dim; ++a) {
-        const int axis = static_cast<int>(a);
         double low = -all.half[a], high = all.half[a];
         for (std::size_t c = first + 1; c < last; ++c) {
-            const double s =
-                box_.nearest_image(axis, bounds_[c].centre[a] - bounds_[first].centre[a]);
+            const double s = bounds_[c].centre[a] - bounds_[first].centre[a];
             low = std::min(low, s - bounds_[c].half[a]);
             high = std::max(high, s + bounds_[c].half[a]);
         }
         all.half[a] = 0.5 * (high - low);
-        all.centre[a] = box_.wrap(axis, all.centre[a] + 0.5 * (high + low));
+        all.centre[a] += 0.5 * (high + low);
     }
     return all;
 }
@@ -98,18 +86,6 @@ void ClusterBoxes<Dim>::collect(const Bounds<Dim>& bounds, double reach,
         for (std::uint32_t k = first; k < last; ++k) found.push_back(sorted_[order[k]]);
     });
     found.insert(found.end(), large_.begin(), large_.end());
-}
-
-template <int Dim>
-bool ClusterBoxes<Dim>::wraps(const Bounds<Dim>& bounds, double reach) const {
-    for (std::size_t a = 0; a < Dim; ++a) {
-        const int axis = static_cast<int>(a);
-        if (!box_.periodic(axis)) continue;
-        const double most = bounds.half[a] + reach;
-        if (bounds.centre[a] - most < 0.0 || bounds.centre[a] + most >= box_.length(axis))
-            return true;
-    }
-    return false;
 }
 
 template <int Dim>

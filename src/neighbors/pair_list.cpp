@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/neighbors/pair_list.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
 namespace spam {
 
 template <int Dim>
+void require_one_image(const Box<Dim>& box, double reach) {
+    for (int a = 0; a < Dim; ++a)
+        if (box.periodic(a) && !(box.length(a) > 2.0 * reach))
+            throw InputError(fmt::format(
+                "box: periodic length {} of direction {} must exceed twice the range, {}; enlarge the "
+                "box or shorten --range",
+                box.length(a), "xyz"[a], 2.0 * reach));
+}
+
+template <int Dim>
 PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim>& box) {
+    require_one_image(box, reach);
     // Clusters of one particle lie as well in one order as in another: slots are particle numbers, and
-    // entries, which are in ascending slot, ascend.
+    // entries ascend.
     ClusterList<Dim> clusters(reach, 0.0, box, 1);
     clusters.build(position);
     const auto order = clusters.order();
@@ -22,10 +36,13 @@ PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim
         const auto entries = clusters.entries(slot);
         std::transform(entries.begin(), entries.end(),
                        entries_.begin() + static_cast<std::ptrdiff_t>(start_[order[slot]]),
-                       [&](std::uint32_t k) { return order[k]; });
+                       [&](std::uint32_t k) { return clusters.particle(k); });
     }
 }
 
+template void require_one_image(const Box<1>&, double);
+template void require_one_image(const Box<2>&, double);
+template void require_one_image(const Box<3>&, double);
 template class PairList<1>;
 template class PairList<2>;
 template class PairList<3>;

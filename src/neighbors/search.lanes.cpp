@@ -35,7 +35,7 @@ struct Clusters {
     }
 };
 
-template <int Dim, int W, bool Wraps, class Places>
+template <int Dim, int W, class Places>
 std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
                       const typename Places::Place* places, std::size_t count, std::uint32_t* out,
                       std::size_t& pairs) {
@@ -49,8 +49,7 @@ std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsign
     Places::for_each(places, count, in.slots, [&](std::uint32_t j) {
         T r2(0.0);
         for (int a = 0; a < Dim; ++a) {
-            T s = x[a] - T(in.x[a][j]);
-            if constexpr (Wraps) s -= T(in.length[a]) * nearest_integer(s * T(in.inverse[a]));
+            const T s = x[a] - T(in.x[a][j]);
             r2 += s * s;
         }
         const unsigned near = lanes_below(r2, cutoff2);
@@ -60,15 +59,6 @@ std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsign
     });
     pairs += found;
     return out;
-}
-
-template <int Dim, int W, class Places>
-std::uint32_t* search_in(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
-                         bool wraps, const typename Places::Place* places, std::size_t count,
-                         std::uint32_t* out, std::size_t& pairs) {
-    return wraps
-               ? search<Dim, W, true, Places>(in, first_slot, members, places, count, out, pairs)
-               : search<Dim, W, false, Places>(in, first_slot, members, places, count, out, pairs);
 }
 
 /// slots first, first + 1, ... times `stride` where `bits` says so. Returns the end; writes W.
@@ -93,7 +83,7 @@ template <int W>
     return out;
 }
 
-template <int Dim, int W, bool Wraps>
+template <int Dim, int W>
 std::uint32_t* around_bounds(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
                              const SlotRange* ranges, std::size_t count, std::uint32_t* out) {
     using std::max;
@@ -105,8 +95,7 @@ std::uint32_t* around_bounds(const SearchInput<Dim>& in, const Bounds<Dim>& boun
         for (std::uint32_t first = range.first; first < range.last; first += W) {
             T d2(0.0);
             for (int a = 0; a < Dim; ++a) {
-                T s = load_lanes<W>(in.x[a] + first) - T(bounds.centre[a]);
-                if constexpr (Wraps) s -= T(in.length[a]) * nearest_integer(s * T(in.inverse[a]));
+                const T s = load_lanes<W>(in.x[a] + first) - T(bounds.centre[a]);
                 const T gap = max(s, -s) - T(bounds.half[a]);
                 const T apart = positive_part(gap + gap);
                 d2 += apart * apart;
@@ -119,14 +108,7 @@ std::uint32_t* around_bounds(const SearchInput<Dim>& in, const Bounds<Dim>& boun
     return out;
 }
 
-template <int Dim, int W>
-std::uint32_t* around_bounds_in(const SearchInput<Dim>& in, const Bounds<Dim>& bounds, bool wraps,
-                                const SlotRange* ranges, std::size_t count, std::uint32_t* out) {
-    return wraps ? around_bounds<Dim, W, true>(in, bounds, ranges, count, out)
-                 : around_bounds<Dim, W, false>(in, bounds, ranges, count, out);
-}
-
-template <int Dim, bool Wraps>
+template <int Dim>
 std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
                       const std::uint32_t* ids, std::size_t count, std::uint32_t* kept) {
     const Bounds<Dim> b = bounds;
@@ -136,8 +118,7 @@ std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
         const Bounds<Dim>& other = in.bounds[id];
         double d2 = 0.0;
         for (int a = 0; a < Dim; ++a) {
-            double s = other.centre[a] - b.centre[a];
-            if constexpr (Wraps) s -= in.length[a] * __builtin_nearbyint(s * in.inverse[a]);
+            const double s = other.centre[a] - b.centre[a];
             const double gap = __builtin_fabs(s) - (other.half[a] + b.half[a]);
             const double twice =
                 gap + __builtin_fabs(gap);  // of its positive part, without a branch
@@ -149,17 +130,10 @@ std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
     return found;
 }
 
-template <int Dim>
-std::size_t keep_near_in(const SearchInput<Dim>& in, const Bounds<Dim>& bounds, bool wraps,
-                         const std::uint32_t* ids, std::size_t count, std::uint32_t* kept) {
-    return wraps ? keep_near<Dim, true>(in, bounds, ids, count, kept)
-                 : keep_near<Dim, false>(in, bounds, ids, count, kept);
-}
-
 template <int Dim, int W>
 constexpr Search<Dim> functions() {
-    return {keep_near_in<Dim>, search_in<Dim, W, Ranges>, search_in<Dim, W, Clusters<W>>,
-            around_bounds_in<Dim, W>};
+    return {keep_near<Dim>, search<Dim, W, Ranges>, search<Dim, W, Clusters<W>>,
+            around_bounds<Dim, W>};
 }
 
 }  // namespace

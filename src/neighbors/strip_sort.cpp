@@ -15,7 +15,8 @@ double most_bins(std::size_t particles) { return 64.0 + 4.0 * static_cast<double
 
 template <int Dim>
 typename StripSort<Dim>::Int StripSort<Dim>::bin(std::size_t a, double x) const {
-    return std::clamp(static_cast<Int>((x - origin_[a]) * per_edge_[a]), 0, count_[a] - 1);
+    // In doubles first: a corner may lie far outside what an integer holds.
+    return static_cast<Int>(std::clamp((x - origin_[a]) * per_edge_[a], 0.0, count_[a] - 1.0));
 }
 
 /// Cuts direction a into bins of about `edge`.
@@ -66,9 +67,9 @@ void StripSort<Dim>::choose_bins(const Points<Dim>& position, const Box<Dim>& bo
     double longest = 0.0;
     for (std::size_t a = 0; a < Dim; ++a) {
         const auto row = position.row(static_cast<Eigen::Index>(a));
-        periodic_[a] = box.periodic(static_cast<int>(a));
-        origin_[a] = periodic_[a] ? 0.0 : row.minCoeff();
-        extent_[a] = periodic_[a] ? box.length(static_cast<int>(a)) : row.maxCoeff() - origin_[a];
+        const bool periodic = box.periodic(static_cast<int>(a));
+        origin_[a] = periodic ? 0.0 : row.minCoeff();
+        extent_[a] = periodic ? box.length(static_cast<int>(a)) : row.maxCoeff() - origin_[a];
         longest = std::max(longest, extent_[a]);
     }
     // A few builds old will do: it decides about the shape of strips only.
@@ -95,7 +96,7 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
     order_.resize(n);
     bin_of_.resize(n);
     if (n == 0) {  // one empty bin: there are no coordinates to look at, no space to share
-        periodic_.fill(false), origin_.fill(0.0), per_edge_.fill(0.0), count_.fill(1);
+        origin_.fill(0.0), per_edge_.fill(0.0), count_.fill(1);
         start_.assign(3, 0);
         return;
     }
@@ -155,25 +156,6 @@ void StripSort<Dim>::sort_bin(std::size_t b, const Points<Dim>& position, double
             order_[to] = order_[to - 1];
         order_[to] = moving;
     }
-}
-
-template <int Dim>
-typename StripSort<Dim>::Intervals StripSort<Dim>::intervals(std::size_t a, double low,
-                                                             double high) const {
-    const Int n = count_[a];
-    if (!periodic_[a]) {
-        // In doubles first: a corner may lie far outside what an integer holds.
-        const auto clamped = [&](double x) {
-            return static_cast<Int>(std::clamp((x - origin_[a]) * per_edge_[a], 0.0, n - 1.0));
-        };
-        return {1, {{{clamped(low), clamped(high)}, {}}}};
-    }
-    const double first = std::floor(low * per_edge_[a]), last = std::floor(high * per_edge_[a]);
-    if (!(last - first + 1.0 < n)) return {1, {{{0, n - 1}, {}}}};
-    const auto wrapped = [&](double k) { return static_cast<Int>(k - n * std::floor(k / n)); };
-    const Int from = wrapped(first), to = wrapped(last);
-    if (from <= to) return {1, {{{from, to}, {}}}};
-    return {2, {{{0, to}, {from, n - 1}}}};
 }
 
 template class StripSort<1>;

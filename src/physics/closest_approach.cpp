@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/closest_approach.hpp>
 
 #include <algorithm>
@@ -53,7 +54,9 @@ ClosestApproach<Dim>::ClosestApproach(std::vector<double> mass, const Box<Dim>& 
       periodic_(box.periodic()),
       R_(distance),
       moves_with_v_(moves_with_v),
-      list_(new_list()) {}
+      list_(new_list()) {
+    require_one_image(box, 1.001 * distance);
+}
 
 template <int Dim>
 std::unique_ptr<ClusterList<Dim>> ClosestApproach<Dim>::new_list() const {
@@ -96,7 +99,8 @@ void ClosestApproach<Dim>::build_list() {
     const auto order = list_->order();
     for (std::size_t slot = 0; slot < list_->clusters(); ++slot)
         for (const std::uint32_t other : list_->entries(slot))
-            if (order[slot] < order[other]) near_.push_back({order[slot], order[other]});
+            if (order[slot] < list_->particle(other))
+                near_.push_back({order[slot], list_->particle(other)});
     served_ = 0;
 }
 

@@ -5,6 +5,8 @@
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/physics/curvature_strength.hpp>
+#include <spam/physics/density_passes.hpp>
+#include <spam/physics/embedded_energy.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/physics/surface_tension.hpp>
 #include <spam/rhs/density_potentials.hpp>
@@ -102,6 +104,15 @@ struct DensityPotentialTerm<Dim>::Parts {
         in.constants.core_energy = core.e_c;
         in.constants.core_range = core.s;
         return in;
+    }
+    /// Of the record that the sweep of forces reads.
+    std::span<const NumberKind> kinds() const {
+        if (!shape) return SlopeRecord<Dim, double, DensityItself>::kinds;
+        if constexpr (Dim == 1)
+            return SlopeRecord<Dim, double, DensityItself, SurfaceTension>::kinds;
+        else
+            return SlopeRecord<Dim, double, DensityItself, SurfaceTension,
+                               CurvatureStrength>::kinds;
     }
     void find_fields(PackedParticles<Dim>& particles) const {
         SweepOutput<Dim> out;
@@ -221,6 +232,7 @@ std::string DensityPotentialTerm<Dim>::rates(const Now& now) {
     if (parts_->shape || potentials_.state) {
         parts_->find_fields(packed);
         if (parts_->make_slopes() > 0) return complaint();
+        packed.refresh(parts_->kinds(), PointRecord<Dim>::numbers);
     }
     SweepOutput<Dim> out;
     out.v_dot = now.v_dot;

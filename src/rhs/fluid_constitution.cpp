@@ -180,6 +180,11 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind m
         for (int c = 0; c < symmetric_size(Dim); ++c) record[A_at + c] = c < Dim ? -a : 0.0;
         for (int c = 0; c < Dim; ++c) record[q_at + c] = 0.0;
     });
+    if (tensors)
+        packed.template refresh<R>(R::template at<column::Density>);
+    else
+        packed.template refresh<InviscidRecord<Dim>>(
+            InviscidRecord<Dim>::template at<column::Pressure>);
 }
 
 /// Stress and heat flux of some particles from their gradients, by slot. Their records are being read.
@@ -210,6 +215,7 @@ void FluidConstitution<Dim>::load_fluxes(PackedParticles<Dim>& packed) const {
         std::copy(A.c.begin(), A.c.end(), record + R::template at<column::Stress>);
         std::copy(q.c.begin(), q.c.end(), record + R::template at<column::HeatFlux>);
     });
+    packed.template refresh<R>(R::template at<column::Stress>);
 }
 
 template <int Dim>

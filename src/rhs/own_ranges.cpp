@@ -148,6 +148,8 @@ void OwnRanges<Dim>::fill(const Fill& fill) {
     const auto order = packed_->list().order();
     parallel_for(order.size(),
                  [&](std::size_t slot) { fill(std::size_t{order[slot]}, packed_->record(slot)); });
+    using R = RangeRecord<Dim>;
+    packed_->template refresh<R>(R::template at<column::InverseRange>);
 }
 
 template <int Dim>

@@ -22,8 +22,8 @@ constexpr double most_pairs = 2e9;
 template <int Dim>
 std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_only) {
     const PackCount count =
-        make_records_({fields, list_.order(), &list_.box(), list_.displacement(), stride_},
-                      density_only, records_.data());
+        make_records_.write({fields, list_.order(), list_.home(), list_.displacement(), stride_},
+                            density_only, records_.data());
     invalid_ = count.invalid;
     return count.far;
 }
@@ -32,14 +32,15 @@ template <int Dim>
 bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
     // Most often nobody has gone too far, and packing has read all positions anyway.
     ++served_;
-    if (list_.size() == n && pack(fields, false) == 0) return true;
+    if (list_.size() == n && pack(fields, false) == 0) return refresh(), true;
     const Eigen::Map<const Points<Dim>> x(fields.x, Dim, static_cast<Eigen::Index>(n));
-    if (list_.serves(x)) return true;
+    if (list_.serves(x)) return refresh(), true;
     if (!x.allFinite()) return false;
     if (list_.builds() > 0 && list_.skin() > 0.0) choose_skin();
     list_.build(x);
-    records_.resize(list_.order().size() * stride_);
+    records_.resize(list_.slots() * stride_);
     pack(fields, false);
+    refresh();
     return true;
 }
 
@@ -57,6 +58,7 @@ std::vector<double> PackedParticles<Dim>::summed_density(Sweep<Dim> sum, std::si
 template <int Dim>
 void PackedParticles<Dim>::load_density(const PackedFields& fields) {
     pack(fields, true);
+    refresh();
 }
 
 template <int Dim>
@@ -77,22 +79,12 @@ double valid_range(double range, double spacing, std::size_t particles) {
     return range;
 }
 
-/// A tight periodic box leaves less room.
-template <int Dim>
-double PackedParticles<Dim>::skin(double range, double share, const Box<Dim>& box) {
-    double skin = share * range;
-    for (int a = 0; a < Dim; ++a)
-        if (box.periodic(a) && box.length(a) > 2.0 * range)
-            skin = std::min(skin, 0.49 * (box.length(a) - 2.0 * range));
-    return skin;
-}
-
 /// By what the list that is used up has served: never by the clock, or no run could be repeated.
 template <int Dim>
 void PackedParticles<Dim>::choose_skin() {
     if (served_ < 8) share_ = std::min(1.25 * share_, most_share);
     if (served_ > 60) share_ = std::max(share_ / 1.25, least_share);
-    list_.set_skin(skin(weight_.range(), share_, list_.box()));
+    list_.set_skin(share_ * weight_.range());
     served_ = 0;
 }
 

@@ -19,8 +19,8 @@ class PackedParticles {
     /// lasts some right-hand sides.
     PackedParticles(const GeneralWeight<Dim>& weight, ListUse use, const Box<Dim>& box,
                     const Sweeps<Dim>& sweeps)
-        : list_(weight.range(), use == ListUse::once ? 0.0 : skin(weight.range(), first_share, box),
-                box, sweeps.width, static_cast<std::size_t>(sweeps.numbers)),
+        : list_(weight.range(), use == ListUse::once ? 0.0 : first_share * weight.range(), box,
+                sweeps.width, static_cast<std::size_t>(sweeps.numbers)),
           weight_(weight),
           stride_(static_cast<std::size_t>(sweeps.numbers)),
           make_records_(sweeps.pack) {}
@@ -33,12 +33,21 @@ class PackedParticles {
     std::vector<double> summed_density(Sweep<Dim> sum, std::size_t n, const PackedFields& fields);
     /// Density and what depends on it, where it became known after follow().
     void load_density(const PackedFields& fields);
+    /// Gives images of particles what their records hold now, as a record R from number `from` on: before
+    /// every sweep that reads of neighbours what was written since.
+    template <class R>
+    void refresh(int from) {
+        refresh(R::kinds, from);
+    }
+    void refresh(std::span<const NumberKind> kinds, int from) {
+        list_.refresh(records_.data(), kinds, static_cast<std::size_t>(from));
+    }
 
     const ClusterList<Dim>& list() const { return list_; }
     int numbers() const { return static_cast<int>(stride_); }  ///< in a record
     double* record(std::size_t slot) { return &records_[slot * stride_]; }
     SweepInput<Dim> input() const {
-        return {list_.view(), {records_.data(), stride_}, weight_.range(), &list_.box(), &weight_};
+        return {list_.view(), {records_.data(), stride_}, weight_.range(), &weight_};
     }
 
   private:
@@ -46,7 +55,8 @@ class PackedParticles {
     // used up.
     static constexpr double first_share = 0.075, least_share = 0.05, most_share = 0.36;
 
-    static double skin(double range, double share, const Box<Dim>& box);
+    /// Images of what has been packed.
+    void refresh() { list_.refresh(records_.data(), make_records_.kinds); }
     void choose_skin();
     std::size_t pack(const PackedFields& fields, bool density_only);
 

@@ -37,6 +37,7 @@ template <int Dim>
 PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
     : Term<Dim>(among),
       law_(validated(std::move(law), among.particles().size())),
+      scalars_(static_cast<std::size_t>(law_.sweeps.numbers)),
       packed_(packed_with(ListUse::again_and_again)) {}
 
 template <int Dim>
@@ -67,6 +68,7 @@ bool PairTerm<Dim>::follow(PackedParticles<Dim>& packed, const ConstState<Dim>& 
         double* number = packed.record(slot) + PointRecord<Dim>::numbers;
         for (const auto& column : law_.columns) *number++ = column[order[slot]];
     });
+    packed.refresh(scalars_, PointRecord<Dim>::numbers);
     return true;
 }
 

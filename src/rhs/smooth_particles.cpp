@@ -242,6 +242,7 @@ void SmoothParticles<Dim>::load_transport(const Now& now) {
         record[R::template at<column::PositiveFactor>] = s.positive;
         if (sound) record[R::template at<column::SoundSpeed>] = constitution_->sound_speed_of(i);
     });
+    packed_->template refresh<R>(R::template at<column::Transport>);
 }
 
 template <int Dim>

@@ -108,7 +108,7 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
 
 template <int Dim>
 SweepInput<Dim> TotalLagrangian<Dim>::input(const std::vector<double>& records) const {
-    SweepInput<Dim> in{list_.view(), {records.data(), stride<Dim>}, scheme_.range, &this->box()};
+    SweepInput<Dim> in{list_.view(), {records.data(), stride<Dim>}, scheme_.range};
     in.constants.inverse_density = 1.0 / scheme_.density;
     in.constants.penalty = scheme_.penalty * material_.stiffness();
     return in;
@@ -118,16 +118,18 @@ SweepInput<Dim> TotalLagrangian<Dim>::input(const std::vector<double>& records) 
 template <int Dim>
 void TotalLagrangian<Dim>::pack_reference() {
     const auto order = list_.order();
-    records_.assign(order.size() * stride<Dim>, 0.0);
+    const Home<Dim> home = list_.home();
+    records_.assign(list_.slots() * stride<Dim>, 0.0);
     for (std::size_t slot = 0; slot < order.size(); ++slot) {
         double* const record = &records_[slot * stride<Dim>];
         for (std::size_t a = 0; a < Dim; ++a) {
             const double X = this->particles().reference_position.data()[Dim * order[slot] + a];
-            record[a] = record[present_at<Dim> + a] = this->box().wrap(static_cast<int>(a), X);
+            record[a] = record[present_at<Dim> + a] = home(order[slot], a, X);
             record[K_at<Dim> + a] = 1.0;
         }
         record[volume_at<Dim>] = this->particles().mass[order[slot]] / scheme_.density;
     }
+    refresh(records_, 0);
 }
 
 /// K_i = [sum_j V_j (X_j - X_i) (x) grad_i W_ij]^-1, by the sweep that will multiply with it.
@@ -154,22 +156,26 @@ void TotalLagrangian<Dim>::find_corrections() {
                 record[K_at<Dim> + static_cast<std::size_t>(symmetric_index(Dim, a, b))] =
                     0.5 * (K(a, b) + K(b, a));
     }
+    refresh(records_, K_at<Dim>);
 }
 
-/// The positions now, moved by the periods that wrapping took off X.
+template <int Dim>
+void TotalLagrangian<Dim>::refresh(std::vector<double>& records, std::size_t from) const {
+    list_.refresh(records.data(), StressedRecord<Dim>::kinds, from);
+}
+
+/// The positions now, of the images that the list took of X.
 template <int Dim>
 void TotalLagrangian<Dim>::load(const ConstState<Dim>& state, std::vector<double>& records) const {
-    constexpr auto d = static_cast<std::size_t>(Dim);
     const double* const x = state.position().data();
-    const double* const X = this->particles().reference_position.data();
     const auto order = list_.order();
+    const Home<Dim> home = list_.home();
     parallel_for(order.size(), [&](std::size_t slot) {
-        double* const record = &records[slot * stride<Dim>];
-        for (std::size_t a = 0; a < d; ++a) {
-            const std::size_t k = order[slot] * d + a;
-            record[present_at<Dim> + a] = x[k] - (X[k] - record[a]);
-        }
+        double* const present = &records[slot * stride<Dim> + present_at<Dim>];
+        for (std::size_t a = 0; a < Dim; ++a)
+            present[a] = home(order[slot], a, x[order[slot] * Dim + a]);
     });
+    refresh(records, present_at<Dim>);
 }
 
 /// The order that the equations force: A, F, P and B = P K^t - the penalty, which takes M/V K^t off B - force.
@@ -185,11 +191,13 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     out.context = &stresses;
     sweeps_->gradient(in, out);
     if (!stresses.finite) return complaint();
+    refresh(records_, F_at<Dim>);
     out.close = nullptr;
     if (scheme_.penalty > 0.0)
         sweeps_->second(in, out);
     else
         std::fill_n(now.v_dot, Dim * this->particles().size(), 0.0);
+    refresh(records_, B_at<Dim>);
     sweeps_->force(in, out);
     return {};
 }
@@ -242,6 +250,7 @@ double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
     std::vector<double> records = deformed(y);
     std::vector<double> penalty(list_.size(), 0.0);
     if (scheme_.penalty > 0.0) {
+        refresh(records, F_at<Dim>);
         SweepOutput<Dim> out;
         out.energy = penalty.data();
         sweeps_->energy(input(records), out);

@@ -56,30 +56,35 @@ struct Coordination {
     }
 };
 
-template <int W, int Dim, class Space>
-void compare(const Box<Dim>& box, const Space& space, double size) {
+template <int W, int Dim>
+void compare(const Box<Dim>& box, double size) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> u(0.0, size);
     Points<Dim> x(Dim, 301);
     for (auto& c : x.reshaped()) c = u(random);
     ClusterList<Dim> list(1.0, 0.1, box, W, Dot<Dim>::numbers);
     list.build(x);
-    std::vector<double> records(list.order().size() * Dot<Dim>::numbers, 1.0);
+    std::vector<double> records(list.slots() * Dot<Dim>::numbers, 1.0);
     for (std::size_t slot = 0; slot < list.order().size(); ++slot)
-        for (int a = 0; a < Dim; ++a)
-            records[slot * Dot<Dim>::numbers + static_cast<std::size_t>(a)] =
-                x(a, list.order()[slot]);
+        for (int a = 0; a < Dim; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            records[slot * Dot<Dim>::numbers + axis] =
+                list.home()(list.order()[slot], axis, x(a, list.order()[slot]));
+        }
+    std::array<NumberKind, Dot<Dim>::numbers> kinds{};
+    for (unsigned char a = 0; a < Dim; ++a) kinds[a] = {Quantity::position, a, a};
+    list.refresh(records.data(), kinds);
 
     std::vector<double> neighbours(list.size(), -1.0), distance2(list.size());
     const ClusterView view = list.view();
-    sweep<W, Dim, Dot<Dim>, Coordination>(
-        view, Step{1.0}, space, {records.data(), Dot<Dim>::numbers},
-        [&](std::size_t slot, const auto&, const auto& sums) {
-            for_each_lane<W>(view, slot, [&](int l, std::size_t i) {
-                neighbours[i] = lane(sums.neighbours, l);
-                distance2[i] = lane(sums.distance2, l);
-            });
-        });
+    sweep<W, Dim, Dot<Dim>, Coordination>(view, Step{1.0}, {records.data(), Dot<Dim>::numbers},
+                                          [&](std::size_t slot, const auto&, const auto& sums) {
+                                              for_each_lane<W>(
+                                                  view, slot, [&](int l, std::size_t i) {
+                                                      neighbours[i] = lane(sums.neighbours, l);
+                                                      distance2[i] = lane(sums.distance2, l);
+                                                  });
+                                          });
 
     const auto expected = brute_force_neighbours<Dim>(x, 1.0, box);
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -100,14 +105,14 @@ void every_width(double size) {
     std::array<double, Dim> lengths;
     lengths.fill(size);
     const Box<Dim> box(lengths), free;
-    compare<1>(free, OpenSpace(), size);
-    compare<2>(free, OpenSpace(), size);
-    compare<4>(free, OpenSpace(), size);
-    compare<8>(free, OpenSpace(), size);
-    compare<1>(box, box, size);
-    compare<2>(box, box, size);
-    compare<4>(box, box, size);
-    compare<8>(box, box, size);
+    compare<1>(free, size);
+    compare<2>(free, size);
+    compare<4>(free, size);
+    compare<8>(free, size);
+    compare<1>(box, size);
+    compare<2>(box, size);
+    compare<4>(box, size);
+    compare<8>(box, size);
 }
 
 }  // namespace

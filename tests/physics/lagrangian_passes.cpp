@@ -50,8 +50,8 @@ struct Cloud {
     template <class Pass, class Sums>
     void add(std::size_t i, std::size_t j, Sums& sums) const {
         const R ri = record(i), rj = record(j);
-        Pass::add(make_pair<Dim, double>(Lucy<Dim>(h), separation(OpenSpace(), ri.x, rj.x), ri, rj),
-                  ri, rj, sums);
+        Pass::add(make_pair<Dim, double>(Lucy<Dim>(h), separation(ri.x, rj.x), ri, rj), ri, rj,
+                  sums);
     }
 };
 
@@ -88,7 +88,7 @@ std::vector<std::vector<double>> swept(const Cloud<Dim>& cloud) {
     std::vector<std::vector<double>> results(list.size());
     const ClusterView view = list.view();
     sweep<W, Dim, StressedRecord<Dim>, Pass>(
-        view, Lucy<Dim>(h), OpenSpace(), {records.data(), stride},
+        view, Lucy<Dim>(h), {records.data(), stride},
         [&](std::size_t slot, const auto&, const auto& sums) {
             const auto values = flat(sums);
             for_each_lane<W>(view, slot, [&](int l, std::size_t i) {

@@ -79,9 +79,8 @@ std::vector<std::vector<double>> pair_by_pair(const Cloud<Dim>& cloud, double h)
         typename Pass::template Sums<double> sums;
         for (const auto j : neighbours[i]) {
             const auto ri = cloud.record(i), rj = cloud.record(j);
-            one<Pass>().add(
-                make_pair<Dim, double>(Lucy<Dim>(h), separation(OpenSpace(), ri.x, rj.x), ri, rj),
-                ri, rj, sums);
+            one<Pass>().add(make_pair<Dim, double>(Lucy<Dim>(h), separation(ri.x, rj.x), ri, rj),
+                            ri, rj, sums);
         }
         results.push_back(flat(sums));
     }
@@ -100,7 +99,7 @@ std::vector<std::vector<double>> swept(const Cloud<Dim>& cloud, double h) {
     std::vector<std::vector<double>> results(list.size());
     const ClusterView view = list.view();
     sweep<W, Dim, R<Dim>, Pass>(
-        view, Lucy<Dim>(h), OpenSpace(), {records.data(), R<Dim>::numbers},
+        view, Lucy<Dim>(h), {records.data(), R<Dim>::numbers},
         [&](std::size_t slot, const auto&, const auto& sums) {
             const auto values = flat(sums);
             for_each_lane<W>(view, slot, [&](int l, std::size_t i) {

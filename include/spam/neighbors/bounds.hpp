@@ -5,7 +5,7 @@
 
 namespace spam {
 
-/// A box with sides along the axes; in a periodic box its centre is wrapped.
+/// A box with sides along the axes.
 template <int Dim>
 struct Bounds {
     double centre[Dim];

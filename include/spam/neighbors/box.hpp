@@ -9,8 +9,11 @@
 
 namespace spam {
 
-/// Free or periodic space, direction by direction. Positions in y are never wrapped; images are
-/// taken when separations are formed.
+/// Free or periodic space, direction by direction. Positions in y are never wrapped; right-hand sides see
+/// images of particles across a border (ghosts.hpp), observers take the nearest image of a separation.
+///
+/// Periods are rounded to 50 bits and positions, where images are made of them, to their last place: then
+/// x, L and x +- L up to some periods away are exact, and so is r_ij = -r_ji across a border.
 template <int Dim>
 class Box {
   public:
@@ -21,8 +24,11 @@ class Box {
     explicit Box(const std::array<double, Dim>& lengths) {
         for (std::size_t a = 0; a < Dim; ++a) {
             if (lengths[a] <= 0.0) continue;
-            length_[a] = lengths[a];
-            inverse_[a] = 1.0 / lengths[a];
+            int exponent = 0;
+            const double mantissa = std::frexp(lengths[a], &exponent);
+            place_[a] = std::ldexp(1.0, exponent - 50);
+            length_[a] = std::nearbyint(std::ldexp(mantissa, 50)) * place_[a];
+            inverse_[a] = 1.0 / length_[a];
         }
     }
 
@@ -33,6 +39,8 @@ class Box {
         return false;
     }
     double length(int a) const { return length_[at(a)]; }
+    /// The last place of the period, a power of two; 0 where the direction is free.
+    double last_place(int a) const { return place_[at(a)]; }
 
     /// The image of x inside [0, L) (a free coordinate is returned as it is).
     double wrap(int a, double x) const {
@@ -59,7 +67,7 @@ class Box {
   private:
     static constexpr std::size_t at(int a) { return static_cast<std::size_t>(a); }
     std::array<double, Dim> length_{};
-    std::array<double, Dim> inverse_{};
+    std::array<double, Dim> inverse_{}, place_{};
 };
 
 }  // namespace spam

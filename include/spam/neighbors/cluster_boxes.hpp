@@ -13,9 +13,9 @@ namespace spam {
 template <int Dim>
 class ClusterBoxes {
   public:
-    /// Coordinates by slot, wrapped, of that many full clusters.
+    /// Coordinates by slot, of that many full clusters.
     void build(const std::array<std::vector<double>, Dim>& x, std::size_t width,
-               std::size_t clusters, const Box<Dim>& box);
+               std::size_t clusters);
 
     /// Prepares collect(). False where too many clusters are much larger than most.
     bool sort();
@@ -28,9 +28,6 @@ class ClusterBoxes {
 
     /// Adds all clusters closer than `reach` to the bounds, and some around.
     void collect(const Bounds<Dim>& bounds, double reach, std::vector<std::uint32_t>& found) const;
-
-    /// Whether what is within `reach` of the bounds lies beyond the border of a periodic box.
-    bool wraps(const Bounds<Dim>& bounds, double reach) const;
 
     /// Of the space between bounds that are `reach` wider on every side.
     static double volume(const Bounds<Dim>& bounds, double reach) {
@@ -45,7 +42,6 @@ class ClusterBoxes {
     double typical_volume(double reach) const;
 
   private:
-    Box<Dim> box_;
     std::vector<Bounds<Dim>> bounds_;
     StripSort<Dim> centres_;
     std::array<double, Dim> largest_half_{};  ///< of clusters in centres_

@@ -5,6 +5,8 @@
 #include <spam/neighbors/cluster_boxes.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/displacement.hpp>
+#include <spam/neighbors/ghosts.hpp>
+#include <spam/neighbors/home.hpp>
 
 #include <span>
 #include <vector>
@@ -13,18 +15,19 @@ namespace spam {
 
 /// Neighbours of clusters: `width` particles at a time, next to each other in space, which a sweep
 /// computes in the lanes of one register (sweep.hpp). A cluster's list holds, in ascending slot, every
-/// slot j with |r_ij| < range + skin for at least one of its particles i (nearest image), themselves
-/// included, in large flows some more. Weight functions vanish exactly beyond the range, and adding an
-/// exact zero changes no bit, so a sum over the list depends on the order of the slots alone: not on
-/// the skin, nor on the number of threads. Slots are the particles' own numbers as long as these keep
-/// neighbours together, as in a solid: then sums do not depend on when the list was built either. In
-/// a flow slots are sorted into strips at every build.
+/// slot j with |r_ij| < range + skin for at least one of its particles i, themselves included, in large
+/// flows some more. Slots beyond those of the particles are their images across the borders of the box
+/// (ghosts.hpp). Weight functions vanish exactly beyond the range, and adding an exact zero changes no
+/// bit, so a sum over the list depends on the order of the slots alone: not on the skin, nor on the number
+/// of threads. Slots are the particles' own numbers as long as these keep neighbours together, as in a
+/// solid, and images take the place that their particle's number has in the order: then sums do not depend
+/// on when the list was built either. In a flow slots are sorted into strips at every build.
 template <int Dim>
 class ClusterList {
   public:
     /// `range` > 0, the range of the weight function; `skin` >= 0, how much further the list looks;
     /// `width` 1, 2, 4 or 8; `stride`: numbers in a record of the sweeps. Throws InputError when a
-    /// periodic length is not above 2 (range + skin).
+    /// periodic length is so short that a particle would meet more than five images of another.
     ClusterList(double range, double skin, const Box<Dim>& box, int width, std::size_t stride = 1);
 
     /// For later builds; as in the constructor.
@@ -49,8 +52,22 @@ class ClusterList {
     std::size_t size() const { return size_; }
     std::size_t clusters() const { return range_of_.size(); }
     int width() const { return width_; }
-    /// Slot -> particle, `width` entries a cluster.
+    /// Slot -> particle, `width` entries a cluster; without ghosts.
     std::span<const std::uint32_t> order() const { return order_; }
+    /// With ghosts.
+    std::size_t slots() const { return order_.size() + ghosts_.size(); }
+    /// The particle at a slot, or whose image is there.
+    std::uint32_t particle(std::size_t slot) const {
+        return slot < order_.size() ? order_[slot] : order_[ghosts_.owner(slot - order_.size())];
+    }
+    /// Where sweeps see particles: the image that each had when the list was built.
+    Home<Dim> home() const;
+    /// Makes the images in records by slot (`stride` numbers each, this list's) those of the particles as
+    /// they are now, from number `from` on. To be called before every sweep that reads of neighbours what
+    /// has been written since.
+    void refresh(double* records, std::span<const NumberKind> numbers, std::size_t from = 0) const {
+        ghosts_.refresh(records, stride_, numbers, from);
+    }
     /// Neighbours of a cluster: slot times stride, where their records begin.
     std::span<const std::uint32_t> entries(std::size_t cluster) const;
     /// Pairs (undirected) closer than range + skin when the list was built; in large lists sorted into
@@ -61,9 +78,10 @@ class ClusterList {
 
   private:
     class SliceSearch;
-    void find_direct();
     void sort();
+    void take_home();
     void gather();
+    void gather_in_order();
     void gather_strips();
     /// Every how many clusters neighbours are looked for particle by particle, and counted; around the
     /// others everything near their bounds is listed. One where the list is not in strips.
@@ -83,13 +101,15 @@ class ClusterList {
     double typical_volume_ = 0.0;  ///< of the bounds of clusters in strips
     double strip_volume_ = 0.0;    ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
-    std::array<std::vector<double>, Dim> x_;  ///< wrapped, by slot
-    Points<Dim> built_at_, wrapped_;          ///< wrapped_: where the box is periodic
-    RigidMotion<Dim> motion_;                 ///< since the last build, roughly
+    std::array<std::vector<double>, Dim> x_;  ///< at home, by slot; behind them those of ghosts
+    Points<Dim> built_at_;
+    Points<Dim> at_home_;                ///< where the box is periodic
+    std::vector<std::int32_t> periods_;  ///< Dim x N, taken off there
+    Ghosts<Dim> ghosts_;
+    RigidMotion<Dim> motion_;  ///< since the last build, roughly
     std::vector<ClusterView::Range> range_of_;
     std::vector<std::vector<std::uint32_t>> slices_;
     std::vector<const std::uint32_t*> slice_of_;
-    std::vector<std::uint8_t> direct_;
 };
 
 extern template class ClusterList<1>;

@@ -19,8 +19,6 @@ struct ClusterView {
     const std::uint32_t* order;          ///< slot -> particle; the last one repeated to fill lanes
     const Range* range;                  ///< by cluster, within its slice
     const std::uint32_t* const* slices;  ///< where the records of neighbours begin
-    /// By cluster: 1 where no neighbour is nearer as an image. Null in open space.
-    const std::uint8_t* direct = nullptr;
 };
 
 /// Records of all particles by slot: `stride` numbers each, of which a sweep reads the first.

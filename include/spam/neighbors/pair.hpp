@@ -20,14 +20,6 @@ struct Pair {
     Vec<Dim, T> v_ji;    ///< v_j - v_i
 };
 
-/// Space without images.
-struct OpenSpace {
-    template <class T>
-    constexpr T nearest_image(int, const T& s) const {
-        return s;
-    }
-};
-
 /// The part of a pair that takes longest: a sweep begins it one neighbour ahead of the rest.
 template <int Dim, class T>
 struct Separation {
@@ -35,14 +27,13 @@ struct Separation {
     T r2, r;
 };
 
-/// `space`: OpenSpace, or a Box. `Light`: whatever is done with the pair is quicker than a square
-/// root, which then is better made of products.
-template <int Dim, bool Light = false, class T, class Space>
-constexpr Separation<Dim, T> separation(const Space& space, const Vec<Dim, T>& x_i,
-                                        const Vec<Dim, T>& x_j) {
+/// `Light`: whatever is done with the pair is quicker than a square root, which then is better made of
+/// products.
+template <int Dim, bool Light = false, class T>
+constexpr Separation<Dim, T> separation(const Vec<Dim, T>& x_i, const Vec<Dim, T>& x_j) {
     using std::sqrt;
     Separation<Dim, T> s;
-    for (int a = 0; a < Dim; ++a) s.r_ji[a] = space.nearest_image(a, x_j[a] - x_i[a]);
+    s.r_ji = x_j - x_i;
     if constexpr (Light) {
         s.r2 = T(1e-300);  // a particle's distance from itself must not be divided by
         for (int a = 0; a < Dim; ++a) s.r2 += s.r_ji[a] * s.r_ji[a];

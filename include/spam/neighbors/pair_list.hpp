@@ -9,6 +9,11 @@
 
 namespace spam {
 
+/// Throws InputError where more than one image of a particle may be closer than `reach`: then the nearest
+/// image of a separation is not the only one that counts.
+template <int Dim>
+void require_one_image(const Box<Dim>& box, double reach);
+
 /// For every particle i the particles j with |r_ij| < reach, i itself included, in ascending j: for
 /// set-up and observers. Right-hand sides sweep a ClusterList.
 template <int Dim>

@@ -18,7 +18,7 @@ namespace spam {
 template <int Dim>
 class StripSort {
   public:
-    /// Positions Dim x N, finite, wrapped into the box where it is periodic. The strips are as wide
+    /// Positions Dim x N, finite; strips begin at the border of the box where it is periodic. They are as wide
     /// as the share of space of six particles is on a side: right for clusters of four and of eight.
     /// Particles flung far apart would need more bins than particles: these grow instead, which
     /// costs time, never memory.
@@ -28,26 +28,20 @@ class StripSort {
     std::span<const std::uint32_t> order() const { return order_; }
 
     /// visit(first, last): ranges of slots, ascending, that together hold every particle between the
-    /// corners `low` and `high` (and some around); in a periodic box also images of particles.
+    /// corners `low` and `high` (and some around).
     template <class Visit>
     void for_each_range(const Point<Dim>& low, const Point<Dim>& high, const Visit& visit) const {
-        std::array<Intervals, Dim> bins;
+        std::array<std::array<Int, 2>, Dim> bins;
         for (std::size_t a = 0; a < Dim; ++a)
-            bins[a] =
-                intervals(a, low[static_cast<Eigen::Index>(a)], high[static_cast<Eigen::Index>(a)]);
+            bins[a] = {bin(a, low[static_cast<Eigen::Index>(a)]),
+                       bin(a, high[static_cast<Eigen::Index>(a)])};
         visit_axis<0>(bins, 0, visit);
     }
 
   private:
     using Int = std::int32_t;
-    /// Ascending, at most two where an interval wraps around.
-    struct Intervals {
-        int count = 0;
-        std::array<std::array<Int, 2>, 2> of{};
-    };
 
     Int bin(std::size_t a, double x) const;
-    Intervals intervals(std::size_t a, double low, double high) const;
     void choose_bins(const Points<Dim>& position, const Box<Dim>& box);
     double volume_per_particle(const Points<Dim>& position);
     void divide(std::size_t a, double edge);
@@ -56,27 +50,23 @@ class StripSort {
 
     /// `sequence`: number of the strip so far; in odd ones the next direction runs backwards.
     template <int Axis, class Visit>
-    void visit_axis(const std::array<Intervals, Dim>& bins, Int sequence,
+    void visit_axis(const std::array<std::array<Int, 2>, Dim>& bins, Int sequence,
                     const Visit& visit) const {
         const Int n = count_[Axis];
         const bool backwards = sequence % 2 != 0;
-        for (int k = 0; k < bins[Axis].count; ++k) {
-            const auto [first, last] =
-                bins[Axis].of[static_cast<std::size_t>(backwards ? bins[Axis].count - 1 - k : k)];
-            const Int begin = sequence * n + (backwards ? n - 1 - last : first);
-            const Int end = begin + (last - first);
-            if constexpr (Axis + 1 < Dim) {
-                for (Int s = begin; s <= end; ++s) visit_axis<Axis + 1>(bins, s, visit);
-            } else {
-                visit(start_[static_cast<std::size_t>(begin)],
-                      start_[static_cast<std::size_t>(end) + 1]);
-            }
+        const auto [first, last] = bins[Axis];
+        const Int begin = sequence * n + (backwards ? n - 1 - last : first);
+        const Int end = begin + (last - first);
+        if constexpr (Axis + 1 < Dim) {
+            for (Int s = begin; s <= end; ++s) visit_axis<Axis + 1>(bins, s, visit);
+        } else {
+            visit(start_[static_cast<std::size_t>(begin)],
+                  start_[static_cast<std::size_t>(end) + 1]);
         }
     }
 
     std::array<double, Dim> origin_{}, extent_{}, per_edge_{};
     std::array<Int, Dim> count_{};
-    std::array<bool, Dim> periodic_{};
     double volume_ = 1.0;  ///< per particle
     Eigen::Index volume_of_ = 0;
     std::size_t sorted_ = 0;

@@ -28,13 +28,12 @@ constexpr bool is_light() {
 /// (not static where the pass holds constants, which come with `passes`) and, where it does so little that a square root would be waited for,
 ///     static constexpr bool light = true;
 /// R: the record the passes need (record.hpp). W must be the list's width, the records'
-/// stride the list's.
+/// stride the list's; images of particles must be up to date (ClusterList::refresh).
 // Inlined where it is called, stores and all: callers are compiled for the instruction set already.
-template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
+template <int W, int Dim, class R, class... Passes, class Weight, class Store>
 [[gnu::always_inline]] inline void sweep_block(const ClusterView& list, std::size_t first,
                                                std::size_t last, const Weight& weight,
-                                               const Space& space, const Records& records,
-                                               const Store& store,
+                                               const Records& records, const Store& store,
                                                const std::tuple<Passes...>& passes = {}) {
     using T = LanesOf<W>;
     using Lanes = typename R::template With<T>;
@@ -59,7 +58,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Space, c
         const auto distance_to = [&](const double* other) {
             Vec<Dim, T> x_j;
             for (int a = 0; a < Dim; ++a) x_j[a] = T(other[a]);
-            return separation<Dim, light>(space, i.x, x_j);
+            return separation<Dim, light>(i.x, x_j);
         };
         const double* other = records.numbers + *entry;
         auto apart = distance_to(other);
@@ -92,11 +91,11 @@ void for_each_block(const ClusterView& list, const Body& body) {
 }
 
 /// A sweep over all clusters.
-template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
-void sweep(const ClusterView& list, const Weight& weight, const Space& space,
-           const Records& records, const Store& store, const std::tuple<Passes...>& passes = {}) {
+template <int W, int Dim, class R, class... Passes, class Weight, class Store>
+void sweep(const ClusterView& list, const Weight& weight, const Records& records,
+           const Store& store, const std::tuple<Passes...>& passes = {}) {
     for_each_block<W>(list, [&](std::size_t first, std::size_t last) {
-        sweep_block<W, Dim, R, Passes...>(list, first, last, weight, space, records, store, passes);
+        sweep_block<W, Dim, R, Passes...>(list, first, last, weight, records, store, passes);
     });
 }
 

@@ -13,10 +13,12 @@ struct Pressure {
 };
 template <int Dim, class T>
 struct Temperature {
+    static constexpr auto quantity = Quantity::temperature;
     T temperature{};
 };
 template <int Dim, class T>
 struct HeatFlux {
+    static constexpr auto quantity = Quantity::heat_flux;
     Vec<Dim, T> q;  ///< Q/rho^2
 };
 

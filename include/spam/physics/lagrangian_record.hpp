@@ -10,6 +10,7 @@ namespace column {
 
 template <int Dim, class T>
 struct Present {
+    static constexpr auto quantity = Quantity::position;
     Vec<Dim, T> present;  ///< the position now, moved by as many periods as X was
 };
 template <int Dim, class T>
@@ -42,12 +43,10 @@ using DeformedRecord = typename ReferenceRecord<Dim, T>::template And<column::De
 template <int Dim, class T = double>
 using StressedRecord = typename DeformedRecord<Dim, T>::template And<column::ReferenceStress>;
 
-/// x_j - x_i now, of the images whose reference positions are nearest: what is added is a multiple of
-/// the period, in open space an exact zero.
+/// x_j - x_i now.
 template <int Dim, class T, class Record>
-constexpr Vec<Dim, T> present_separation(const Pair<Dim, T>& pair, const Record& i,
-                                         const Record& j) {
-    return (j.present - i.present) + (pair.r_ji - (j.x - i.x));
+constexpr Vec<Dim, T> present_separation(const Pair<Dim, T>&, const Record& i, const Record& j) {
+    return j.present - i.present;
 }
 
 }  // namespace spam

@@ -3,7 +3,9 @@
 
 #include <spam/core/lanes.hpp>
 #include <spam/core/tensor.hpp>
+#include <spam/neighbors/image.hpp>
 
+#include <array>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -23,15 +25,18 @@ SPAM_INLINE constexpr void for_each_number(Value& value, const F& f) {
 }
 
 /// What a record may carry of a particle: a struct of one member, which records have under its name. T is
-/// double in memory, and lanes in a pair body.
+/// double in memory, and lanes in a pair body. `quantity` says what it becomes in an image of the particle;
+/// without it the same number, or a vector or tensor that turns with the axes.
 namespace column {
 
 template <int Dim, class T>
 struct Position {
-    Vec<Dim, T> x;  ///< wrapped into the box where it is periodic
+    static constexpr auto quantity = Quantity::position;
+    Vec<Dim, T> x;  ///< of the image that the list took
 };
 template <int Dim, class T>
 struct Velocity {
+    static constexpr auto quantity = Quantity::velocity;
     Vec<Dim, T> v;
 };
 template <int Dim, class T>
@@ -45,10 +50,12 @@ struct Density {
 /// Stored: formed inside the pair, FMA would break F_ij = -F_ji.
 template <int Dim, class T>
 struct Stress {
+    static constexpr auto quantity = Quantity::stress;
     SymTensor<Dim, T> A;  ///< sigma/rho^2
 };
 template <int Dim, class T>
 struct Transport {
+    static constexpr auto quantity = Quantity::velocity;
     Vec<Dim, T> u;  ///< transport velocity, r_dot
 };
 template <int Dim, class T>
@@ -72,6 +79,37 @@ template <class Column>
 SPAM_INLINE constexpr auto& column_value(Column& column) {
     auto& [value] = column;
     return value;
+}
+
+/// Writes what the numbers of a value are: a scalar, a vector, a tensor, or the quantity given.
+template <int Dim, class Value>
+constexpr NumberKind* write_kinds(const Value& value, NumberKind* to,
+                                  Quantity given = Quantity::scalar) {
+    const auto either = [given](Quantity own) { return given == Quantity::scalar ? own : given; };
+    if constexpr (requires { std::tuple_size<Value>::value; }) {
+        std::apply([&](const auto&... part) { ((to = write_kinds<Dim>(part, to)), ...); }, value);
+    } else if constexpr (requires { value(0, 0); }) {
+        constexpr bool symmetric = std::is_same_v<Value, SymTensor<Dim>>;
+        for (int a = 0; a < Dim; ++a)
+            for (int b = symmetric ? a : 0; b < Dim; ++b)
+                to[symmetric ? symmetric_index(Dim, a, b) : a * Dim + b] = {
+                    either(Quantity::tensor), static_cast<unsigned char>(a),
+                    static_cast<unsigned char>(b)};
+        to += value.c.size();
+    } else if constexpr (requires { value.c; }) {
+        for (unsigned char a = 0; a < Dim; ++a) *to++ = {either(Quantity::vector), a, a};
+    } else {
+        *to++ = {given, 0, 0};
+    }
+    return to;
+}
+
+template <int Dim, class Column>
+constexpr NumberKind* write_kinds_of(const Column& column, NumberKind* to) {
+    if constexpr (requires { Column::quantity; })
+        return write_kinds<Dim>(column_value(column), to, Column::quantity);
+    else
+        return write_kinds<Dim>(column_value(column), to);
 }
 
 /// A row of numbers in memory and a struct in a pair body, made of columns: packed once per right-hand
@@ -98,6 +136,12 @@ struct RecordOf : Columns<Dim, T>... {
         return k;
     }();
     static constexpr int numbers = (0 + ... + int(sizeof(Columns<Dim, double>) / sizeof(double)));
+    static constexpr auto kinds = [] {
+        std::array<NumberKind, numbers> kinds{};
+        NumberKind* to = kinds.data();
+        ((to = write_kinds_of<Dim>(Columns<Dim, double>{}, to)), ...);
+        return kinds;
+    }();
 
     template <class F>
     SPAM_INLINE constexpr void visit(const F& f) {

@@ -41,7 +41,7 @@ SPAM_INLINE std::size_t pack_motion(const PackInput<Dim>& in, std::size_t i, dou
 }
 
 template <int Dim, class R>
-PackCount pack(const PackInput<Dim>& whole, bool density_only, double* records) {
+PackCount pack_record(const PackInput<Dim>& whole, bool density_only, double* records) {
     const PackInput<Dim> in = whole;  // a copy that the stores below cannot be suspected to change
     // Both counts in one number, `far` in the lower half: fewer than 2^32 particles have slots. What is
     // packed is known when this is compiled: choosing for every particle would cost.
@@ -61,15 +61,16 @@ PackCount pack(const PackInput<Dim>& whole, bool density_only, double* records) 
     const std::size_t both = density_only        ? count(no, yes)
                              : in.rho != nullptr ? count(yes, yes)
                                                  : count(yes, no);
-    if (!density_only && in.box->periodic())
+    if (!density_only && in.home.periods != nullptr)
         parallel_for(in.order.size(), [=](std::size_t slot) {
-            for (int a = 0; a < Dim; ++a) {
-                double& x = records[slot * in.stride + static_cast<std::size_t>(a)];
-                if (in.box->periodic(a)) x = in.box->wrap(a, x);
-            }
+            double* const x = records + slot * in.stride;
+            for (std::size_t a = 0; a < Dim; ++a) x[a] = in.home(in.order[slot], a, x[a]);
         });
     return {both & 0xffffffffU, both >> 32};
 }
+
+template <int Dim, class R>
+constexpr Pack<Dim> pack{pack_record<Dim, R>, R::kinds};
 
 }  // namespace SPAM_LANES
 }  // namespace spam

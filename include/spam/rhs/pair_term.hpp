@@ -50,6 +50,7 @@ class PairTerm : public Term<Dim> {
     SweepInput<Dim> input(const PackedParticles<Dim>& packed) const;
 
     PairLaw<Dim> law_;
+    std::vector<NumberKind> scalars_;  ///< what columns are in images of a particle
     std::unique_ptr<PackedParticles<Dim>> packed_;
 };
 

@@ -13,49 +13,34 @@
 namespace spam {
 inline namespace SPAM_LANES {
 
+/// Kinds of sweeps, by their weight function.
+struct LucysSweep {};
+struct GeneralSweep {};
+
 /// sweep_block() in a function of its own: the loop has the registers to itself, and is compiled once
 /// wherever it is called from.
-template <int W, int Dim, class R, class... Passes, class Weight, class Space, class Store>
+template <int W, int Dim, class R, class... Passes, class Weight, class Store>
 [[gnu::flatten, gnu::noinline]] void sweep_run(const SweepInput<Dim>& in, std::size_t begin,
                                                std::size_t end, const Weight& weight,
-                                               const Space& space, const Store& store_sums,
+                                               const Store& store_sums,
                                                const std::tuple<Passes...>& passes) {
     // Copies, which nothing outside can change: they save instructions in the loop.
     const Weight own = weight;
     const ClusterView list = in.list;
     const Records records = in.records;
-    sweep_block<W, Dim, R, Passes...>(list, begin, end, own, space, records, store_sums, passes);
+    sweep_block<W, Dim, R, Passes...>(list, begin, end, own, records, store_sums, passes);
 }
 
-/// Lucy's own formula, looking for nearest images only where there are any: in a periodic box runs of
-/// clusters that have images for neighbours and runs that have none. On a line looking costs less than
-/// compiling twice.
-struct LucysSweep {
-    template <int W, int Dim, class R, class... Passes, class Store>
-    static void run(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
-                    const Store& store, const std::tuple<Passes...>& passes) {
-        const Lucy<Dim> weight(in.range);
-        const std::uint8_t* const direct = in.list.direct;
-        for (std::size_t next = begin; begin < end; begin = next) {
-            next = direct == nullptr ? end : begin + 1;
-            while (next < end && direct[next] == direct[begin]) ++next;
-            if (Dim > 1 && (direct == nullptr || direct[begin] != 0))
-                sweep_run<W, Dim, R>(in, begin, next, weight, OpenSpace(), store, passes);
-            else
-                sweep_run<W, Dim, R>(in, begin, next, weight, *in.box, store, passes);
-        }
-    }
-};
-
-/// Any weight function, compiled once: nearest images are always looked for. In open space the box
-/// subtracts zeros.
-struct GeneralSweep {
-    template <int W, int Dim, class R, class... Passes, class Store>
-    static void run(const SweepInput<Dim>& in, std::size_t begin, std::size_t end,
-                    const Store& store, const std::tuple<Passes...>& passes) {
-        sweep_run<W, Dim, R>(in, begin, end, *in.weight, *in.box, store, passes);
-    }
-};
+/// Lucy's own formula.
+template <int Dim>
+Lucy<Dim> weight_of(const SweepInput<Dim>& in, LucysSweep) {
+    return Lucy<Dim>(in.range);
+}
+/// Any weight function, compiled once.
+template <int Dim>
+const GeneralWeight<Dim>& weight_of(const SweepInput<Dim>& in, GeneralSweep) {
+    return *in.weight;
+}
 
 /// Where a pass stores what it has found for one particle: `out.FIELD` of that particle, or its record.
 template <int W, int Dim>
@@ -187,8 +172,8 @@ void run_sweep(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     using Store = StoreSums<W, Dim, Passes...>;
     for_each_block<W>(in.list, [&](std::size_t begin, std::size_t end) {
         typename Store::Kept kept;
-        Kind::template run<W, Dim, R>(in, begin, end, Store{in, out, passes, begin * W, kept},
-                                      passes);
+        sweep_run<W, Dim, R>(in, begin, end, weight_of(in, Kind{}),
+                             Store{in, out, passes, begin * W, kept}, passes);
         if (out.close == nullptr) return;
         SweptBlock block{begin * W,
                          in.list.order + begin * W,

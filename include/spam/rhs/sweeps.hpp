@@ -3,9 +3,10 @@
 
 #include <spam/core/instruction_set.hpp>
 #include <spam/kernel/general_weight.hpp>
-#include <spam/neighbors/box.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/displacement.hpp>
+#include <spam/neighbors/home.hpp>
+#include <spam/neighbors/image.hpp>
 #include <spam/physics/pass_constants.hpp>
 
 #include <cstddef>
@@ -22,8 +23,7 @@ template <int Dim>
 struct SweepInput {
     ClusterView list;
     Records records;
-    double range;  ///< of the weight function
-    const Box<Dim>* box;
+    double range;                                ///< of the weight function
     const GeneralWeight<Dim>* weight = nullptr;  ///< not read by what is compiled for Lucy's
     PassConstants constants{};
 };
@@ -76,7 +76,7 @@ struct PackedFields {
 template <int Dim>
 struct PackInput : PackedFields {
     std::span<const std::uint32_t> order;  ///< slot -> particle
-    const Box<Dim>* box;
+    Home<Dim> home;
     Displacement<Dim> displacement;
     std::size_t stride;
 };
@@ -87,10 +87,13 @@ struct PackCount {
     std::size_t invalid = 0;  ///< have a density that is not positive
 };
 
-/// Writes the columns of records that are known before any sweep: x (wrapped), v, m, and where rho is
+/// Writes the columns of records that are known before any sweep: x (home.hpp), v, m, and where rho is
 /// given the mean density's number of it and A = sigma/rho^2; with `density_only` these two alone.
 template <int Dim>
-using Pack = PackCount (*)(const PackInput<Dim>&, bool density_only, double* records);
+struct Pack {
+    PackCount (*write)(const PackInput<Dim>&, bool density_only, double* records) = nullptr;
+    std::span<const NumberKind> kinds{};  ///< of the record
+};
 
 /// The sweeps of a term, compiled for an instruction set, in the order in which right-hand sides call
 /// them. What a term has no need of is null.
@@ -98,7 +101,7 @@ template <int Dim>
 struct Sweeps {
     int width;    ///< of the clusters they need
     int numbers;  ///< in a record
-    Pack<Dim> pack = nullptr;
+    Pack<Dim> pack{};
     Sweep<Dim> density = nullptr;   ///< summed density, or whatever else is summed first
     Sweep<Dim> gradient = nullptr;  ///< what stress and heat flux are made of
     Sweep<Dim> second = nullptr;    ///< balanced torques, viscosity, chain rule; a penalty

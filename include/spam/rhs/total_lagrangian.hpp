@@ -59,6 +59,8 @@ class TotalLagrangian final : public Term<Dim> {
     void pack_reference();
     void find_corrections();
     void load(const ConstState<Dim>& state, std::vector<double>& records) const;
+    /// Images of particles, from a number of their records on.
+    void refresh(std::vector<double>& records, std::size_t from) const;
     std::vector<double> deformed(std::span<const double> y) const;
     std::string complaint() const;
 
