@@ -40,6 +40,8 @@ std::size_t wrong_clusters(const ClusterList<Dim>& list, const Points<Dim>& x, d
         const auto slots = list.entries(c);
         for (const auto slot : slots) found.push_back(list.particle(slot));
         std::sort(found.begin(), found.end());
+        // Members of a cluster may have different images of a particle for neighbours.
+        found.erase(std::unique(found.begin(), found.end()), found.end());
         const bool complete =
             list.clusters() < exact_below
                 ? found == std::vector(neighbours.begin(), neighbours.end())

@@ -40,8 +40,8 @@ int asymmetric_pairs(const Force& force, const Weight& w = Weight(3.0)) {
     int count = 0;
     for (int k = 0; k < 10000; ++k) {
         const auto i = random_record<Dim>(random), j = random_record<Dim>(random);
-        const auto ij = make_pair<Dim, double>(w, separation(Box<Dim>(), i.x, j.x), i, j);
-        const auto ji = make_pair<Dim, double>(w, separation(Box<Dim>(), j.x, i.x), j, i);
+        const auto ij = make_pair<Dim, double>(w, separation(i.x, j.x), i, j);
+        const auto ji = make_pair<Dim, double>(w, separation(j.x, i.x), j, i);
         const auto f_ij = force(ij, i, j), f_ji = force(ji, j, i);
         bool same = true;
         for (int a = 0; a < Dim; ++a) same = same && f_ij[a] == -f_ji[a];
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(viscosity_is_central_and_only_resists_approach) {
     int approaching = 0;
     for (int k = 0; k < 1000; ++k) {
         const auto i = random_record<2>(random), j = random_record<2>(random);
-        const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(Box<2>(), i.x, j.x), i, j);
+        const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(i.x, j.x), i, j);
         const auto extra = viscous(pair, i, j);
         BOOST_TEST(std::abs(cross(extra, pair.r_ji)) < 1e-15);
         if (dot(pair.v_ji, pair.r_ji) < 0.0) {
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(scaling_multiplies_the_torque_and_leaves_the_radial_force) 
         auto i = random_record<2>(random), j = random_record<2>(random);
         j.negative_factor = i.negative_factor;
         j.positive_factor = i.positive_factor;
-        const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(Box<2>(), i.x, j.x), i, j);
+        const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(i.x, j.x), i, j);
         const auto before = stress_force(pair, i, j), after = scale_torque(pair, i, j, before);
         const double torque = cross(before, pair.r_ji);
         const double s = torque < 0.0 ? i.negative_factor : i.positive_factor;
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(the_multipliers_of_gauss_and_where_they_are_left_off) {
 BOOST_AUTO_TEST_CASE(a_particle_does_not_act_on_itself) {
     std::mt19937_64 random(34);
     const auto i = random_record<2>(random);
-    const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(Box<2>(), i.x, i.x), i, i);
+    const auto pair = make_pair<2, double>(Lucy<2>(3.0), separation(i.x, i.x), i, i);
     const auto f = balanced(pair, i, i);
     BOOST_TEST(f[0] == 0.0);
     BOOST_TEST(f[1] == 0.0);

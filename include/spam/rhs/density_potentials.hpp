@@ -35,7 +35,7 @@ class DensityPotentialTerm final : public Term<Dim> {
     /// Throws InputError where nothing acts, the law is not cold, the weight function is not smooth
     /// enough for a potential (physics/density_potential.hpp), a potential needs more dimensions, a
     /// strength, energy or range makes no sense (the core's must be below the range), or a periodic box
-    /// is not wider than twice the range.
+    /// is narrower than a fifth of the range.
     DensityPotentialTerm(const Selection<Dim>& among, const DensityPotentials& potentials);
     ~DensityPotentialTerm() override;
 

@@ -12,8 +12,8 @@ namespace spam {
 template <int Dim>
 class Core final : public PairTerm<Dim> {
   public:
-    /// Throws InputError for an energy or a range that is not above 0, and for a periodic box not wider than
-    /// twice the range.
+    /// Throws InputError for an energy or a range that is not above 0, and for a periodic box narrower than
+    /// a fifth of the range.
     Core(const Selection<Dim>& among, const CorePotential& core);
 };
 
@@ -22,7 +22,7 @@ template <int Dim>
 class LucyPairPotential final : public PairTerm<Dim> {
   public:
     /// `range`: of the weight function, > spacing. Throws InputError for another, and for a periodic
-    /// box that is not wider than twice the range.
+    /// box that is narrower than a fifth of the range.
     LucyPairPotential(const Selection<Dim>& among, double range);
 };
 

@@ -29,7 +29,7 @@ struct PairLaw {
 template <int Dim>
 class PairTerm : public Term<Dim> {
   public:
-    /// Throws InputError for a range that is not above 0, for a periodic box not wider than twice the range
+    /// Throws InputError for a range that is not above 0, for a periodic box narrower than a fifth of the range
     /// and for columns that are not as long as there are particles.
     PairTerm(const Selection<Dim>& among, PairLaw<Dim> law);
     ~PairTerm() override;

@@ -39,7 +39,7 @@ class SmoothParticles final : public Term<Dim> {
     /// Solids of any stress law (stress_law.hpp), or fluids of any equation of state: the one at the place
     /// of a particle's material (Particles::material). Throws InputError when the scheme makes no sense
     /// here (Scheme::validate), the range does not reach a neighbour, pairs are to be reflected at the
-    /// spacing or beyond, a periodic box is not wider than twice the range, a particle's material is not
+    /// spacing or beyond, a periodic box is narrower than a fifth of the range, a particle's material is not
     /// there, a solid's law tells no sound speed and the scheme has viscosity, a fluid has conduction
     /// without temperature or negative coefficients (eta, bulk viscosity, kappa), or its density is summed
     /// while its particles move with an averaged velocity.

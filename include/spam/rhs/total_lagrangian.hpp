@@ -32,7 +32,7 @@ class TotalLagrangian final : public Term<Dim> {
   public:
     /// `material`: any hyperelastic law (hyperelastic_law.hpp). In a periodic box the lattice closes on
     /// itself as in the reference configuration. Throws InputError for a density, range or penalty
-    /// that makes no sense, a periodic box not wider than twice the range, and a particle whose
+    /// that makes no sense, a periodic box narrower than a fifth of the range, and a particle whose
     /// neighbours do not span space.
     TotalLagrangian(const Selection<Dim>& among, const HyperelasticMaterial<Dim>& material,
                     const TotalLagrangianScheme& scheme);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/vec.hpp>
+#include <spam/neighbors/image.hpp>
+
+#include <optional>
+#include <string>
+
+namespace spam {
+
+/// What one side of a box is.
+enum class WallKind {
+    open,
+    mirror,   ///< the images' velocity across the wall is opposite: slip without friction
+    no_slip,  ///< images have velocity 2 V - v: matter sticks to a wall that moves with V
+};
+
+/// A plane wall across one direction, by images of the particles before it, [HH07] 7: an image has the
+/// owner's density and pressure; its velocity and temperature are those that make the mean of both that of
+/// the wall. Insulated, unless a temperature is given.
+template <int Dim>
+struct Wall {
+    WallKind kind = WallKind::open;
+    double at = 0.0;                                ///< its coordinate
+    Point<Dim> velocity = Point<Dim>::Zero();       ///< of no_slip, along the wall
+    std::optional<double> temperature = std::nullopt;
+
+    bool open() const { return kind == WallKind::open; }
+    /// Whether energy passes it: friction heats and moves matter, a temperature warms or cools it.
+    bool passes_energy() const { return kind == WallKind::no_slip || temperature.has_value(); }
+
+    /// Image behind the wall across direction `axis`.
+    Image<Dim> image(int axis) const {
+        const auto a = static_cast<std::size_t>(axis);
+        Image<Dim> image;
+        image.position[a] = {-1.0, 2.0 * at};
+        if (kind == WallKind::no_slip)
+            for (std::size_t b = 0; b < Dim; ++b)
+                image.velocity[b] = {-1.0, 2.0 * velocity[static_cast<Eigen::Index>(b)]};
+        else
+            image.velocity[a].sign = image.stress[a].sign = -1.0;
+        if (temperature)
+            image.temperature = {-1.0, 2.0 * *temperature};
+        else
+            image.heat_flux[a].sign = -1.0;
+        return image;
+    }
+
+    /// "mirror", "no-slip", "moving with (0.5, 0), T = 1.5"
+    std::string describe() const;
+};
+
+}  // namespace spam
