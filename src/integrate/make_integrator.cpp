@@ -47,9 +47,9 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
     const IntegrationMethod& method = integration_method(options.method);
     if (method.multistep && ode.settle)
         throw InputError(fmt::format(
-            "integrator: {} makes steps from earlier ones, which a material that changes its stress "
-            "after every step makes worthless; use a one-step method such as rk4 or "
-            "arkode:DORMAND_PRINCE_7_4_5",
+            "integrator: {} makes steps from earlier ones, which are worthless where the state is "
+            "changed between steps (a material that yields, a wall that reflects); use a one-step "
+            "method such as rk4 or arkode:DORMAND_PRINCE_7_4_5",
             method.name));
     if (method.multistep && !ode.events.empty())
         throw InputError(

@@ -28,6 +28,12 @@ ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, in
                 "box: periodic length {} of direction {} must exceed (range + skin)/5 = {}; enlarge "
                 "the box or shorten --range",
                 box.length(a), "xyz"[a], least));
+        const auto &lower = box.wall(a, false), &upper = box.wall(a, true);
+        if (!lower.open() && !upper.open() && !(upper.at - lower.at > range))
+            throw InputError(fmt::format(
+                "wall: the two across direction {} are {} apart, not more than the range {}, and would "
+                "see images of images without end; move them apart or shorten --range",
+                "xyz"[a], upper.at - lower.at, range));
     }
 }
 
@@ -347,8 +353,10 @@ bool ClusterList<Dim>::serves(const Eigen::Ref<const Points<Dim>>& position) {
     // Any rigid motion will do for the criterion: a better one is looked for when the last one is
     // used up.
     if (near_build(position)) return true;
-    motion_ = box_.periodic() ? best_translation<Dim>(built_at_, position)
-                              : best_rigid_motion<Dim>(built_at_, position);
+    motion_ = box_.periodic() || box_.walled() ? best_translation<Dim>(built_at_, position)
+                                               : best_rigid_motion<Dim>(built_at_, position);
+    for (int a = 0; a < Dim; ++a)  // walls stay where they are
+        if (box_.walled(a)) motion_.to[a] = motion_.from[a];
     return near_build(position);
 }
 

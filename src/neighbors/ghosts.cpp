@@ -9,12 +9,17 @@
 
 namespace spam {
 
-/// k periods away, by ascending |k|: as many as have room between the particles' bounds. So a number says
+/// By the walls, or k periods away, by ascending |k|: as many as have room between the particles' bounds. So a number says
 /// the same of every list.
 template <int Dim>
 void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double low, double high, double reach) {
     const auto axis = static_cast<std::size_t>(a);
     along_[axis].assign(1, {});
+    // Walls across a direction are further apart than the range (ClusterList): images of images in them
+    // have no neighbours.
+    for (const bool upper : {false, true})
+        if (const auto& wall = box.wall(a, upper); !wall.open())
+            along_[axis].push_back(wall.image(a));
     if (!box.periodic(a)) return;
     const double L = box.length(a);
     for (int k = 1; 2 * k < static_cast<int>(most_images) && k * L <= high - low + reach; ++k)
@@ -68,7 +73,7 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
     std::vector<Place> places;
     below_.fill(-std::numeric_limits<double>::infinity());
     above_.fill(std::numeric_limits<double>::infinity());
-    if (particles > 0 && box.periodic()) {
+    if (particles > 0 && (box.periodic() || box.walled())) {
         for (std::size_t a = 0; a < Dim; ++a) {
             const auto end = x[a].begin() + static_cast<std::ptrdiff_t>(particles);
             const auto [low, high] = std::minmax_element(x[a].begin(), end);

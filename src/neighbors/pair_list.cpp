@@ -24,7 +24,7 @@ PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim
     require_one_image(box, reach);
     // Clusters of one particle lie as well in one order as in another: slots are particle numbers, and
     // entries ascend.
-    ClusterList<Dim> clusters(reach, 0.0, box, 1);
+    ClusterList<Dim> clusters(reach, 0.0, box.without_walls(), 1);
     clusters.build(position);
     const auto order = clusters.order();
     start_.assign(clusters.size() + 1, 0);

@@ -30,9 +30,10 @@ void Box<Dim>::set_wall(int a, bool upper, const Wall<Dim>& wall) {
             "neither",
             direction));
     if (!std::isfinite(wall.at) || !wall.velocity.allFinite())
-        throw InputError(fmt::format("wall: place and velocity across direction {} must be finite "
-                                     "numbers",
-                                     direction));
+        throw InputError(
+            fmt::format("wall: place and velocity across direction {} must be finite "
+                        "numbers",
+                        direction));
     if (wall.velocity[a] != 0.0 || (wall.kind != WallKind::no_slip && !wall.velocity.isZero()))
         throw InputError(fmt::format(
             "wall: across direction {} one moves with ({:g}{}), and only no-slip walls can move, along "
@@ -44,10 +45,10 @@ void Box<Dim>::set_wall(int a, bool upper, const Wall<Dim>& wall) {
     auto& sides = walls_[static_cast<std::size_t>(a)];
     sides[upper ? 1 : 0] = wall;
     if (!sides[0].open() && !sides[1].open() && !(sides[0].at < sides[1].at))
-        throw InputError(
-            fmt::format("wall: the lower one across direction {} at {:g} must lie below the upper one "
-                        "at {:g}",
-                        direction, sides[0].at, sides[1].at));
+        throw InputError(fmt::format(
+            "wall: the lower one across direction {} at {:g} must lie below the upper one "
+            "at {:g}",
+            direction, sides[0].at, sides[1].at));
 }
 
 template <int Dim>

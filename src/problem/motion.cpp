@@ -39,9 +39,8 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
         return fmt::format("{} of particle {}", name, model.particles().id[entry.particle]);
     };
     ode.events = model.events();
-    for (const auto& block : model.layout().blocks())
-        if (block.field.role() == Role::history && !ode.settle)
-            ode.settle = [&model](double t, std::span<double> y) { return model.settle(t, y); };
+    if (model.settles())
+        ode.settle = [&model](double t, std::span<double> y) { return model.settle(t, y); };
     ode.inseparable = model.inseparable();
     add_energy(ode, model, pair_interactions);
     for (const auto& block : model.layout().blocks())

@@ -44,8 +44,14 @@ double Model<Dim>::neighbour_forces(std::span<const double> y) const {
 
 template <int Dim>
 Promises Model<Dim>::in_box(Promises promises) const {
-    if (box_.periodic()) promises.angular_momentum = Promise::not_kept;
+    if (box_.periodic() || box_.walled()) promises.angular_momentum = Promise::not_kept;
     return promises;
+}
+
+template <int Dim>
+bool Model<Dim>::settles() const {
+    return std::any_of(layout_.blocks().begin(), layout_.blocks().end(),
+                       [](const auto& block) { return block.field.role() == Role::history; });
 }
 
 template <int Dim>

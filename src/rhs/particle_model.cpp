@@ -23,10 +23,22 @@ auto moment(const Point<Dim>& r, const Point<Dim>& f) {
 
 template <int Dim>
 ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}) {}
+    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}) {
+    if (box.walled()) add_accounts();
+}
+
+template <int Dim>
+void ParticleModel<Dim>::add_accounts() {
+    for (const Field field : {Field::work, Field::heat, Field::impulse, Field::angular_impulse})
+        this->layout().add(field);
+    given_.resize((this->particles().size() + block - 1) / block);
+}
 
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
+    if (this->box().walled())
+        if (auto why = term->no_walls(); !why.empty())
+            throw InputError(fmt::format("wall: {} ({})", why, term->describe()));
     for (const auto& other : terms_) {
         if (!other->among().overlaps(term->among())) continue;
         for (const Field field : term->fields())
@@ -54,9 +66,7 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
 template <int Dim>
 void ParticleModel<Dim>::add(std::unique_ptr<External<Dim>> external) {
     externals_.push_back(std::move(external));
-    for (const Field field : {Field::work, Field::heat, Field::impulse, Field::angular_impulse})
-        this->layout().add(field);
-    given_.resize((this->particles().size() + block - 1) / block);
+    add_accounts();
 }
 
 template <int Dim>
@@ -104,8 +114,8 @@ void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<do
     const State<Dim> rate(this->layout(), y_dot);
     for (const auto& b : this->layout().blocks())
         if (b.field.role() != Role::integrated) rate.field(b.field).setZero();
-    if (externals_.empty()) return;
     const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
+    if (this->box().walled()) book_walls(now);
     for (const auto& external : externals_) {
         external->prepare(now);
         apply(*external, now);
@@ -113,14 +123,16 @@ void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<do
 }
 
 /// Blocks are the same for any number of threads, and what they are given is summed in their order.
+/// give(first, last): what the particles of one are.
 template <int Dim>
-void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
-    const auto n = static_cast<Eigen::Index>(now.particles.size());
+template <class GiveBlock>
+typename ParticleModel<Dim>::Given ParticleModel<Dim>::sum_of_blocks(const GiveBlock& give) {
+    const auto n = static_cast<Eigen::Index>(this->particles().size());
     parallel_for(
         given_.size(),
         [&](std::size_t b) {
             const Eigen::Index first = static_cast<Eigen::Index>(b) * block;
-            given_[b] = apply_to(external, now, first, std::min(n, first + block));
+            given_[b] = give(first, std::min(n, first + block));
         },
         block);
     Given sum;
@@ -130,7 +142,40 @@ void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<
         sum.power += given.power;
         sum.heat += given.heat;
     }
-    book(external, sum, now.rate);
+    return sum;
+}
+
+template <int Dim>
+void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
+    book(external, sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
+             return apply_to(external, now, first, last);
+         }),
+         now.rate);
+}
+
+/// What particles do to each other cancels in the sums over all of them: what is left came through the
+/// walls. Energy passes those that rub or have a temperature, and is booked as work where one moves (the
+/// part of it that is heat is not told apart), else as heat.
+template <int Dim>
+void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
+    const auto x = now.state.position(), v = now.state.velocity();
+    const auto u = now.rate.position(), v_dot = now.rate.velocity();
+    const bool energy = this->box().passes_energy() && now.rate.has(Field::energy);
+    const Given sum = sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
+        Given given;
+        for (Eigen::Index i = first; i < last; ++i) {
+            const double m = now.particles.mass[static_cast<std::size_t>(i)];
+            const Point<Dim> force = m * v_dot.col(i);
+            given.force += force;
+            given.torque += moment<Dim>(x.col(i), force) + m * moment<Dim>(u.col(i), v.col(i));
+            if (energy) given.power += force.dot(v.col(i)) + m * now.rate.energy()(0, i);
+        }
+        return given;
+    });
+    now.rate.field(Field::impulse) += sum.force;
+    if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque;
+    const Field account = this->box().moving_walls() ? Field::work : Field::heat;
+    now.rate.field(account)(0, 0) += sum.power;
 }
 
 /// The difference that the external makes to what the particles had before it.
@@ -244,6 +289,7 @@ std::string ParticleModel<Dim>::describe() const {
     for (const auto& term : terms_) words += (words.empty() ? "" : "; ") + term->describe();
     for (const auto& external : externals_)
         words += (words.empty() ? "" : "; ") + external->describe();
+    if (this->box().walled()) words += (words.empty() ? "" : "; ") + this->box().describe_walls();
     return words;
 }
 
@@ -318,15 +364,55 @@ void ParticleModel<Dim>::set_bodies(std::vector<std::int32_t> bodies) {
 template <int Dim>
 void ParticleModel<Dim>::remember(Archive& archive) {
     Model<Dim>::remember(archive);
+    if (this->box().walled()) archive(reflections_);
     for (const auto& term : terms_) term->remember(archive);
 }
 
 template <int Dim>
 bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
+    const State<Dim> state(this->layout(), y);
     bool changed = false;
-    for (const auto& term : terms_)
-        changed = term->settle(t, term->among().of(State<Dim>(this->layout(), y))) || changed;
-    return changed;
+    for (const auto& term : terms_) changed = term->settle(t, term->among().of(state)) || changed;
+    return (this->box().walled() && reflect(state)) || changed;
+}
+
+/// A particle beyond a mirror and its image change places: nothing that others see changes, whenever it is
+/// done.
+template <int Dim>
+bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
+    const std::size_t before = reflections_;
+    for (int a = 0; a < Dim; ++a)
+        for (const bool upper : {false, true}) {
+            const Wall<Dim>& wall = this->box().wall(a, upper);
+            if (wall.open()) continue;
+            for (Eigen::Index i = 0; i < state.position().cols(); ++i)
+                if (upper ? state.position()(a, i) > wall.at : state.position()(a, i) < wall.at)
+                    reflections_ += reflect(state, i, a, wall) ? 1 : 0;
+        }
+    return reflections_ != before;
+}
+
+template <int Dim>
+bool ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int axis,
+                                 const Wall<Dim>& wall) const {
+    const auto x = state.position().col(i), v = state.velocity().col(i);
+    const double m = this->particles().mass[static_cast<std::size_t>(i)];
+    state.field(Field::impulse)(axis, 0) -= 2.0 * m * v[axis];
+    const auto book_turning = [&](double sign) {
+        const auto L = moment<Dim>(x, v);
+        for (int plane = 0; plane < Given::planes; ++plane)
+            state.field(Field::angular_impulse)(plane, 0) += sign * m * L[plane];
+    };
+    book_turning(-1.0);
+    state.position()(axis, i) = 2.0 * wall.at - x[axis];
+    state.velocity()(axis, i) = -v[axis];
+    book_turning(1.0);
+    if constexpr (Dim > 1) {
+        if (state.has(Field::stress))
+            for (int b = 0; b < Dim; ++b)
+                if (b != axis) state.stress()(symmetric_index(Dim, axis, b), i) *= -1.0;
+    }
+    return true;
 }
 
 template class ParticleModel<1>;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "resting_body.hpp"
 
-#include <spam/neighbors/pair_list.hpp>
+#include <spam/neighbors/cluster_list.hpp>
+#include <spam/physics/record.hpp>
 
 #include <cmath>
 
@@ -10,20 +11,26 @@ namespace spam {
 template <int Dim>
 RestingBody resting_body(const Particles<Dim>& particles, const Box<Dim>& box,
                          const GeneralWeight<Dim>& weight) {
-    const PairList<Dim> list(particles.reference_position, weight.range(), box);
-    const auto& x = particles.reference_position;
+    const auto& X = particles.reference_position;
+    ClusterList<Dim> list(weight.range(), 0.0, box, 1, Dim);
+    list.build(X);
+    std::vector<double> x(list.slots() * Dim);
+    for (std::size_t slot = 0; slot < list.size(); ++slot)
+        for (std::size_t a = 0; a < Dim; ++a)
+            x[slot * Dim + a] =
+                list.home()(list.order()[slot], a, X.data()[list.order()[slot] * Dim + a]);
+    list.refresh(x.data(), RecordOf<Dim, double, column::Position>::kinds);
     RestingBody sum{0.0, 0.0};
-    for (std::size_t i = 0; i < list.size(); ++i)
-        for (const std::uint32_t j : list.neighbours(i)) {
+    for (std::size_t slot = 0; slot < list.size(); ++slot)
+        for (const std::uint32_t entry : list.entries(slot)) {
             double r2 = 0.0;
-            for (int a = 0; a < Dim; ++a) {
-                const double s = box.nearest_image(
-                    a, box.wrap(a, x(a, static_cast<Eigen::Index>(i))) - box.wrap(a, x(a, j)));
+            for (std::size_t a = 0; a < Dim; ++a) {
+                const double s = x[slot * Dim + a] - x[entry + a];
                 r2 += s * s;
             }
-            const double m = particles.mass[j], r = std::sqrt(r2);
+            const double m = particles.mass[list.particle(entry / Dim)], r = std::sqrt(r2);
             sum.density += m * weight.value(r);
-            if (i != j) sum.slope += m * weight.minus_slope_over_r(r);
+            if (entry != slot * Dim) sum.slope += m * weight.minus_slope_over_r(r);
         }
     const auto n = static_cast<double>(list.size());
     return {sum.density / n, sum.slope / n};

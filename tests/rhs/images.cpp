@@ -42,7 +42,7 @@ Particles<Dim> patch(unsigned seed) {
     Points<Dim> x = square_lattice<Dim>(n);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> u(-0.1, 0.1);
-    for (auto& c : x.reshaped()) c += u(random);
+    for (auto& c : x.reshaped()) c = std::round((c + u(random)) * 0x1p32) * 0x1p-32;
     auto particles = make_particles<Dim>(x, 1.0, 1.0, cube<Dim>(length));
     for (double& m : particles.mass) m += u(random);
     return particles;
@@ -81,7 +81,8 @@ double narrow_against_wide(const Build<Dim>& build, double deform = 0.05) {
     const State<Dim> small(narrow->layout(), y), large(wide->layout(), Y);
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> u(-deform, deform);
-    for (auto& x : small.position().reshaped()) x += u(random);
+    // On a grid that both boxes leave as it is.
+    for (auto& x : small.position().reshaped()) x = std::round((x + u(random)) * 0x1p32) * 0x1p-32;
     if (small.has(Field::energy))  // gases need a temperature
         for (auto& e : small.energy().reshaped()) e = std::abs(e) + 0.5;
     const Eigen::Index n = one.reference_position.cols();

@@ -3,13 +3,14 @@
 
 #include <spam/core/state.hpp>
 #include <spam/core/vec.hpp>
+#include <spam/neighbors/wall.hpp>
 
 #include <array>
 #include <cmath>
 
 namespace spam {
 
-/// Free or periodic space, direction by direction. Positions in y are never wrapped; right-hand sides see
+/// Free space, periodic space or space between walls, direction by direction. Positions in y are never wrapped; right-hand sides see
 /// images of particles across a border (ghosts.hpp), observers take the nearest image of a separation.
 ///
 /// Periods are rounded to 50 bits and positions, where images are made of them, to their last place: then
@@ -39,6 +40,39 @@ class Box {
         return false;
     }
     double length(int a) const { return length_[at(a)]; }
+
+    /// The side across direction a, the lower one or the upper one. Throws InputError for a wall across a
+    /// periodic direction, one that moves across itself or slips and moves, a temperature that is not above
+    /// 0, and a lower wall that is not below the upper one.
+    void set_wall(int a, bool upper, const Wall<Dim>& wall);
+    const Wall<Dim>& wall(int a, bool upper) const { return walls_[at(a)][upper ? 1 : 0]; }
+    bool walled(int a) const { return !wall(a, false).open() || !wall(a, true).open(); }
+    bool walled() const {
+        for (int a = 0; a < Dim; ++a)
+            if (walled(a)) return true;
+        return false;
+    }
+    /// Whether energy passes a wall (Wall::passes_energy).
+    bool passes_energy() const {
+        for (const auto& sides : walls_)
+            for (const Wall<Dim>& side : sides)
+                if (!side.open() && side.passes_energy()) return true;
+        return false;
+    }
+    bool moving_walls() const {
+        for (const auto& sides : walls_)
+            for (const Wall<Dim>& side : sides)
+                if (!side.velocity.isZero()) return true;
+        return false;
+    }
+    /// The same space with its walls taken away.
+    Box without_walls() const {
+        Box box = *this;
+        box.walls_ = {};
+        return box;
+    }
+    /// "walls: mirror at x = 0; no-slip, T = 1.5 at y = 20"; empty where there are none.
+    std::string describe_walls() const;
     /// The last place of the period, a power of two; 0 where the direction is free.
     double last_place(int a) const { return place_[at(a)]; }
 
@@ -68,6 +102,7 @@ class Box {
     static constexpr std::size_t at(int a) { return static_cast<std::size_t>(a); }
     std::array<double, Dim> length_{};
     std::array<double, Dim> inverse_{}, place_{};
+    std::array<std::array<Wall<Dim>, 2>, Dim> walls_{};
 };
 
 }  // namespace spam

@@ -27,7 +27,8 @@ class ClusterList {
   public:
     /// `range` > 0, the range of the weight function; `skin` >= 0, how much further the list looks;
     /// `width` 1, 2, 4 or 8; `stride`: numbers in a record of the sweeps. Throws InputError when a
-    /// periodic length is so short that a particle would meet more than five images of another.
+    /// periodic length is so short that a particle would meet more than five images of another, or two
+    /// walls face each other within the range.
     ClusterList(double range, double skin, const Box<Dim>& box, int width, std::size_t stride = 1);
 
     /// For later builds; as in the constructor.
@@ -39,7 +40,8 @@ class ClusterList {
 
     /// Whether the list still serves these positions: no particle has moved more than half the skin
     /// since the last build after the best rigid motion is taken off, so that a body that only turns
-    /// and flies keeps its list. Where the box is periodic, only a translation is taken off. Never
+    /// and flies keeps its list. Where the box is periodic, only a translation is taken off, and none
+    /// towards a wall. Never
     /// true where a position is not finite.
     bool serves(const Eigen::Ref<const Points<Dim>>& position);
 

@@ -14,8 +14,8 @@ namespace spam {
 template <int Dim>
 void require_one_image(const Box<Dim>& box, double reach);
 
-/// For every particle i the particles j with |r_ij| < reach, i itself included, in ascending j: for
-/// set-up and observers. Right-hand sides sweep a ClusterList.
+/// For every particle i the particles j with |r_ij| < reach, i itself included, in ascending j, without
+/// images behind walls: for set-up and observers. Right-hand sides sweep a ClusterList.
 template <int Dim>
 class PairList {
   public:

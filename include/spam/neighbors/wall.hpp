@@ -22,8 +22,8 @@ enum class WallKind {
 template <int Dim>
 struct Wall {
     WallKind kind = WallKind::open;
-    double at = 0.0;                                ///< its coordinate
-    Point<Dim> velocity = Point<Dim>::Zero();       ///< of no_slip, along the wall
+    double at = 0.0;                           ///< its coordinate
+    Point<Dim> velocity = Point<Dim>::Zero();  ///< of no_slip, along the wall
     std::optional<double> temperature = std::nullopt;
 
     bool open() const { return kind == WallKind::open; }

@@ -57,6 +57,8 @@ class Model {
     /// rates.
     virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
 
+    /// Whether settle() may change anything.
+    virtual bool settles() const;
     /// After every accepted step, before anybody looks at it: what is not integrated may be changed here
     /// (a plastic return: history fields, and the stress that goes with them). Returns whether y was; the
     /// integrator is told.

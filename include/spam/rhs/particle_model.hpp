@@ -18,13 +18,14 @@ class ParticleModel : public Model<Dim> {
     using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
     using Externals = std::vector<std::unique_ptr<External<Dim>>>;
 
-    /// Without a term nothing moves but by externals.
+    /// Without a term nothing moves but by externals. Walls of the box (neighbors/wall.hpp) act by images of
+    /// particles in every term; what they give is booked in the accounts: y then has these.
     explicit ParticleModel(Particles<Dim> particles, const Box<Dim>& box = {});
 
     /// One more term, Law(*this, arguments...). y grows by its fields: add terms and externals before a
     /// state is made. Throws InputError where it does not go with those that are there: two that find the
     /// rate of the same field of y, a potential of positions beside particles that move with an averaged
-    /// velocity.
+    /// velocity, or what a wall of the box means nothing to (Term::no_walls).
     template <class Law, class... Arguments>
     Law& add_term(Arguments&&... arguments) {
         auto term = std::make_unique<Law>(*this, std::forward<Arguments>(arguments)...);
@@ -76,7 +77,11 @@ class ParticleModel : public Model<Dim> {
     std::vector<Remark> watch(double t, std::span<const double> y) final;
     void set_bodies(std::vector<std::int32_t> bodies) final;
     void remember(Archive& archive) final;
+    bool settles() const final { return this->box().walled() || Model<Dim>::settles(); }
+    /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n.
     bool settle(double t, std::span<double> y) final;
+    /// How many have been, so far.
+    std::size_t reflections() const { return reflections_; }
 
     /// Neighbour lists built so far, of all terms.
     std::size_t list_builds() const;
@@ -97,6 +102,12 @@ class ParticleModel : public Model<Dim> {
     Given apply_to(const External<Dim>& external, const typename External<Dim>::Now& now,
                    Eigen::Index first, Eigen::Index last) const;
     void book(const External<Dim>& external, const Given& given, const State<Dim>& rate) const;
+    void add_accounts();
+    template <class GiveBlock>
+    Given sum_of_blocks(const GiveBlock& give);
+    void book_walls(const typename External<Dim>::Now& now);
+    bool reflect(const State<Dim>& state);
+    bool reflect(const State<Dim>& state, Eigen::Index i, int axis, const Wall<Dim>& wall) const;
 
     bool moves_with_velocity() const;
     /// Where x_dot is not v a potential changes at another rate than its forces do work: the work is booked
@@ -110,6 +121,7 @@ class ParticleModel : public Model<Dim> {
     bool whole_ = true;         ///< every term acts among all particles
     std::vector<double> more_;  ///< v_dot of a term that is not the first, or of a part
     std::vector<Given> given_;  ///< by block
+    std::size_t reflections_ = 0;
 };
 
 extern template class ParticleModel<1>;

@@ -60,6 +60,8 @@ class SmoothParticles final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
     double neighbour_forces(std::span<const double> y) const override;
+    /// Torques are balanced among particles, and reflections are of pairs of them, without images.
+    std::string no_walls() const override;
     /// The restriction of the distance of closest approach, where the scheme has one.
     std::vector<Event> events() const override;
     Promises promises() const override;

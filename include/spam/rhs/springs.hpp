@@ -21,6 +21,9 @@ class Springs final : public Term<Dim> {
 
     std::string rates(const Now& now) override;
     double energy(std::span<const double> y) const override;
+    std::string no_walls() const override {
+        return "its neighbours are those of the reference configuration, where nobody meets a wall";
+    }
     std::string describe() const override;
 
     /// Stress of every particle from its own bonds (virial), tension-positive:

@@ -54,6 +54,13 @@ class Term {
         return std::abs(energy(y)) / particles().spacing;
     }
 
+    /// Why images behind the walls of the box mean nothing to the term; empty where it takes them.
+    virtual std::string no_walls() const {
+        if (potential() && box().passes_energy())
+            return "a potential feels neither the velocity nor the temperature of a wall; use mirrors";
+        return {};
+    }
+
     virtual std::vector<Event> events() const { return {}; }
     /// In open space.
     virtual Promises promises() const {

@@ -44,6 +44,9 @@ class TotalLagrangian final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.
     std::vector<double> density(std::span<const double> y) const override;
+    std::string no_walls() const override {
+        return "its neighbours are those of the reference configuration, where nobody meets a wall";
+    }
     std::string describe() const override;
 
     std::size_t pairs() const override { return list_.pairs(); }
