@@ -195,9 +195,9 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     observers.output = [&](double t) {
         const auto& rows = recorder_.history().rows();
         if (!rows.empty() && rows.back().front() == t) return;
-        recorder_.add(t, statistics().last_step, motion_.y());
         for (const Observer<Dim>& observer : plan.observers)
             if (observer.on_row) observer.on_row(t, *one_.model, motion_.y());
+        recorder_.add(t, statistics().last_step, motion_.y());
         guard(t, watchers);
     };
     observers.snapshot = [&](double t) { snapshot(t, watchers); };

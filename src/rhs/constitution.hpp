@@ -3,6 +3,7 @@
 #pragma once
 
 #include "packed_particles.hpp"
+#include "resting_body.hpp"
 #include "term_sweeps.hpp"
 #include <spam/material/fluid.hpp>
 #include <spam/material/material.hpp>
@@ -48,13 +49,15 @@ class Constitution {
     }
     /// What the sweep of forces calls for every block of particles.
     virtual void close_forces(const Now&, SweepOutput<Dim>&) {}
+    /// What passes that know the material are made with.
+    virtual void set_constants(PassConstants&) const {}
 
     /// At this density and no energy.
     virtual std::optional<double> sound_speed(double density) const = 0;
     /// Of particle i after prepare(); for fluids.
     virtual double sound_speed_of(std::size_t) const { return 0.0; }
     /// Term::fastest_damping() of friction and conduction.
-    virtual double damping(const GeneralWeight<Dim>&, double /*density*/) const { return 0.0; }
+    virtual double damping(const GeneralWeight<Dim>&, const RestingBody&) const { return 0.0; }
     /// Term::neighbour_forces() of the stress, by the spacing.
     virtual double stress_forces(const ConstState<Dim>& state,
                                  std::span<const double> rho) const = 0;
@@ -88,9 +91,10 @@ class FluidConstitution final : public Constitution<Dim> {
     bool central(const Scheme& scheme) const override;
     std::string prepare(const Now& now, std::span<const double> rho, const SweepInput<Dim>& in,
                         const Sweeps<Dim>& sweeps, PackedParticles<Dim>& packed) override;
+    void set_constants(PassConstants& constants) const override;
     std::optional<double> sound_speed(double density) const override;
     double sound_speed_of(std::size_t i) const override;
-    double damping(const GeneralWeight<Dim>& weight, double density) const override;
+    double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest) const override;
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 
     const Fluid& of(std::size_t i) const;

@@ -14,7 +14,26 @@
 namespace spam {
 namespace {
 
-bool has_gradients(const Fluid& fluid) { return fluid.viscosity || fluid.conduction; }
+bool has_gradients(const Fluid& fluid) { return fluid.diffuses() && !fluid.by_pairs; }
+bool has_pairs(const Fluid& fluid) { return fluid.diffuses() && fluid.by_pairs; }
+
+/// Where friction and conduction are those of pairs.
+void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
+    const Fluid& first = fluids.front();
+    if (!has_pairs(first) && std::none_of(fluids.begin(), fluids.end(), has_pairs)) return;
+    if (scheme.transport != Transport::plain || scheme.viscosity > 0.0 || scheme.balances_torques())
+        throw InputError(
+            "friction: that of pairs is for particles that move with their own velocity, without "
+            "artificial viscosity and balanced torques; leave these out, or take friction by gradients");
+    if (fluids.size() > 1)
+        throw InputError(
+            "friction: that of pairs is for one fluid, and several are given; take friction by gradients");
+    if (first.viscosity && std::abs(first.viscosity->lambda) > first.viscosity->eta * (1.0 + 1e-14))
+        throw InputError(fmt::format(
+            "friction: that of pairs needs -eta <= lambda <= eta, and eta = {:g}, lambda = {:g}; "
+            "choose another bulk viscosity",
+            first.viscosity->eta, first.viscosity->lambda));
+}
 
 void check_fluid(const Fluid& fluid, int dim) {
     const auto refuse_negative = [](const char* name, double value) {
@@ -63,11 +82,13 @@ void FluidConstitution<Dim>::check(const Scheme& scheme) const {
             "particles move with an averaged velocity, because densities then change at another "
             "rate than work is done; use --density continuity, or --transport plain");
     for (const Fluid& fluid : fluids_) check_fluid(fluid, Dim);
+    check_pairs(fluids_, scheme);
 }
 
 /// What neither friction and conduction nor the scheme ask for is left out.
 template <int Dim>
 Matter FluidConstitution<Dim>::matter(const Scheme& scheme) const {
+    if (std::any_of(fluids_.begin(), fluids_.end(), has_pairs)) return Matter::rubbing;
     const bool plain = scheme.transport == Transport::plain && scheme.viscosity == 0.0 &&
                        (scheme.angular_momentum == AngularMomentum::free ||
                         scheme.angular_momentum == AngularMomentum::gauss);
@@ -85,8 +106,10 @@ std::string FluidConstitution<Dim>::describe() const {
 /// Pressures act along r_ij, viscous stresses do not; <v> moves particles without regard to where they are.
 template <int Dim>
 bool FluidConstitution<Dim>::central(const Scheme& scheme) const {
-    const bool stresses = std::any_of(fluids_.begin(), fluids_.end(),
-                                      [](const Fluid& fluid) { return fluid.viscosity; });
+    const bool stresses = std::any_of(fluids_.begin(), fluids_.end(), [](const Fluid& fluid) {
+        const auto& newton = fluid.viscosity;
+        return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
+    });
     return !stresses && scheme.transport != Transport::average;
 }
 
@@ -163,13 +186,17 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind m
                                   PackedParticles<Dim>& packed) const {
     using R = ConductingRecord<Dim>;
     const auto order = packed.list().order();
-    const bool tensors = packed.numbers() != InviscidRecord<Dim>::numbers;
+    const bool rubbing = packed.numbers() == RubbingRecord<Dim>::numbers;
+    const bool tensors = !rubbing && packed.numbers() != InviscidRecord<Dim>::numbers;
     parallel_for(order.size(), [&](std::size_t slot) {
         const std::size_t i = order[slot];
         double* const record = packed.record(slot);
         const double a = pressure_[i] / (rho[i] * rho[i]);
         if (!tensors) {
             record[InviscidRecord<Dim>::template at<column::Pressure>] = a;
+            if (!rubbing) return;
+            record[RubbingRecord<Dim>::template at<column::InverseDensity>] = 1.0 / rho[i];
+            record[RubbingRecord<Dim>::template at<column::Temperature>] = temperature_[i];
             return;
         }
         record[R::template at<column::Density>] = EitherMean::number(mean, rho[i]);
@@ -183,7 +210,7 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind m
     if (tensors)
         packed.template refresh<R>(R::template at<column::Density>);
     else
-        packed.template refresh<InviscidRecord<Dim>>(
+        packed.template refresh<RubbingRecord<Dim>>(
             InviscidRecord<Dim>::template at<column::Pressure>);
 }
 
@@ -219,6 +246,15 @@ void FluidConstitution<Dim>::load_fluxes(PackedParticles<Dim>& packed) const {
 }
 
 template <int Dim>
+void FluidConstitution<Dim>::set_constants(PassConstants& constants) const {
+    if (const auto& newton = first().viscosity) {
+        constants.shear = newton->eta;
+        constants.second_viscosity = newton->lambda;
+    }
+    if (first().conduction) constants.conductivity = first().conduction->kappa;
+}
+
+template <int Dim>
 std::optional<double> FluidConstitution<Dim>::sound_speed(double density) const {
     double fastest = 0.0;
     for (const Fluid& fluid : fluids_) {
@@ -235,18 +271,26 @@ double FluidConstitution<Dim>::sound_speed_of(std::size_t i) const {
 }
 
 /// By the shortest waves felt: momentum diffuses at (2 eta + lambda) k^2/rho or eta k^2/rho, heat at
-/// kappa k^2/(rho c_v), c_v = D/2 of a unit mass.
+/// kappa k^2/(rho c_v), c_v = D/2 of a unit mass. By pairs neighbours that move against each other are
+/// stopped: at twice the sum of F over them.
 template <int Dim>
-double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, double density) const {
+double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight,
+                                       const RestingBody& rest) const {
     const double k = steepest_wave<Dim>(weight);
-    double diffusion = 0.0;
+    double diffusion = 0.0, of_pairs = 0.0;
     for (const Fluid& fluid : fluids_) {
-        if (fluid.viscosity)
-            diffusion = std::max({diffusion, fluid.viscosity->eta,
-                                  2.0 * fluid.viscosity->eta + fluid.viscosity->lambda});
-        if (fluid.conduction) diffusion = std::max(diffusion, 2.0 / Dim * fluid.conduction->kappa);
+        double& most = fluid.by_pairs ? of_pairs : diffusion;
+        if (const auto& newton = fluid.viscosity; newton && fluid.by_pairs)
+            most = std::max(most, newton->eta - newton->lambda +
+                                      (Dim + 2.0) / Dim * (newton->lambda + newton->eta));
+        else if (newton)
+            most = std::max({most, newton->eta, 2.0 * newton->eta + newton->lambda});
+        if (fluid.conduction)
+            most =
+                std::max(most, 2.0 / Dim * fluid.conduction->kappa * (fluid.by_pairs ? 2.0 : 1.0));
     }
-    return diffusion * k * k / density;
+    return diffusion * k * k / rest.density +
+           2.0 * of_pairs * rest.slope / (rest.density * rest.density);
 }
 
 template <int Dim>

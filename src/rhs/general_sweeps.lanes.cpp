@@ -44,12 +44,11 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
     Sweeps<Dim> sweeps{W, 0};
     if (scheme.density == Density::summed)
         sweeps.density = run_sweep<GeneralSweep, W, Dim, MotionRecord<Dim>, DensitySum>;
-    if (matter == Matter::inviscid) {
+    using Forces = ForceSweeps<GeneralSweep, Dim, EitherMean>;
+    if (matter == Matter::inviscid || matter == Matter::rubbing) {
         sweeps.pack = pack<Dim, InviscidRecord<Dim>>;
-        sweeps.force = run_sweep<GeneralSweep, W, Dim, InviscidRecord<Dim>, PlainTransport<Dim>,
-                                 PressureForce<Dim>, Continuity>;
+        sweeps.force = matter == Matter::inviscid ? Forces::inviscid : Forces::rubbing;
     } else {
-        using Forces = ForceSweeps<GeneralSweep, Dim, EitherMean>;
         // A fluid's stress comes later.
         using Densities = typename MotionRecord<Dim>::template And<column::Density>;
         sweeps.pack = matter == Matter::solid ? pack<Dim, Record<Dim>> : pack<Dim, Densities>;
@@ -61,6 +60,7 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
             run_sweep<GeneralSweep, W, Dim, ConductingRecord<Dim>,
                       VelocityGradient<Dim, EitherMean>, TemperatureGradient<Dim, EitherMean>>;
     const int first = matter == Matter::inviscid     ? InviscidRecord<Dim>::numbers
+                      : matter == Matter::rubbing    ? RubbingRecord<Dim>::numbers
                       : matter == Matter::conducting ? ConductingRecord<Dim>::numbers
                                                      : Record<Dim>::numbers;
     const int later =

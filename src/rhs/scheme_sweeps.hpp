@@ -8,6 +8,7 @@
 #include <spam/physics/fluid_record.hpp>
 #include <spam/physics/heat_flow.hpp>
 #include <spam/physics/mean_density.hpp>
+#include <spam/physics/pair_friction.hpp>
 #include <spam/physics/pressure_force.hpp>
 #include <spam/physics/torque_balance.hpp>
 #include <spam/physics/transport.hpp>
@@ -43,6 +44,13 @@ struct ForceSweeps {
                              decltype(force), HeatFlow<Dim>, Continuity>;
         });
     }
+
+    static constexpr Sweep<Dim> inviscid =
+        run_sweep<Kind, W, Dim, InviscidRecord<Dim>, PlainTransport<Dim>, PressureForce<Dim>,
+                  Continuity>;
+    static constexpr Sweep<Dim> rubbing =
+        run_sweep<Kind, W, Dim, RubbingRecord<Dim>, PlainTransport<Dim>, PressureForce<Dim>,
+                  Continuity, PairFriction<Dim>, PairConduction>;
 
   private:
     template <class Make>

@@ -11,9 +11,11 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
     // On a line a fluid's general sweeps are as quick.
     if (sweeps.density != nullptr && (Dim > 1 || matter == Matter::solid))
         sweeps.density = run_sweep<LucysSweep, W, Dim, MotionRecord<Dim>, DensitySum>;
-    if (Dim > 1 && matter == Matter::inviscid)
-        sweeps.force = run_sweep<LucysSweep, W, Dim, InviscidRecord<Dim>, PlainTransport<Dim>,
-                                 PressureForce<Dim>, Continuity>;
+    if constexpr (Dim > 1) {
+        using Forces = ForceSweeps<LucysSweep, Dim, ArithmeticMean>;
+        if (matter == Matter::inviscid) sweeps.force = Forces::inviscid;
+        if (matter == Matter::rubbing) sweeps.force = Forces::rubbing;
+    }
     if (matter != Matter::solid || scheme.mean_density != MeanDensityKind::arithmetic)
         return sweeps;
     sweeps.force = ForceSweeps<LucysSweep, Dim, ArithmeticMean>::solid(scheme);

@@ -106,10 +106,11 @@ Groups SmoothParticles<Dim>::groups() const {
 template <int Dim>
 void SmoothParticles<Dim>::estimate_viscosity() {
     const GeneralWeight<Dim> general(scheme_.kernel, scheme_.range);
-    const bool friction = sweeps_->gradient != nullptr;
+    const Matter matter = constitution_->matter(scheme_);
+    const bool friction = matter == Matter::rubbing || sweeps_->gradient != nullptr;
     if (!(scheme_.viscosity > 0.0) && !friction) return;
     const RestingBody rest = resting_body(this->particles(), this->box(), general);
-    viscous_damping_ = constitution_->damping(general, rest.density);
+    viscous_damping_ = constitution_->damping(general, rest);
     if (!(scheme_.viscosity > 0.0)) return;
     const auto c = constitution_->sound_speed(rest.density);
     if (!c)
@@ -130,6 +131,7 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
     SweepInput<Dim> in = packed_->input();
     in.constants.mean_density = scheme_.mean_density;
     in.constants.viscosity = viscosity_;
+    constitution_->set_constants(in.constants);
     const std::span<const double> rho =
         sweeps_->density != nullptr
             ? std::span<const double>(summed_density_)

@@ -111,11 +111,15 @@ struct Fluid {
     AnyEquationOfState state;
     std::optional<NewtonViscosity> viscosity{};
     std::optional<FourierConduction> conduction{};
+    /// Whether both are found from differences of pairs (physics/pair_friction.hpp), not from gradients.
+    bool by_pairs = false;
 
+    bool diffuses() const { return viscosity || conduction; }
     std::string describe() const {
         std::string words = state.describe();
         if (viscosity) words += "; " + viscosity->describe();
         if (conduction) words += "; " + conduction->describe();
+        if (by_pairs && diffuses()) words += " (by pairs)";
         return words;
     }
 };

@@ -22,6 +22,11 @@ struct HeatFlux {
     Vec<Dim, T> q;  ///< Q/rho^2
 };
 
+template <int Dim, class T>
+struct InverseDensity {
+    T inverse_rho{};
+};
+
 }  // namespace column
 
 /// What a pair body may know of a particle of a fluid without friction and conduction.
@@ -33,5 +38,10 @@ using InviscidRecord = typename MotionRecord<Dim, T>::template And<column::Press
 template <int Dim, class T = double>
 using ConductingRecord =
     typename Record<Dim, T>::template And<column::Temperature, column::HeatFlux>;
+
+/// Of a fluid with friction and conduction by pairs.
+template <int Dim, class T = double>
+using RubbingRecord =
+    typename InviscidRecord<Dim, T>::template And<column::InverseDensity, column::Temperature>;
 
 }  // namespace spam

@@ -20,7 +20,9 @@ struct PassConstants {
     ViscosityConstants viscosity{};
     double inverse_density = 1.0;  ///< of a total-Lagrangian solid: 1/rho_0
     double penalty = 0.0;          ///< its penalty times its stiffness, kappa lambda
-    double core_energy = 0.0;      ///< of CorePotential
+    /// Of friction and conduction by pairs: eta, lambda and kappa.
+    double shear = 0.0, second_viscosity = 0.0, conductivity = 0.0;
+    double core_energy = 0.0;  ///< of CorePotential
     double core_range = 1.0;
     std::array<double, 8> own{};  ///< of a law outside the library
 };

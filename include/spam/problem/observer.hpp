@@ -26,7 +26,7 @@ struct Observer {
     using State = std::span<const double>;
     /// Measured at every row of invariants.csv.
     std::vector<Column<Dim>> columns{};
-    /// At every row, the first one included.
+    /// At every row, the first one included, before the columns are measured.
     std::function<void(double t, const Model<Dim>& model, State y)> on_row{};
     /// At every snapshot.
     std::function<void(double t, const Model<Dim>& model, State y)> on_snapshot{};

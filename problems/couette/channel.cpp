@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "channel.hpp"
+
+#include <spam/external/gravity.hpp>
+#include <spam/material/lucy_gas.hpp>
+#include <spam/picture/draw.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace channel {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double drawn_at[] = {0.02, 0.08, 0.25, 1.0};  // of ExactFlow::time()
+
+/// Root of the mean squared difference from the exact profile, by the speed of the drive.
+Column<2> profile_error_column(const ExactFlow& exact, const std::shared_ptr<double>& now) {
+    return {"profile_error", [exact, now](const Model<2>& model, std::span<const double> y) {
+                const ConstState<2> state(model.layout(), y);
+                double sum = 0.0;
+                for (Eigen::Index i = 0; i < state.position().cols(); ++i) {
+                    const double off =
+                        state.velocity()(0, i) - exact.velocity(state.position()(1, i), *now);
+                    sum += off * off;
+                }
+                return std::sqrt(sum / static_cast<double>(state.position().cols())) / exact.speed;
+            }};
+}
+
+/// Mean velocity along the plates, by the speed of the drive: 1/2 (couette) or 2/3 (poiseuille) in the end.
+Column<2> mean_velocity_column(double speed) {
+    return {"mean_velocity", [speed](const Model<2>& model, std::span<const double> y) {
+                const ConstState<2> state(model.layout(), y);
+                return state.velocity().row(0).mean() / speed;
+            }};
+}
+
+Plan<2> plan_of(const Session& session, Flow& flow) {
+    Plan<2> plan;
+    plan.t_end =
+        session.common().t_end.value_or((session.common().smoke ? 0.02 : 1.0) * flow.exact.time());
+    plan.snapshot_every = plan.t_end / 50.0;
+    const auto now = std::make_shared<double>(0.0);
+    plan.observe(
+        {.columns = {profile_error_column(flow.exact, now), mean_velocity_column(flow.exact.speed)},
+         .on_row = [now](double t, const auto&, auto) { *now = t; }});
+    for (const double part : drawn_at)
+        if (part * flow.exact.time() <= plan.t_end * (1.0 + 1e-9))
+            flow.drawn.push_back({part * flow.exact.time()});
+    plan.observe(keep_nearest(flow.drawn));
+    return plan;
+}
+
+void report(Session& session, const Parameters& p, const Flow& flow, const RunRecord& run) {
+    const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
+    const bool plate = flow.exact.drive == Drive::plate;
+    const bool known = session.when_default({"speed", "reynolds", "kernel", "range", "friction"}) &&
+                       run.complete && run.statistics.t_end >= 0.99 * flow.exact.time() &&
+                       flow.exact.H >= 20.0;
+    session.claim({prefix + "profile_error", run.history.last("profile_error"), 0.0, 0.01,
+                   plate ? "u = V y/H" : "u = 4 U (y/H)(1 - y/H)"},
+                  known);
+    session.claim({prefix + "mean_velocity", run.history.last("mean_velocity"),
+                   plate ? 0.5 : 2.0 / 3.0, 0.01, "of the exact flow"},
+                  known);
+    session.measure(prefix + "largest_profile_error", run.history.largest("profile_error"),
+                    "start-up included");
+    session.measure(prefix + "reflections", static_cast<double>(flow.model->reflections()),
+                    "particles that crossed a plate");
+    session.check_promises(run, prefix);
+    (void)p;
+}
+
+/// Lines: exact. Points: particles.
+void draw(Session& session, const Parameters& p, const Flow& flow) {
+    CurvePanel panel{
+        "", "u/" + std::string(flow.exact.drive == Drive::plate ? "V" : "U"), "y/H", false, {}};
+    for (const auto& state : flow.drawn) {
+        if (!state.there()) continue;
+        Curve exact{.title = fmt::format("t = {:.3g}", state.t), .x = {}, .y = {}};
+        for (int k = 0; k <= 100; ++k) {
+            exact.x.push_back(flow.exact.velocity(0.01 * k * flow.exact.H, state.t) /
+                              flow.exact.speed);
+            exact.y.push_back(0.01 * k);
+        }
+        panel.curves.push_back(exact);
+    }
+    const auto lines = static_cast<int>(panel.curves.size());
+    int of = 1;
+    for (const auto& state : flow.drawn) {
+        if (!state.there()) continue;
+        Curve particles{.title = "", .x = {}, .y = {}, .mark = Mark::points, .style = of++};
+        for (Eigen::Index i = 0; i < state.position.cols(); ++i) {
+            particles.x.push_back(state.velocity(0, i) / flow.exact.speed);
+            particles.y.push_back(state.position(1, i) / flow.exact.H);
+        }
+        panel.curves.push_back(particles);
+    }
+    if (lines == 0) return;
+    session.note_drawn(draw_curves(session.plots_folder(), "profiles",
+                                   fmt::format("{} particles, Re = {:g}: lines exact",
+                                               flow.model->particles().size(), p.reynolds),
+                                   {panel}));
+}
+
+/// Errors of three sizes, and the order at which they fall.
+void compare(Session& session, const std::vector<Flow>& flows, const std::vector<RunRecord>& runs) {
+    std::vector<double> errors;
+    for (const auto& run : runs) errors.push_back(run.history.last("profile_error"));
+    for (std::size_t k = 1; k < errors.size(); ++k)
+        session.measure(fmt::format("order_{}_to_{}", flows[k - 1].label, flows[k].label),
+                        std::log2(errors[k - 1] / errors[k]),
+                        "of the profile's error against the number of particles across");
+}
+
+void run(Session& session, const Parameters& p, Drive drive) {
+    std::vector<Flow> flows;
+    std::vector<int> sizes{p.cells};
+    if (p.compare) sizes = {p.cells / 2, p.cells, 2 * p.cells};
+    for (const int cells : sizes) {
+        flows.push_back(make_flow(p, drive, cells, session.common().dry_run));
+        if (sizes.size() > 1) flows.back().label = fmt::format("{}", cells);
+    }
+    const double nu = flows.front().exact.nu;
+    session.prefer_step(std::min(0.25, 0.4 / nu));
+    std::vector<Case<2>> cases;
+    for (auto& flow : flows)
+        cases.push_back({flow.model, flow.y0, plan_of(session, flow), flow.label});
+    const auto runs = session.run_all(std::move(cases));
+    for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
+    if (runs.size() == 3) compare(session, flows, runs);
+    if (session.plots() && !runs.empty()) draw(session, p, flows[runs.size() / 2]);
+}
+
+}  // namespace
+
+double ExactFlow::velocity(double y, double t) const {
+    if (t <= 0.0) return 0.0;
+    const double part = y / H;
+    double u = drive == Drive::plate ? part : 4.0 * part * (1.0 - part);
+    for (int n = 1; n < 400; n += drive == Drive::plate ? 1 : 2) {
+        const double k = n * pi, left = std::exp(-k * k * nu * t / (H * H));
+        if (left < 1e-17) break;
+        const double wave = left * std::sin(k * part);
+        u += drive == Drive::plate ? (n % 2 == 0 ? 2.0 : -2.0) / k * wave
+                                   : -32.0 / (k * k * k) * wave;
+    }
+    return speed * u;
+}
+
+Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described) {
+    const double H = cells, nu = p.speed * H / p.reynolds;
+    Box<2> box({H, 0.0});
+    const bool plate = drive == Drive::plate;
+    box.set_wall(1, false, {WallKind::no_slip, 0.0});
+    box.set_wall(1, true, {WallKind::no_slip, H, {plate ? p.speed : 0.0, 0.0}});
+    Points<2> x = square_lattice<2>({cells, cells});
+    x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
+    auto model = std::make_unique<FluidModel<2>>(make_particles<2>(x, 1.0, 1.0, box),
+                                                 Fluid{LucyGas{},
+                                                       NewtonViscosity::shear_and_bulk(nu, 0.0, 2),
+                                                       {},
+                                                       p.friction == Friction::pairs},
+                                                 p.scheme, box);
+    if (!plate)
+        model->add(std::make_unique<Gravity<2>>(Point<2>(8.0 * nu * p.speed / (H * H), 0.0)));
+    Flow flow{{drive, H, nu, p.speed}, nullptr, {}};
+    if (!only_described)
+        flow.y0 = model->state(model->particles().reference_position, Points<2>::Zero(2, x.cols()));
+    model->layout().set_scale(Field::velocity, p.speed);
+    flow.model = std::move(model);
+    return flow;
+}
+
+int main_of(int argc, char** argv, const std::string& name, const std::string& summary,
+            Drive drive) {
+    Problem problem(name, summary);
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("cells", p.cells, "particles from plate to plate, and as many along them",
+                    between(8, 400));
+    options.number("speed", p.speed,
+                   drive == Drive::plate ? "speed of the upper plate; that of sound is 1"
+                                         : "speed of the finished flow in the middle; sound has 1",
+                   between(1e-6, 0.5));
+    options.number("reynolds", p.reynolds,
+                   "Reynolds number: speed times distance of the plates by "
+                   "the kinematic viscosity",
+                   between(0.01, 1e4));
+    options.choice<Friction>(
+        "friction", p.friction, {Friction::pairs, Friction::gradients},
+        "viscous forces from differences of pairs, or from gradients of velocity");
+    options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
+    options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 6.0));
+    options.flag("compare", p.compare,
+                 "compute half as many and twice as many particles across as well");
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke && !session.given("cells")) p.cells = 10;
+        run(session, p, drive);
+    });
+}
+
+}  // namespace channel

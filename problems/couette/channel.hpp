@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A viscous fluid between two parallel plates, driven by one that moves (couette) or by a force along them
+// (poiseuille): what the two problems share.
+#pragma once
+
+#include <spam/problem/nearest_state.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/spam.hpp>
+
+namespace channel {
+
+using namespace spam;
+
+enum class Drive { plate, force };
+enum class Friction { pairs, gradients };
+inline std::string_view to_string(Friction f) {
+    return f == Friction::pairs ? "pairs" : "gradients";
+}
+
+struct Parameters {
+    int cells = 20;          // particles from plate to plate, at spacing 1
+    double speed = 0.1;      // of the plate, or in the middle of the finished flow; sound: 1
+    double reynolds = 10.0;  // speed cells/nu
+    bool compare = false;
+    Friction friction = Friction::pairs;
+    Scheme scheme{.density = Density::continuity, .kernel = Kernel::w4, .range = 4.0};
+};
+
+/// The flow of an incompressible fluid that was at rest at t = 0 between plates at y = 0 and y = H.
+struct ExactFlow {
+    Drive drive;
+    double H, nu, speed;
+
+    /// Of the fluid along the plates. Fourier's series of the start-up on top of the finished flow, u = V y/H
+    /// or 4 U (y/H)(1 - y/H).
+    double velocity(double y, double t) const;
+    /// After that long nothing changes by more than 1e-4.
+    double time() const { return H * H / nu; }
+};
+
+struct Flow {
+    ExactFlow exact;
+    std::shared_ptr<ParticleModel<2>> model;
+    std::vector<double> y0;
+    std::vector<NearestState<2>> drawn{};
+    std::string label{};
+};
+
+/// cells x cells particles of the fluid P = rho^2/2 with Newton's viscosity, density and sound speed 1, on a
+/// square lattice, at rest. Periodic along the plates.
+Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described);
+
+/// The whole of a problem's main().
+int main_of(int argc, char** argv, const std::string& name, const std::string& summary,
+            Drive drive);
+
+}  // namespace channel
