@@ -143,7 +143,8 @@ int main(int argc, char** argv) {
     options.integer("particles", p.particles,
                     "number of particles, a square number; instead of --cells",
                     between(4, 16000000));
-    options.choice<Walls>("walls", p.walls, {Walls::periodic}, "boundary of the box");
+    options.choice<Walls>("walls", p.walls, {Walls::periodic, Walls::mirror},
+                          "boundary of the box");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "range h: pairs farther apart do not interact", positive());
     options.choice<Ranges>("ranges", p.ranges, {Ranges::fixed, Ranges::density},

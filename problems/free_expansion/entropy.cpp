@@ -24,6 +24,20 @@ double heat_of_motion(const Eigen::Ref<const Eigen::VectorXd>& sum, Heat heat) {
     return 0.5 * (heat == Heat::all_motion ? v2 : std::max(0.0, v2 - mean2));
 }
 
+/// Masses of particles and images.
+template <int Dim>
+std::vector<double> masses(const std::vector<double>& mass, const WallImages<Dim>& images) {
+    std::vector<double> all = mass;
+    for (const auto owner : images.owner) all.push_back(mass[static_cast<std::size_t>(owner)]);
+    return all;
+}
+template <int Dim>
+Points<Dim> joined(const Points<Dim>& of_particles, const Points<Dim>& of_images) {
+    Points<Dim> all(Dim, of_particles.cols() + of_images.cols());
+    all << of_particles, of_images;
+    return all;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -31,16 +45,18 @@ GasEntropy<Dim>::GasEntropy(const AnyWeight<Dim>& weight, const std::vector<doub
                             const Points<Dim>& position, const Points<Dim>& velocity,
                             const std::vector<double>& density, const std::vector<double>& energy,
                             const Box<Dim>& box)
-    : fields_(weight, mass, position, box),
+    : images_(images_behind_walls<Dim>(box, weight.range(), position, velocity)),
+      fields_(weight, masses(mass, images_), joined<Dim>(position, images_.position), box),
       position_(position),
       mass_(Eigen::VectorXd::Map(mass.data(), position.cols())),
       density_(Eigen::VectorXd::Map(density.data(), position.cols())),
       energy_(Eigen::VectorXd::Map(energy.data(), position.cols())),
-      carried_(Dim + 3, position.cols()) {
+      carried_(Dim + 3, position.cols() + images_.count()) {
+    const Points<Dim> v = joined<Dim>(velocity, images_.velocity);
     carried_.row(0).setOnes();
-    carried_.row(1) = energy_.transpose();
-    carried_.template middleRows<Dim>(2) = velocity;
-    carried_.row(2 + Dim) = velocity.colwise().squaredNorm();
+    carried_.row(1) = images_.with_particles(energy_.transpose());
+    carried_.template middleRows<Dim>(2) = v;
+    carried_.row(2 + Dim) = v.colwise().squaredNorm();
 }
 
 template <int Dim>

@@ -3,6 +3,7 @@
 
 #include <spam/diagnostics/field_grid.hpp>
 #include <spam/diagnostics/field_interpolation.hpp>
+#include <spam/diagnostics/wall_images.hpp>
 
 #include <functional>
 #include <vector>
@@ -47,10 +48,11 @@ class GasEntropy {
 
     const Eigen::MatrixXd& sums_at_particles() const;
 
-    FieldInterpolation<Dim> fields_;
+    WallImages<Dim> images_;
+    FieldInterpolation<Dim> fields_;  ///< of particles and images
     Points<Dim> position_;
     Eigen::VectorXd mass_, density_, energy_;
-    Eigen::MatrixXd carried_;               ///< 1, e, v, v^2 in rows, N columns
+    Eigen::MatrixXd carried_;               ///< 1, e, v, v^2 in rows, for each of these
     mutable Eigen::MatrixXd at_particles_;  ///< their sums there, once they have been asked for
 };
 

@@ -34,7 +34,11 @@ std::array<Number, Dim> all_along(Number n) {
 template <int Dim>
 FieldGrid<Dim> grid_of(const Gas<Dim>& gas, double spacing) {
     const int nodes = static_cast<int>(std::ceil(gas.side() / spacing));
-    return FieldGrid<Dim>::over(gas.model->box(), all_along<int, Dim>(nodes));
+    // Of mirrors, the middles of cells between them.
+    const Box<Dim> room(all_along<double, Dim>(gas.side()));
+    FieldGrid<Dim> grid = FieldGrid<Dim>::over(room, all_along<int, Dim>(nodes));
+    if (gas.model->box().walled()) grid.origin += 0.5 * grid.spacing;
+    return grid;
 }
 
 /// The model and its state at rest at `x`; no state where the case is only described.
@@ -93,10 +97,19 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
             "--range {0:g}, and the periodic box of {1} (twice --cells {2}) is not wider "
             "than twice that; use at least --cells {3}, or a shorter range",
             p.range, 2 * cells, cells, static_cast<int>(std::floor(2.0 * p.range)) + 1));
-    const Box<Dim> box(all_along<double, Dim>(2.0 * cells));
+    const Box<Dim> room(all_along<double, Dim>(2.0 * cells));
     Points<Dim> sites = square_lattice<Dim>(all_along<int, Dim>(cells));
     sites.array() += 0.5 * (cells + 1.0);
-    auto particles = make_particles<Dim>(sites, 1.0, 1.0, box);
+    // Numbered alike whatever the walls: so that they draw the same offsets.
+    auto particles = make_particles<Dim>(sites, 1.0, 1.0, room);
+    Box<Dim> box = room;
+    if (p.walls == Walls::mirror) {
+        box = {};
+        for (int a = 0; a < Dim; ++a) {
+            box.set_wall(a, false, {WallKind::mirror, 0.0});
+            box.set_wall(a, true, {WallKind::mirror, room.length(a)});
+        }
+    }
     std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
     Points<Dim> x = particles.reference_position;
     for (Eigen::Index i = 0; i < x.cols(); ++i)  // the same numbers with every library
@@ -158,14 +171,18 @@ std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
 
 template <int Dim>
 Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position, const Points<Dim>& v) {
-    Eigen::MatrixXd carried(Dim + 2, v.cols());
+    const auto images = images_behind_walls<Dim>(gas.model->box(), gas.weight.range(), position, v);
+    Points<Dim> all(Dim, v.cols() + images.count());
+    all << position, images.position;
+    std::vector<double> mass = gas.model->particles().mass;
+    for (const auto owner : images.owner) mass.push_back(mass[static_cast<std::size_t>(owner)]);
+    Eigen::MatrixXd carried(Dim + 2, all.cols());
     carried.row(0).setOnes();
-    carried.row(1) = v.colwise().squaredNorm();
-    carried.template bottomRows<Dim>() = v;
+    carried.template bottomRows<Dim>() << v, images.velocity;
+    carried.row(1) = carried.template bottomRows<Dim>().colwise().squaredNorm();
     // Smooth contours of small gases, too.
     Fields<Dim> fields{grid_of(gas, std::min(1.0, gas.side() / 96.0)), {}, {}, {}, {}};
-    const FieldInterpolation<Dim> interpolation(gas.weight, gas.model->particles().mass, position,
-                                                gas.model->box());
+    const FieldInterpolation<Dim> interpolation(gas.weight, mass, all, gas.model->box());
     const std::size_t nodes = fields.grid.size();
     fields.velocity.setZero(Dim, static_cast<Eigen::Index>(nodes));
     for (auto* values : {&fields.density, &fields.kinetic, &fields.hidden}) values->reserve(nodes);

@@ -13,8 +13,8 @@ namespace free_expansion {
 
 using namespace spam;
 
-enum class Walls { periodic };
-inline std::string_view to_string(Walls) { return "periodic"; }
+enum class Walls { periodic, mirror };
+inline std::string_view to_string(Walls w) { return w == Walls::periodic ? "periodic" : "mirror"; }
 
 enum class Ranges { fixed, density };
 inline std::string_view to_string(Ranges r) { return r == Ranges::fixed ? "fixed" : "density"; }

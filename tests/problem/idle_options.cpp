@@ -16,10 +16,10 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// How to run, not what to compute; and an option with one legal value.
+/// How to run, not what to compute.
 const std::set<std::string> no_part_of_the_case{
     "config",   "out",     "force", "dry-run", "smoke",   "quiet", "help",
-    "no-plots", "threads", "jobs",  "version", "restart", "walls", "movie"};
+    "no-plots", "threads", "jobs",  "version", "restart", "movie"};
 
 /// What must happen for an option to show: given beside it, and to the run it is compared with.
 const std::map<std::string, Words> beside{
