@@ -79,7 +79,7 @@ Check energy_rise(const History& h) {
 
 /// At rest all are inside where the border is smooth on the scale of the range: the weight of what is
 /// outside is then 1/2 all along it. (42 of 400 rest outside a border where it falls to 0.04.)
-void claim_all_inside(Session& session, const Wall& wall, const History& h, int outside) {
+void claim_all_inside(Session& session, const OuterMatter& wall, const History& h, int outside) {
     session.claim({"particles_outside", double(outside), 0.0, 0.0, "the wall holds them"},
                   is_at_rest(h) && std::abs(wall.least_weight_on_border() - 0.5) < 0.1);
 }
@@ -91,7 +91,7 @@ bool is_known(const Session& session, const Parameters& p, const RunRecord& run)
            run.complete;
 }
 
-void report(Session& session, const Parameters& p, const Wall& wall, const RunRecord& run,
+void report(Session& session, const Parameters& p, const OuterMatter& wall, const RunRecord& run,
             const Quality& before, const Quality& after) {
     const auto measured = [&](const char* name, double value) {
         if (std::isfinite(value)) session.measure(name, value);
@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
 
         // repulsion, wall, friction
         PairPotentialModel<2> model(std::move(particles), p.range);
-        model.add(std::make_unique<Wall>(region, p.range));
+        model.add(std::make_unique<OuterMatter>(region, p.range));
         if (p.damping > 0.0)
             model.add(std::make_unique<Friction<2>>(p.damping, FrictionOf::all_motion));
         auto y0 = initial_state<2>(model, 1.0, 1.0, at_rest<2>());
@@ -224,7 +224,8 @@ int main(int argc, char** argv) {
 
         // what came out
         const Points<2> x = ConstState<2>(model.layout(), run.y).position();
-        report(session, p, Wall(region, p.range), run, measure(ruler, x_0), measure(ruler, x));
+        report(session, p, OuterMatter(region, p.range), run, measure(ruler, x_0),
+               measure(ruler, x));
         write_mesh(session.folder(), model.particles(), region, ruler, x);
         if (session.plots()) draw(session, region, ruler, run, x_0, x);
     });

@@ -27,7 +27,7 @@ class Ruler {
 
   private:
     Region region_;
-    Wall wall_;
+    OuterMatter wall_;
 };
 
 struct Quality {

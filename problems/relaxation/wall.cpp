@@ -33,7 +33,7 @@ double flux(double r, double h) {
 
 }  // namespace
 
-Wall::Wall(const Region& region, double range) : region_(region), weight_(range) {
+OuterMatter::OuterMatter(const Region& region, double range) : region_(region), weight_(range) {
     const Points<2>& polygon = region.polygon();
     std::vector<Piece> all;
     for (Eigen::Index k = 0; k < polygon.cols(); ++k) {
@@ -63,7 +63,7 @@ Wall::Wall(const Region& region, double range) : region_(region), weight_(range)
 /// All pieces with a point nearer than the range, and some more: two cells to all sides, because pieces
 /// are sorted by their middles.
 template <class Visit>
-void Wall::for_each_near(const Point<2>& r, const Visit& visit) const {
+void OuterMatter::for_each_near(const Point<2>& r, const Visit& visit) const {
     const Point<2> at = (r - corner_) / weight_.range();
     if (!(at.x() > -3.0 && at.x() < columns_ + 3.0 && at.y() > -3.0 && at.y() < rows_ + 3.0))
         return;
@@ -75,7 +75,7 @@ void Wall::for_each_near(const Point<2>& r, const Visit& visit) const {
                 visit(pieces_[k]);
 }
 
-Point<2> Wall::force(const Point<2>& r) const {
+Point<2> OuterMatter::force(const Point<2>& r) const {
     Point<2> sum = Point<2>::Zero();
     for_each_near(r, [&](const Piece& piece) {
         double w = 0.0;
@@ -87,7 +87,7 @@ Point<2> Wall::force(const Point<2>& r) const {
     return sum;
 }
 
-double Wall::energy(const Point<2>& r) const {
+double OuterMatter::energy(const Point<2>& r) const {
     const double spring =
         region_.contains(r) ? 0.0 : 0.5 * (region_.nearest_on_border(r) - r).squaredNorm();
     return weight_outside(r) + spring;
@@ -95,7 +95,7 @@ double Wall::energy(const Point<2>& r) const {
 
 /// By the divergence theorem: the weight inside is the flux of flux(r) r through the border, which far
 /// away is the angle of view over 2 pi. Only where it differs from that the pieces matter.
-double Wall::weight_outside(const Point<2>& r) const {
+double OuterMatter::weight_outside(const Point<2>& r) const {
     double inside = region_.contains(r) ? 1.0 : 0.0;
     for_each_near(r, [&](const Piece& piece) {
         const Point<2> a = piece.from - r, b = piece.to - r;
@@ -114,7 +114,7 @@ double Wall::weight_outside(const Point<2>& r) const {
 }
 
 /// A hundredth of the range inside: on the border itself round-off decides what is inside.
-double Wall::least_weight_on_border() const {
+double OuterMatter::least_weight_on_border() const {
     double least = 1.0;
     for (const Piece& piece : pieces_) {
         const Point<2> inwards = -0.01 * weight_.range() * piece.normal.normalized();
@@ -123,14 +123,14 @@ double Wall::least_weight_on_border() const {
     return least;
 }
 
-double Wall::energy(const Particles<2>&, const ConstState<2>& state) const {
+double OuterMatter::energy(const Particles<2>&, const ConstState<2>& state) const {
     CompensatedSum sum;
     const auto x = state.position();
     for (Eigen::Index i = 0; i < x.cols(); ++i) sum += energy(Point<2>(x.col(i)));
     return sum;
 }
 
-void Wall::add_density(const ConstState<2>& state, std::vector<double>& rho) const {
+void OuterMatter::add_density(const ConstState<2>& state, std::vector<double>& rho) const {
     const auto x = state.position();
     for (std::size_t i = 0; i < rho.size(); ++i)
         rho[i] += weight_outside(x.col(static_cast<Eigen::Index>(i)));

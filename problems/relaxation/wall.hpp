@@ -19,9 +19,9 @@ namespace relaxation {
 /// Deep in that matter nothing pushes any more, and particles that begin on top of each other are fast
 /// enough to get there; so in the outside a spring pulls back to the border, where nothing is at rest:
 ///     + d^2/2,   d the distance from the border.
-class Wall final : public External<2> {
+class OuterMatter final : public External<2> {
   public:
-    Wall(const Region& region, double range);
+    OuterMatter(const Region& region, double range);
 
     void add(const Now& now, Eigen::Index first, Eigen::Index last) const override {
         const auto x = now.state.position();

@@ -42,19 +42,6 @@ ClusterView ClusterList<Dim>::view() const {
 }
 
 template <int Dim>
-Home<Dim> ClusterList<Dim>::home() const {
-    Home<Dim> home;
-    if (!box_.periodic()) return home;
-    home.periods = periods_.data();
-    for (int a = 0; a < Dim; ++a) {
-        home.length[a] = box_.length(a);
-        home.last_place[a] = box_.last_place(a);
-        home.places[a] = box_.periodic(a) ? 1.0 / box_.last_place(a) : 0.0;
-    }
-    return home;
-}
-
-template <int Dim>
 std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) const {
     const auto& range = range_of_[cluster];
     return {slice_of_[cluster / ClusterView::slice_size] + range.first, range.count};
@@ -66,7 +53,13 @@ void ClusterList<Dim>::take_home() {
     if (!box_.periodic()) return;
     at_home_.resize(Dim, built_at_.cols());
     periods_.assign(Dim * size_, 0);
-    const Home<Dim> home = this->home();
+    home_.periods = periods_.data();
+    for (int a = 0; a < Dim; ++a) {
+        home_.length[a] = box_.length(a);
+        home_.last_place[a] = box_.last_place(a);
+        home_.places[a] = box_.periodic(a) ? 1.0 / box_.last_place(a) : 0.0;
+    }
+    const Home<Dim> home = home_;
     parallel_for(size_, [&](std::size_t i) {
         const auto column = static_cast<Eigen::Index>(i);
         for (int a = 0; a < Dim; ++a) {
@@ -112,7 +105,7 @@ void ClusterList<Dim>::gather_in_order() {
     take_home();
     if (box_.periodic()) {
         const auto width = static_cast<std::size_t>(width_);
-        const Home<Dim> home = this->home();
+        const Home<Dim> home = home_;
         parallel_for(size_, [&](std::size_t i) {
             const auto first = static_cast<Eigen::Index>(i / width * width),
                        own = static_cast<Eigen::Index>(i);

@@ -22,7 +22,7 @@ constexpr double most_pairs = 2e9;
 template <int Dim>
 std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_only) {
     const PackCount count =
-        make_records_.write({fields, list_.order(), list_.home(), list_.displacement(), stride_},
+        make_records_.write({fields, list_.order(), &list_.home(), list_.displacement(), stride_},
                             density_only, records_.data());
     invalid_ = count.invalid;
     return count.far;

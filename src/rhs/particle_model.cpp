@@ -3,40 +3,22 @@
 #include <spam/core/parallel.hpp>
 #include <spam/rhs/particle_model.hpp>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace spam {
-namespace {
-
-template <int Dim>
-auto moment(const Point<Dim>& r, const Point<Dim>& f) {
-    Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1> m;
-    if constexpr (Dim == 2) m[0] = r.x() * f.y() - r.y() * f.x();
-    if constexpr (Dim == 3) m = r.cross(f);
-    return m;
-}
-
-}  // namespace
 
 template <int Dim>
 ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
-    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}) {
-    if (box.walled()) add_accounts();
-}
-
-template <int Dim>
-void ParticleModel<Dim>::add_accounts() {
-    for (const Field field : {Field::work, Field::heat, Field::impulse, Field::angular_impulse})
-        this->layout().add(field);
-    given_.resize((this->particles().size() + block - 1) / block);
+    : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
+      walled_(box.walled()) {
+    if (walled_) add_accounts();
 }
 
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
-    if (this->box().walled())
+    if (walled_)
         if (auto why = term->no_walls(); !why.empty())
             throw InputError(fmt::format("wall: {} ({})", why, term->describe()));
     for (const auto& other : terms_) {
@@ -115,106 +97,11 @@ void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<do
     for (const auto& b : this->layout().blocks())
         if (b.field.role() != Role::integrated) rate.field(b.field).setZero();
     const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
-    if (this->box().walled()) book_walls(now);
+    if (walled_) book_walls(now);
     for (const auto& external : externals_) {
         external->prepare(now);
         apply(*external, now);
     }
-}
-
-/// Blocks are the same for any number of threads, and what they are given is summed in their order.
-/// give(first, last): what the particles of one are.
-template <int Dim>
-template <class GiveBlock>
-typename ParticleModel<Dim>::Given ParticleModel<Dim>::sum_of_blocks(const GiveBlock& give) {
-    const auto n = static_cast<Eigen::Index>(this->particles().size());
-    parallel_for(
-        given_.size(),
-        [&](std::size_t b) {
-            const Eigen::Index first = static_cast<Eigen::Index>(b) * block;
-            given_[b] = give(first, std::min(n, first + block));
-        },
-        block);
-    Given sum;
-    for (const Given& given : given_) {
-        sum.force += given.force;
-        sum.torque += given.torque;
-        sum.power += given.power;
-        sum.heat += given.heat;
-    }
-    return sum;
-}
-
-template <int Dim>
-void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
-    book(external, sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
-             return apply_to(external, now, first, last);
-         }),
-         now.rate);
-}
-
-/// What particles do to each other cancels in the sums over all of them: what is left came through the
-/// walls. Energy passes those that rub or have a temperature, and is booked as work where one moves (the
-/// part of it that is heat is not told apart), else as heat.
-template <int Dim>
-void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
-    const auto x = now.state.position(), v = now.state.velocity();
-    const auto u = now.rate.position(), v_dot = now.rate.velocity();
-    const bool energy = this->box().passes_energy() && now.rate.has(Field::energy);
-    const Given sum = sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
-        Given given;
-        for (Eigen::Index i = first; i < last; ++i) {
-            const double m = now.particles.mass[static_cast<std::size_t>(i)];
-            const Point<Dim> force = m * v_dot.col(i);
-            given.force += force;
-            given.torque += moment<Dim>(x.col(i), force) + m * moment<Dim>(u.col(i), v.col(i));
-            if (energy) given.power += force.dot(v.col(i)) + m * now.rate.energy()(0, i);
-        }
-        return given;
-    });
-    now.rate.field(Field::impulse) += sum.force;
-    if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque;
-    const Field account = this->box().moving_walls() ? Field::work : Field::heat;
-    now.rate.field(account)(0, 0) += sum.power;
-}
-
-/// The difference that the external makes to what the particles had before it.
-template <int Dim>
-typename ParticleModel<Dim>::Given ParticleModel<Dim>::apply_to(
-    const External<Dim>& external, const typename External<Dim>::Now& now, Eigen::Index first,
-    Eigen::Index last) const {
-    const bool has_energy = now.rate.has(Field::energy);
-    Eigen::Matrix<double, Dim, block> x_dot, v_dot;
-    Eigen::Matrix<double, 1, block> e_dot;
-    const Eigen::Index count = last - first;
-    x_dot.leftCols(count) = now.rate.position().middleCols(first, count);
-    v_dot.leftCols(count) = now.rate.velocity().middleCols(first, count);
-    if (has_energy) e_dot.leftCols(count) = now.rate.energy().middleCols(first, count);
-    external.add(now, first, last);
-    Given given;
-    const auto x = now.state.position(), v = now.state.velocity();
-    const auto after = now.rate.velocity(), moves = now.rate.position();
-    for (Eigen::Index k = 0; k < count; ++k) {
-        const Eigen::Index i = first + k;
-        const double m = now.particles.mass[static_cast<std::size_t>(i)];
-        const Point<Dim> force = m * (after.col(i) - v_dot.col(k));
-        given.force += force;
-        given.torque += moment<Dim>(x.col(i), force);
-        given.torque += m * moment<Dim>(moves.col(i) - x_dot.col(k), v.col(i));
-        given.power += force.dot(v.col(i));
-        if (has_energy) given.heat += m * (now.rate.energy()(0, i) - e_dot(0, k));
-    }
-    return given;
-}
-
-template <int Dim>
-void ParticleModel<Dim>::book(const External<Dim>& external, const Given& given,
-                              const State<Dim>& rate) const {
-    rate.field(Field::impulse) += given.force;
-    if constexpr (Dim > 1) rate.field(Field::angular_impulse) += given.torque;
-    if (!has_energy(external))
-        rate.field(external.thermal() ? Field::heat : Field::work)(0, 0) += given.power;
-    rate.field(Field::heat)(0, 0) += given.heat;
 }
 
 template <int Dim>
@@ -289,7 +176,7 @@ std::string ParticleModel<Dim>::describe() const {
     for (const auto& term : terms_) words += (words.empty() ? "" : "; ") + term->describe();
     for (const auto& external : externals_)
         words += (words.empty() ? "" : "; ") + external->describe();
-    if (this->box().walled()) words += (words.empty() ? "" : "; ") + this->box().describe_walls();
+    if (walled_) words += (words.empty() ? "" : "; ") + this->box().describe_walls();
     return words;
 }
 
@@ -364,55 +251,8 @@ void ParticleModel<Dim>::set_bodies(std::vector<std::int32_t> bodies) {
 template <int Dim>
 void ParticleModel<Dim>::remember(Archive& archive) {
     Model<Dim>::remember(archive);
-    if (this->box().walled()) archive(reflections_);
+    if (walled_) archive(reflections_);
     for (const auto& term : terms_) term->remember(archive);
-}
-
-template <int Dim>
-bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
-    const State<Dim> state(this->layout(), y);
-    bool changed = false;
-    for (const auto& term : terms_) changed = term->settle(t, term->among().of(state)) || changed;
-    return (this->box().walled() && reflect(state)) || changed;
-}
-
-/// A particle beyond a mirror and its image change places: nothing that others see changes, whenever it is
-/// done.
-template <int Dim>
-bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
-    const std::size_t before = reflections_;
-    for (int a = 0; a < Dim; ++a)
-        for (const bool upper : {false, true}) {
-            const Wall<Dim>& wall = this->box().wall(a, upper);
-            if (wall.open()) continue;
-            for (Eigen::Index i = 0; i < state.position().cols(); ++i)
-                if (upper ? state.position()(a, i) > wall.at : state.position()(a, i) < wall.at)
-                    reflections_ += reflect(state, i, a, wall) ? 1 : 0;
-        }
-    return reflections_ != before;
-}
-
-template <int Dim>
-bool ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int axis,
-                                 const Wall<Dim>& wall) const {
-    const auto x = state.position().col(i), v = state.velocity().col(i);
-    const double m = this->particles().mass[static_cast<std::size_t>(i)];
-    state.field(Field::impulse)(axis, 0) -= 2.0 * m * v[axis];
-    const auto book_turning = [&](double sign) {
-        const auto L = moment<Dim>(x, v);
-        for (int plane = 0; plane < Given::planes; ++plane)
-            state.field(Field::angular_impulse)(plane, 0) += sign * m * L[plane];
-    };
-    book_turning(-1.0);
-    state.position()(axis, i) = 2.0 * wall.at - x[axis];
-    state.velocity()(axis, i) = -v[axis];
-    book_turning(1.0);
-    if constexpr (Dim > 1) {
-        if (state.has(Field::stress))
-            for (int b = 0; b < Dim; ++b)
-                if (b != axis) state.stress()(symmetric_index(Dim, axis, b), i) *= -1.0;
-    }
-    return true;
 }
 
 template class ParticleModel<1>;

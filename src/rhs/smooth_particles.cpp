@@ -314,17 +314,6 @@ Promises SmoothParticles<Dim>::promises() const {
 }
 
 template <int Dim>
-std::string SmoothParticles<Dim>::no_walls() const {
-    if (scheme_.angular_momentum != AngularMomentum::free)
-        return "walls give angular momentum, which the scheme would take back; use "
-               "--angular-momentum free";
-    if (scheme_.closest_approach > 0.0)
-        return "the closest approach is of pairs of particles and lets them come nearer to a wall; "
-               "leave --closest-approach out";
-    return Term<Dim>::no_walls();
-}
-
-template <int Dim>
 std::vector<Event> SmoothParticles<Dim>::events() const {
     if (scheme_.closest_approach == 0.0) return {};
     return {closest_approach_event<Dim>(

@@ -120,6 +120,9 @@ const std::map<std::string, std::string> another_value{
     {"depth", "0.3"},
     {"outline", "nowhere.csv"},
     {"start", "lattice"},
+    {"walls", "mirror"},
+    {"reynolds", "30"},
+    {"friction", "gradients"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -163,6 +166,8 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"lattice_stability", {"--potential", "both"}},
     {"lattice_stability", {"--potential", "density"}},
     {"relaxation", {}},
+    {"couette", {}},
+    {"poiseuille", {}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

@@ -39,7 +39,8 @@ std::vector<Point<2>> places(const Region& region) {
 
 /// The largest |F + grad Phi| of forces of one wall and the energy of another. The spring jumps where
 /// the nearest side is another one; places nearer to that than the difference are few, and left out.
-double force_error(const Region& region, const Wall& of_force, const Wall& of_energy) {
+double force_error(const Region& region, const OuterMatter& of_force,
+                   const OuterMatter& of_energy) {
     double worst = 0.0;
     const double d = 1e-4;
     for (const Point<2>& r : places(region)) {
@@ -61,15 +62,15 @@ double force_error(const Region& region, const Wall& of_force, const Wall& of_en
 
 BOOST_AUTO_TEST_CASE(forces_of_a_wall_are_minus_the_slope_of_its_energy) {
     for (const Region& region : {arrow(), lobed_region(3, 0.2).of_area(100.0)}) {
-        const Wall wall(region, range);
+        const OuterMatter wall(region, range);
         BOOST_TEST(force_error(region, wall, wall) < 1e-5);
-        BOOST_TEST(force_error(region, wall, Wall(region, 1.1 * range)) > 1e-2);
+        BOOST_TEST(force_error(region, wall, OuterMatter(region, 1.1 * range)) > 1e-2);
     }
 }
 
 BOOST_AUTO_TEST_CASE(a_wall_is_the_weight_of_what_is_outside) {
     const Region region = arrow();
-    const Wall wall(region, range);
+    const OuterMatter wall(region, range);
     const Lucy<2> w(range);
     for (const Point<2>& r : places(region)) {
         const double found = wall.weight_outside(r);
@@ -89,7 +90,7 @@ BOOST_AUTO_TEST_CASE(a_wall_is_the_weight_of_what_is_outside) {
 
 BOOST_AUTO_TEST_CASE(a_border_is_smooth_where_half_of_a_weight_is_outside) {
     const auto least = [](const Region& region) {
-        return Wall(region, range).least_weight_on_border();
+        return OuterMatter(region, range).least_weight_on_border();
     };
     BOOST_TEST(std::abs(least(lobed_region(1, 0.0).of_area(1e4)) - 0.5) < 0.03);
     BOOST_TEST(std::abs(least(lobed_region(3, 0.2).of_area(400.0)) - 0.5) < 0.1);

@@ -132,10 +132,15 @@ BOOST_AUTO_TEST_CASE(solids) {
 BOOST_AUTO_TEST_CASE(fluids) {
     const Fluid gas{IdealGas{}},
         water{IdealGas{}, NewtonViscosity{0.3, 0.1}, FourierConduction{0.4}};
-    for (const Fluid& fluid : {gas, water})
+    Fluid rubbing = water;
+    rubbing.by_pairs = true;
+    rubbing.viscosity = NewtonViscosity{0.1, 0.3};
+    for (const Fluid& fluid : {gas, water, rubbing})
         for (const auto transport : {Transport::plain, Transport::average, Transport::monaghan})
             for (const auto kernel : {Kernel::lucy, Kernel::monaghan})
                 for (const double viscosity : {0.0, 0.3}) {
+                    if (fluid.by_pairs && (transport != Transport::plain || viscosity > 0.0))
+                        continue;
                     const Scheme scheme{.density = Density::continuity,
                                         .transport = transport,
                                         .viscosity = viscosity,

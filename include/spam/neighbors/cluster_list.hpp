@@ -63,7 +63,7 @@ class ClusterList {
         return slot < order_.size() ? order_[slot] : order_[ghosts_.owner(slot - order_.size())];
     }
     /// Where sweeps see particles: the image that each had when the list was built.
-    Home<Dim> home() const;
+    const Home<Dim>& home() const { return home_; }
     /// Makes the images in records by slot (`stride` numbers each, this list's) those of the particles as
     /// they are now, from number `from` on. To be called before every sweep that reads of neighbours what
     /// has been written since.
@@ -107,6 +107,7 @@ class ClusterList {
     Points<Dim> built_at_;
     Points<Dim> at_home_;                ///< where the box is periodic
     std::vector<std::int32_t> periods_;  ///< Dim x N, taken off there
+    Home<Dim> home_;
     Ghosts<Dim> ghosts_;
     RigidMotion<Dim> motion_;  ///< since the last build, roughly
     std::vector<ClusterView::Range> range_of_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/vec.hpp>
+#include <spam/core/state.hpp>
 #include <spam/neighbors/image.hpp>
 
 #include <optional>

@@ -61,16 +61,19 @@ PackCount pack_record(const PackInput<Dim>& whole, bool density_only, double* re
     const std::size_t both = density_only        ? count(no, yes)
                              : in.rho != nullptr ? count(yes, yes)
                                                  : count(yes, no);
-    if (!density_only && in.home.periods != nullptr)
-        parallel_for(in.order.size(), [=](std::size_t slot) {
+    if (!density_only && in.home->periods != nullptr)
+        parallel_for(in.order.size(), [=, home = *in.home](std::size_t slot) {
             double* const x = records + slot * in.stride;
-            for (std::size_t a = 0; a < Dim; ++a) x[a] = in.home(in.order[slot], a, x[a]);
+            for (std::size_t a = 0; a < Dim; ++a) x[a] = home(in.order[slot], a, x[a]);
         });
     return {both & 0xffffffffU, both >> 32};
 }
 
+/// A copy with a name of its own in every instruction set.
+template <class R>
+constexpr auto kinds_of = R::kinds;
 template <int Dim, class R>
-constexpr Pack<Dim> pack{pack_record<Dim, R>, R::kinds};
+constexpr Pack<Dim> pack{pack_record<Dim, R>, kinds_of<R>};
 
 }  // namespace SPAM_LANES
 }  // namespace spam

@@ -77,7 +77,7 @@ class ParticleModel : public Model<Dim> {
     std::vector<Remark> watch(double t, std::span<const double> y) final;
     void set_bodies(std::vector<std::int32_t> bodies) final;
     void remember(Archive& archive) final;
-    bool settles() const final { return this->box().walled() || Model<Dim>::settles(); }
+    bool settles() const final { return walled_ || Model<Dim>::settles(); }
     /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n.
     bool settle(double t, std::span<double> y) final;
     /// How many have been, so far.
@@ -118,6 +118,7 @@ class ParticleModel : public Model<Dim> {
 
     Terms terms_;
     Externals externals_;
+    bool walled_;               ///< the box has walls
     bool whole_ = true;         ///< every term acts among all particles
     std::vector<double> more_;  ///< v_dot of a term that is not the first, or of a part
     std::vector<Given> given_;  ///< by block

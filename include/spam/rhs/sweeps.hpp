@@ -76,7 +76,7 @@ struct PackedFields {
 template <int Dim>
 struct PackInput : PackedFields {
     std::span<const std::uint32_t> order;  ///< slot -> particle
-    Home<Dim> home;
+    const Home<Dim>* home;
     Displacement<Dim> displacement;
     std::size_t stride;
 };
