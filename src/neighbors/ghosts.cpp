@@ -41,9 +41,9 @@ void Ghosts<Dim>::collect(std::vector<Place>& places, double reach, std::size_t 
         const double from = low_[a] - reach, to = high_[a] + reach;
         const std::size_t before = places.size();
         for (std::uint32_t number = 1; number < along_[a].size(); ++number) {
-            const auto [sign, shift] = along_[a][number].position[a];
+            const auto change = along_[a][number].position[a];
             const auto enter = [&](double now, auto make) {
-                const double image = sign * now + shift;
+                const double image = change.sign * now + change.shift;
                 if (!(image >= from && image <= to)) return;
                 Place place = make();
                 place.code += number * digit;
