@@ -54,20 +54,23 @@ void ClusterList<Dim>::take_home() {
     at_home_.resize(Dim, built_at_.cols());
     periods_.assign(Dim * size_, 0);
     home_.periods = periods_.data();
+    std::array<double, Dim> inverse{};
     for (int a = 0; a < Dim; ++a) {
         home_.length[a] = box_.length(a);
         home_.last_place[a] = box_.last_place(a);
         home_.places[a] = box_.periodic(a) ? 1.0 / box_.last_place(a) : 0.0;
+        inverse[static_cast<std::size_t>(a)] = box_.periodic(a) ? 1.0 / box_.length(a) : 0.0;
     }
-    const Home<Dim> home = home_;
+    // A search need not have the last digits right.
     parallel_for(size_, [&](std::size_t i) {
-        const auto column = static_cast<Eigen::Index>(i);
-        for (int a = 0; a < Dim; ++a) {
-            std::int32_t& k = periods_[Dim * i + static_cast<std::size_t>(a)];
-            double x = built_at_(a, column);
-            if (box_.periodic(a)) k = static_cast<std::int32_t>(std::floor(x / box_.length(a)));
-            x = home(i, static_cast<std::size_t>(a), x);
-            at_home_(a, column) = x;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            double x = built_at_.data()[Dim * i + a];
+            if (const double L = home_.length[a]; L > 0.0) {
+                const double k = std::floor(x * inverse[a]);
+                periods_[Dim * i + a] = static_cast<std::int32_t>(k);
+                x -= k * L;
+            }
+            at_home_.data()[Dim * i + a] = x;
         }
     });
 }
@@ -105,18 +108,16 @@ void ClusterList<Dim>::gather_in_order() {
     take_home();
     if (box_.periodic()) {
         const auto width = static_cast<std::size_t>(width_);
-        const Home<Dim> home = home_;
         parallel_for(size_, [&](std::size_t i) {
             const auto first = static_cast<Eigen::Index>(i / width * width),
                        own = static_cast<Eigen::Index>(i);
             for (int a = 0; a < Dim; ++a) {
                 if (own == first || !box_.periodic(a)) continue;
-                const double apart = at_home_(a, own) - at_home_(a, first);
-                const auto k = static_cast<std::int32_t>(std::nearbyint(apart / box_.length(a)));
-                if (k == 0) continue;
-                const auto axis = static_cast<std::size_t>(a);
-                periods_[Dim * i + axis] += k;
-                at_home_(a, own) = home(i, axis, built_at_(a, own));
+                const double apart = at_home_(a, own) - at_home_(a, first), L = box_.length(a);
+                if (std::abs(apart) <= 0.5 * L) continue;
+                const int k = apart > 0.0 ? 1 : -1;
+                periods_[Dim * i + static_cast<std::size_t>(a)] += k;
+                at_home_(a, own) -= k * L;
             }
         });
     }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace spam {
 
@@ -90,7 +89,10 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
     owner_.resize(places.size());
     code_.resize(places.size());
     image_.resize(places.size());
-    std::map<std::uint32_t, std::uint32_t> seen;
+    std::uint32_t codes = 1;
+    for (int a = 0; a < Dim; ++a) codes *= most_images;
+    constexpr std::uint32_t unseen = 0xffffffff;
+    std::vector<std::uint32_t> number(places.empty() ? 0 : codes, unseen);
     images_.clear();
     const auto order = strips_.order();
     for (std::size_t g = 0; g < places.size(); ++g) {
@@ -99,15 +101,15 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
         code_[g] = place.code;
         for (std::size_t a = 0; a < Dim; ++a)
             x[a][first + g] = place.x[static_cast<Eigen::Index>(a)];
-        const auto [it, is_new] =
-            seen.emplace(place.code, static_cast<std::uint32_t>(images_.size()));
-        if (is_new) {
+        std::uint32_t& of_code = number[place.code];
+        if (of_code == unseen) {
+            of_code = static_cast<std::uint32_t>(images_.size());
             Image<Dim> image;
             for (std::uint32_t a = 0, rest = place.code; a < Dim; ++a, rest /= most_images)
                 image = image.then(along_[a][rest % most_images]);
             images_.push_back(image);
         }
-        image_[g] = it->second;
+        image_[g] = of_code;
     }
 }
 
