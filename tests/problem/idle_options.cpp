@@ -122,6 +122,7 @@ const std::map<std::string, std::string> another_value{
     {"start", "lattice"},
     {"walls", "mirror"},
     {"reynolds", "30"},
+    {"gamma", "1.6"},
     {"friction", "gradients"},
 };
 
@@ -168,6 +169,7 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"relaxation", {}},
     {"couette", {}},
     {"poiseuille", {}},
+    {"shock_tube", {}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

@@ -33,7 +33,9 @@ template <int Dim, bool Light = false, class T>
 constexpr Separation<Dim, T> separation(const Vec<Dim, T>& x_i, const Vec<Dim, T>& x_j) {
     using std::sqrt;
     Separation<Dim, T> s;
-    s.r_ji = x_j - x_i;
+    // Rounded before anything is made of it: seen from j it must be exactly opposite, whatever a compiler
+    // fuses.
+    for (int a = 0; a < Dim; ++a) s.r_ji[a] = rounded(x_j[a] - x_i[a]);
     if constexpr (Light) {
         s.r2 = T(1e-300);  // a particle's distance from itself must not be divided by
         for (int a = 0; a < Dim; ++a) s.r2 += s.r_ji[a] * s.r_ji[a];

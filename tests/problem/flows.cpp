@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Flows with known answers as a user runs them: plates, a shock, a gas between mirrors.
+#include "problem/found.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam::test;
+
+BOOST_AUTO_TEST_CASE(couette_flow_is_linear) {
+    const Results found("couette", {}, "profile_error");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("profile_error") < 0.005);
+    BOOST_TEST(found.value.at("largest_profile_error") < 0.03);
+}
+BOOST_AUTO_TEST_CASE(poiseuille_flow_is_a_parabola) {
+    const Results found("poiseuille", {}, "profile_error");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("mean_velocity") > 0.66);
+}
+
+// What pairs are for: by gradients particles lose their order, and nothing is claimed.
+BOOST_AUTO_TEST_CASE(friction_by_gradients_is_worse) {
+    const Results found("couette", {"--friction", "gradients"}, "profile_error");
+    BOOST_TEST(found.claims == 0U);
+    BOOST_TEST(found.value.at("profile_error") > 0.02);
+}
+
+BOOST_AUTO_TEST_CASE(a_shock_tube_converges_to_the_exact_solution) {
+    const Results found("shock_tube", {}, "order");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("order") > 0.8);
+    BOOST_TEST(found.value.at("1600_density_error") < 0.0025);
+    const Results other("shock_tube", {"--gamma", "1.67", "--cells", "200", "--single"},
+                        "pressure");
+    BOOST_TEST(other.claims == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(mirrors_act_like_periods_on_an_expanding_gas) {
+    const Words gas{"--cells", "32", "--t-end", "48", "--walls"};
+    const auto expanded = [&](const char* walls) {
+        Words arguments = gas;
+        arguments.emplace_back(walls);
+        return Results("free_expansion", arguments, "entropy_grid").value.at("entropy_grid");
+    };
+    BOOST_TEST(std::abs(expanded("mirror") - expanded("periodic")) < 0.03);
+}
