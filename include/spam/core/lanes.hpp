@@ -4,6 +4,7 @@
 #include <spam/core/vec.hpp>
 
 #include <cmath>
+#include <cstddef>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -186,7 +187,22 @@ SPAM_INLINE Number rounded(Number x) {
 #endif
 #endif
 #if defined(__x86_64__)
-    __asm__("" : "+x"(x));
+#if defined(__AVX512F__)
+    constexpr std::size_t widest = 64;
+#elif defined(__AVX__)
+    constexpr std::size_t widest = 32;
+#else
+    constexpr std::size_t widest = 16;
+#endif
+    if constexpr (sizeof(x) <= widest) {
+        __asm__("" : "+x"(x));
+    } else {  // lanes of more than a register, in code that is compiled for no certain level
+        for (std::size_t l = 0; l < sizeof(x) / sizeof(double); ++l) {
+            double one = x[l];
+            __asm__("" : "+x"(one));
+            x[l] = one;
+        }
+    }
 #endif
     return x;
 }
