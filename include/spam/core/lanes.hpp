@@ -180,10 +180,11 @@ struct Lanes {
 
 namespace detail {
 template <class Number>
-SPAM_INLINE Number rounded(Number x) {
+SPAM_INLINE void round_in_place(Number& x) {
 #if defined(__has_builtin)
 #if __has_builtin(__builtin_assoc_barrier)
-    return __builtin_assoc_barrier(x);
+    x = __builtin_assoc_barrier(x);
+    return;
 #endif
 #endif
 #if defined(__x86_64__)
@@ -204,7 +205,6 @@ SPAM_INLINE Number rounded(Number x) {
         }
     }
 #endif
-    return x;
 }
 
 template <int W>
@@ -240,11 +240,12 @@ SPAM_INLINE void store_lanes(double* to, const Lanes<W>& x) {
 /// x as a number of its own, where a product that becomes part of a fused operation would not be one.
 template <class T>
 SPAM_INLINE T rounded(const T& x) {
-    if constexpr (requires { x.v; }) {
-        return detail::rounded(x.v);
-    } else {
-        return detail::rounded(x);
-    }
+    T y = x;
+    if constexpr (requires { y.v; })
+        detail::round_in_place(y.v);
+    else
+        detail::round_in_place(y);
+    return y;
 }
 
 SPAM_INLINE double sqrt_by_products(double x) { return std::sqrt(x); }
