@@ -56,7 +56,7 @@ Plan<2> plan_of(const Session& session, Flow& flow) {
     return plan;
 }
 
-void report(Session& session, const Parameters& p, const Flow& flow, const RunRecord& run) {
+void report(Session& session, const Flow& flow, const RunRecord& run) {
     const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
     const bool plate = flow.exact.drive == Drive::plate;
     const bool known = session.when_default({"speed", "reynolds", "kernel", "range", "friction"}) &&
@@ -73,7 +73,6 @@ void report(Session& session, const Parameters& p, const Flow& flow, const RunRe
     session.measure(prefix + "reflections", static_cast<double>(flow.model->reflections()),
                     "particles that crossed a plate");
     session.check_promises(run, prefix);
-    (void)p;
 }
 
 /// Lines: exact. Points: particles.
@@ -132,7 +131,7 @@ void run(Session& session, const Parameters& p, Drive drive) {
     for (auto& flow : flows)
         cases.push_back({flow.model, flow.y0, plan_of(session, flow), flow.label});
     const auto runs = session.run_all(std::move(cases));
-    for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
+    for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
     if (runs.size() == 3) compare(session, flows, runs);
     if (session.plots() && !runs.empty()) draw(session, p, flows[runs.size() / 2]);
 }

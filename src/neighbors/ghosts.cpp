@@ -8,8 +8,8 @@
 
 namespace spam {
 
-/// By the walls, or k periods away, by ascending |k|: as many as have room between the particles' bounds. So a number says
-/// the same of every list.
+/// By the walls, or k periods away, by ascending |k|: as many as have room between the particles' bounds.
+/// So a number says the same of every list.
 template <int Dim>
 void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double low, double high, double reach) {
     const auto axis = static_cast<std::size_t>(a);

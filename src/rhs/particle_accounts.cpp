@@ -140,14 +140,16 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
             const Wall<Dim>& wall = this->box().wall(a, upper);
             if (wall.open()) continue;
             for (Eigen::Index i = 0; i < state.position().cols(); ++i)
-                if (upper ? state.position()(a, i) > wall.at : state.position()(a, i) < wall.at)
-                    reflections_ += reflect(state, i, a, wall) ? 1 : 0;
+                if (upper ? state.position()(a, i) > wall.at : state.position()(a, i) < wall.at) {
+                    reflect(state, i, a, wall);
+                    ++reflections_;
+                }
         }
     return reflections_ != before;
 }
 
 template <int Dim>
-bool ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int axis,
+void ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int axis,
                                  const Wall<Dim>& wall) const {
     const auto x = state.position().col(i), v = state.velocity().col(i);
     const double m = this->particles().mass[static_cast<std::size_t>(i)];
@@ -166,7 +168,6 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int ax
             for (int b = 0; b < Dim; ++b)
                 if (b != axis) state.stress()(symmetric_index(Dim, axis, b), i) *= -1.0;
     }
-    return true;
 }
 
 #define SPAM_INSTANTIATE(D)                                                                        \
@@ -178,7 +179,7 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int ax
     template void ParticleModel<D>::book_walls(const External<D>::Now&);                           \
     template bool ParticleModel<D>::settle(double, std::span<double>);                             \
     template bool ParticleModel<D>::reflect(const State<D>&);                                      \
-    template bool ParticleModel<D>::reflect(const State<D>&, Eigen::Index, int, const Wall<D>&)    \
+    template void ParticleModel<D>::reflect(const State<D>&, Eigen::Index, int, const Wall<D>&)    \
         const;
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Periodic boxes by images: a box narrower than twice the range is the same as its repetition in a wide one,
 // whatever the formulation reads of neighbours; momentum across a border is kept to round-off.
+#include "support/every_potential.hpp"
 #include "support/random_state.hpp"
 #include <spam/core/sums.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -160,12 +159,7 @@ BOOST_AUTO_TEST_CASE(fluids) {
 }
 
 BOOST_AUTO_TEST_CASE(potentials) {
-    DensityPotentials everything{.surface_tension = 0.3,
-                                 .strength = 0.2,
-                                 .core = {0.7, 0.8},
-                                 .kernel = Kernel::w5,
-                                 .range = 2.8};
-    everything.state = EmbeddedAtom{1.3, 0.9};
+    const DensityPotentials everything = every_potential();
     const Build<2> of_density = [&](Particles<2> particles, const Box<2>& box) {
         return std::make_unique<DensityPotentialModel<2>>(std::move(particles), everything, box);
     };

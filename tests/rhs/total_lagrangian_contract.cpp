@@ -2,6 +2,7 @@
 // What a total-Lagrangian solid owes the house: no history and no thread count in its bits, states
 // without meaning named, any hyperelastic law, bad input refused in a line.
 #include "support/random_state.hpp"
+#include "support/refusal.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
@@ -53,15 +54,7 @@ struct NeoHookean {
     }
 };
 
-template <class Make>
-std::string refusal(const Make& make) {
-    try {
-        make();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
+using spam::test::refusal;
 std::string refusal(const TotalLagrangianScheme& scheme, const StVenantKirchhoff& law = solid,
                     const Box<2>& box = {}) {
     return refusal([&] {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walls by images: mirrors are half of a symmetric periodic box, whatever the formulation; gas between them
 // keeps its energy, and what walls give closes the accounts of every other.
+#include "support/every_potential.hpp"
 #include "support/random_state.hpp"
-#include <spam/core/error.hpp>
+#include "support/refusal.hpp"
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/elastic_solid.hpp>
-#include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/problem/motion.hpp>
-#include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -112,15 +111,6 @@ double against_symmetric_whole(const Build<Dim>& build) {
 
 const Fluid gas{IdealGas{}}, water{IdealGas{}, NewtonViscosity{0.3, 0.1}, FourierConduction{0.4}};
 
-template <class Make>
-std::string refusal(const Make& make) {
-    try {
-        make();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
 bool says(const std::string& text, std::string_view what) {
     return text.find(what) != std::string::npos;
 }
@@ -182,12 +172,7 @@ BOOST_AUTO_TEST_CASE(mirrors_are_half_of_a_symmetric_whole) {
                     BOOST_TEST(against_symmetric_whole<2>(flow) < 1e-13, scheme.describe());
                 }
             }
-    DensityPotentials everything{.surface_tension = 0.3,
-                                 .strength = 0.2,
-                                 .core = {0.7, 0.8},
-                                 .kernel = Kernel::w5,
-                                 .range = 2.8};
-    everything.state = EmbeddedAtom{1.3, 0.9};
+    const DensityPotentials everything = every_potential();
     const Build<2> of_density = [&](Particles<2> particles, const Box<2>& box) {
         return std::make_unique<DensityPotentialModel<2>>(std::move(particles), everything, box);
     };

@@ -8,6 +8,17 @@
 
 namespace spam::test {
 
+/// What a user is told of something that cannot be made; "accepted" where it can.
+template <class Make>
+std::string refusal(const Make& make) {
+    try {
+        make();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
 /// What a user is told of options that cannot be; nothing where they can.
 inline std::string why_refused(const IntegratorOptions& options) {
     try {

@@ -107,7 +107,7 @@ class ParticleModel : public Model<Dim> {
     Given sum_of_blocks(const GiveBlock& give);
     void book_walls(const typename External<Dim>::Now& now);
     bool reflect(const State<Dim>& state);
-    bool reflect(const State<Dim>& state, Eigen::Index i, int axis, const Wall<Dim>& wall) const;
+    void reflect(const State<Dim>& state, Eigen::Index i, int axis, const Wall<Dim>& wall) const;
 
     bool moves_with_velocity() const;
     /// Where x_dot is not v a potential changes at another rate than its forces do work: the work is booked
