@@ -123,13 +123,6 @@ double OuterMatter::least_weight_on_border() const {
     return least;
 }
 
-double OuterMatter::energy(const Particles<2>&, const ConstState<2>& state) const {
-    CompensatedSum sum;
-    const auto x = state.position();
-    for (Eigen::Index i = 0; i < x.cols(); ++i) sum += energy(Point<2>(x.col(i)));
-    return sum;
-}
-
 void OuterMatter::add_density(const ConstState<2>& state, std::vector<double>& rho) const {
     const auto x = state.position();
     for (std::size_t i = 0; i < rho.size(); ++i)

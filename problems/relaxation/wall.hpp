@@ -29,7 +29,9 @@ class OuterMatter final : public External<2> {
         for (Eigen::Index i = first; i < last; ++i) v_dot.col(i) += force(x.col(i));
     }
     bool potential() const override { return true; }
-    double energy(const Particles<2>& particles, const ConstState<2>& state) const override;
+    double energy_at(const Particles<2>&, std::size_t, const Point<2>& x) const override {
+        return energy(x);
+    }
     void add_density(const ConstState<2>& state, std::vector<double>& rho) const override;
     std::string describe() const override { return "inside a wall of the same density"; }
 

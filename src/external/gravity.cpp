@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/external/gravity.hpp>
 
 #include <fmt/format.h>
@@ -10,15 +9,6 @@ namespace spam {
 template <int Dim>
 Gravity<Dim>::Gravity(const Point<Dim>& g) : g_(g) {
     if (!g.allFinite()) throw InputError("gravity: must be a finite acceleration");
-}
-
-template <int Dim>
-double Gravity<Dim>::energy(const Particles<Dim>& particles, const ConstState<Dim>& state) const {
-    const auto x = state.position();
-    CompensatedSum sum;
-    for (Eigen::Index i = 0; i < x.cols(); ++i)
-        sum += -particles.mass[static_cast<std::size_t>(i)] * g_.dot(x.col(i));
-    return sum;
 }
 
 template <int Dim>

@@ -42,6 +42,27 @@ ClusterView ClusterList<Dim>::view() const {
 }
 
 template <int Dim>
+ClusterView ClusterList<Dim>::behind_wall(int a, bool upper) const {
+    BehindWall& wall = behind_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
+    if (wall.build != builds_) {
+        wall.build = builds_;
+        wall.entries.clear();
+        wall.range.resize(range_of_.size());
+        const auto owned = static_cast<std::uint32_t>(order_.size());
+        for (std::size_t c = 0; c < range_of_.size(); ++c) {
+            const auto first = static_cast<std::uint32_t>(wall.entries.size());
+            for (const std::uint32_t entry : entries(c))
+                if (entry >= owned * stride_ && ghosts_.behind(entry / stride_ - owned, a, upper))
+                    wall.entries.push_back(entry);
+            wall.range[c] = {first, static_cast<std::uint32_t>(wall.entries.size()) - first};
+        }
+        wall.entries.insert(wall.entries.end(), 2, 0);  // sweeps look one ahead
+        wall.slices.assign(slice_of_.size(), wall.entries.data());
+    }
+    return {size_, range_of_.size(), order_.data(), wall.range.data(), wall.slices.data()};
+}
+
+template <int Dim>
 std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) const {
     const auto& range = range_of_[cluster];
     return {slice_of_[cluster / ClusterView::slice_size] + range.first, range.count};

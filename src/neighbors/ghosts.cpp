@@ -94,6 +94,7 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
     constexpr std::uint32_t unseen = 0xffffffff;
     std::vector<std::uint32_t> number(places.empty() ? 0 : codes, unseen);
     images_.clear();
+    wall_of_.clear();
     const auto order = strips_.order();
     for (std::size_t g = 0; g < places.size(); ++g) {
         const Place& place = places[order[g]];
@@ -105,9 +106,17 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
         if (of_code == unseen) {
             of_code = static_cast<std::uint32_t>(images_.size());
             Image<Dim> image;
-            for (std::uint32_t a = 0, rest = place.code; a < Dim; ++a, rest /= most_images)
-                image = image.then(along_[a][rest % most_images]);
+            int wall = -1;
+            for (std::uint32_t a = 0, rest = place.code; a < Dim; ++a, rest /= most_images) {
+                const std::uint32_t along = rest % most_images;
+                image = image.then(along_[a][along]);
+                const auto axis = static_cast<int>(a);
+                if (along == 0 || !box.walled(axis)) continue;
+                const bool upper = along == 2 || box.wall(axis, false).open();
+                wall = 2 * axis + (upper ? 1 : 0);
+            }
             images_.push_back(image);
+            wall_of_.push_back(wall);
         }
         image_[g] = of_code;
     }

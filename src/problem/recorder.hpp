@@ -32,11 +32,9 @@ class Recorder {
         for (int a = 0; a < Dim; ++a) row.push_back(now.momentum[a]);
         for (int p = 0; p < Invariants<Dim>::planes; ++p) row.push_back(now.angular_momentum[p]);
         row.insert(row.end(), {now.kinetic, now.internal, now.energy});
-        if (accounts()) {
-            row.insert(row.end(), {now.work, now.heat});
-            for (int a = 0; a < Dim; ++a) row.push_back(now.impulse[a]);
-            for (int p = 0; p < Invariants<Dim>::planes; ++p) row.push_back(now.angular_impulse[p]);
-        }
+        for (const auto& account : accounts())
+            row.insert(row.end(), y.data() + account.offset,
+                       y.data() + account.offset + account.size);
         if constexpr (Dim == 2)
             if (bodies_ > 1) {
                 auto L = angular_momentum_of_bodies(model_, y);
@@ -91,8 +89,13 @@ class Recorder {
         return all;
     }
 
-    /// Whether externals give something that is recorded.
-    bool accounts() const { return model_.layout().has(Field::work); }
+    /// What externals and walls have given.
+    std::vector<typename FieldLayout<Dim>::Block> accounts() const {
+        std::vector<typename FieldLayout<Dim>::Block> accounts;
+        for (const auto& block : model_.layout().blocks())
+            if (block.field.role() == Role::account) accounts.push_back(block);
+        return accounts;
+    }
 
     std::vector<std::string> names() const {
         std::vector<std::string> result{"t", "dt", "mass"};
@@ -102,13 +105,10 @@ class Recorder {
         if (Dim == 3)
             for (const auto& axis : axes) result.push_back("angular_momentum_" + axis);
         result.insert(result.end(), {"kinetic", "internal", "energy"});
-        if (accounts()) {
-            result.insert(result.end(), {"work", "heat"});
-            for (std::size_t a = 0; a < Dim; ++a) result.push_back("impulse_" + axes[a]);
-            if (Dim == 2) result.emplace_back("angular_impulse");
-            if (Dim == 3)
-                for (const auto& axis : axes) result.push_back("angular_impulse_" + axis);
-        }
+        for (const auto& account : accounts())
+            for (std::size_t c = 0; c < account.components; ++c)
+                result.push_back(std::string(account.field.name()) +
+                                 account.field.template suffix<Dim>(c));
         if (Dim == 2 && bodies_ > 1)
             for (int b = 1; b <= bodies_; ++b)
                 result.push_back(fmt::format("angular_momentum_body_{}", b));

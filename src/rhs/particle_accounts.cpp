@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 
 namespace spam {
 namespace {
@@ -59,8 +60,7 @@ void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<
 }
 
 /// What particles do to each other cancels in the sums over all of them: what is left came through the
-/// walls. Energy passes those that rub or have a temperature, and is booked as work where one moves (the
-/// part of it that is heat is not told apart), else as heat.
+/// walls. Of the energy that passes them a moving wall's force times its velocity is work, the rest heat.
 template <int Dim>
 void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
     const auto x = now.state.position(), v = now.state.velocity();
@@ -79,8 +79,43 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
     });
     now.rate.field(Field::impulse) += sum.force;
     if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque;
-    const Field account = this->box().moving_walls() ? Field::work : Field::heat;
-    now.rate.field(account)(0, 0) += sum.power;
+    if (!energy) return;
+    double work = 0.0;
+    for (int a = 0; a < Dim; ++a)
+        for (const bool upper : {false, true})
+            if (now.rate.has(Field::wall_heat(a, upper))) work += book_wall(now, a, upper);
+    now.rate.field(Field::work)(0, 0) += work;
+    now.rate.field(Field::heat)(0, 0) += sum.power - work;
+}
+
+/// The heat through one wall. Returns the work that it does.
+template <int Dim>
+double ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a, bool upper) {
+    const auto v = now.state.velocity();
+    Given whole;
+    for (const auto& term : terms_) {
+        const auto* wall = term->wall_rates(a, upper);
+        if (wall == nullptr) continue;
+        const auto from = static_cast<Eigen::Index>(term->among().first()),
+                   to = from + static_cast<Eigen::Index>(term->among().count());
+        const Given sum = sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
+            Given given;
+            for (Eigen::Index i = std::max(first, from); i < std::min(last, to); ++i) {
+                const auto k = static_cast<std::size_t>(i - from);
+                const double m = now.particles.mass[static_cast<std::size_t>(i)];
+                const Point<Dim> force =
+                    m * Eigen::Map<const Point<Dim>>(wall->v_dot.data() + Dim * k);
+                given.force += force;
+                given.power += force.dot(v.col(i)) + m * wall->e_dot[k];
+            }
+            return given;
+        });
+        whole.force += sum.force;
+        whole.power += sum.power;
+    }
+    const double work = whole.force.dot(this->box().wall(a, upper).velocity);
+    now.rate.field(Field::wall_heat(a, upper))(0, 0) += whole.power - work;
+    return work;
 }
 
 /// The difference that the external makes to what the particles had before it.
@@ -148,20 +183,42 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
     return reflections_ != before;
 }
 
+/// What a particle gains in the potentials of externals when it is moved.
+template <int Dim>
+double ParticleModel<Dim>::gained(std::size_t i, const Point<Dim>& from,
+                                  const Point<Dim>& to) const {
+    double energy = 0.0;
+    for (const auto& external : externals_)
+        if (has_energy(*external))
+            energy += external->energy_at(this->particles(), i, to) -
+                      external->energy_at(this->particles(), i, from);
+    return energy;
+}
+
+/// r -> -r, v_n -> -v_n, but for what the change of place means in potentials of externals: gravity has pulled
+/// the particle on behind the wall, and would have slowed it down before it. What is more than its motion
+/// can give is the wall's work.
 template <int Dim>
 void ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int axis,
                                  const Wall<Dim>& wall) const {
     const auto x = state.position().col(i), v = state.velocity().col(i);
     const double m = this->particles().mass[static_cast<std::size_t>(i)];
-    state.field(Field::impulse)(axis, 0) -= 2.0 * m * v[axis];
+    Point<Dim> to = x;
+    to[axis] = 2.0 * wall.at - x[axis];
+    const double gain = gained(static_cast<std::size_t>(i), x, to);
+    const double square = v[axis] * v[axis] - 2.0 * gain / m;
+    const double turned =
+        gain == 0.0 ? -v[axis] : -std::copysign(std::sqrt(std::max(square, 0.0)), v[axis]);
+    if (square < 0.0) state.field(Field::work)(0, 0) -= 0.5 * m * square;
+    state.field(Field::impulse)(axis, 0) += m * (turned - v[axis]);
     const auto book_turning = [&](double sign) {
         const auto L = moment<Dim>(x, v);
         for (int plane = 0; plane < Given::planes; ++plane)
             state.field(Field::angular_impulse)(plane, 0) += sign * m * L[plane];
     };
     book_turning(-1.0);
-    state.position()(axis, i) = 2.0 * wall.at - x[axis];
-    state.velocity()(axis, i) = -v[axis];
+    state.position()(axis, i) = to[axis];
+    state.velocity()(axis, i) = turned;
     book_turning(1.0);
     if constexpr (Dim > 1) {
         if (state.has(Field::stress))
@@ -177,10 +234,12 @@ void ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int ax
         const External<D>&, const External<D>::Now&, Eigen::Index, Eigen::Index) const;            \
     template void ParticleModel<D>::book(const External<D>&, const Given&, const State<D>&) const; \
     template void ParticleModel<D>::book_walls(const External<D>::Now&);                           \
+    template double ParticleModel<D>::book_wall(const External<D>::Now&, int, bool);               \
     template bool ParticleModel<D>::settle(double, std::span<double>);                             \
     template bool ParticleModel<D>::reflect(const State<D>&);                                      \
     template void ParticleModel<D>::reflect(const State<D>&, Eigen::Index, int, const Wall<D>&)    \
-        const;
+        const;                                                                                     \
+    template double ParticleModel<D>::gained(std::size_t, const Point<D>&, const Point<D>&) const;
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)
 SPAM_INSTANTIATE(3)

@@ -40,6 +40,10 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 fixed.describe()));
     }
     for (const Field field : term->fields()) this->layout().add(field);
+    for (int a = 0; a < Dim; ++a)
+        for (const bool upper : {false, true})
+            if (term->wall_rates(a, upper) != nullptr)
+                this->layout().add(Field::wall_heat(a, upper));
     whole_ = whole_ && term->among().whole();
     terms_.push_back(std::move(term));
     if (terms_.size() > 1 || !whole_) more_.resize(Dim * this->particles().size());

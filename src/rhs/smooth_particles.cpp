@@ -75,6 +75,7 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
         torques_ = std::make_unique<TorqueFactors>(n, law);
         if (sweeps_->gradient != nullptr) heat_.resize(n);
     }
+    tell_walls_apart();
     estimate_viscosity();
     set_bodies();
 }
@@ -148,11 +149,13 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
         balance(now, in, out);
     } else {
         sweeps_->force(in, out);
+        sweep_walls(in, sweeps_->force);
         if (sweeps_->second != nullptr) {
             load_transport(now);
             if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
             out.close = nullptr;
             sweeps_->second(in, out);
+            sweep_walls(in, sweeps_->second);
         }
     }
     if (gauss_)

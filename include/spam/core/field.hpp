@@ -90,6 +90,9 @@ class Field {
 
     static const Field position, velocity, density, stress, energy;
     static const Field work, heat, impulse, angular_impulse;
+    /// Heat given to the particles through the wall across direction a, the lower or the upper one: part of
+    /// `heat`.
+    static constexpr Field wall_heat(int a, bool upper);
 
   private:
     const FieldKind* kind_;
@@ -106,6 +109,14 @@ inline constexpr FieldKind heat{"heat", Rank::scalar, Role::account, "m l^2/t^2"
 inline constexpr FieldKind impulse{"impulse", Rank::vector, Role::account, "m l/t", 202};
 inline constexpr FieldKind angular_impulse{"angular_impulse", Rank::axial, Role::account, "m l^2/t",
                                            203};
+/// Through one side of the box, [2 direction + (1 for the upper one)].
+inline constexpr std::array wall_heat{
+    FieldKind{"heat_left", Rank::scalar, Role::account, "m l^2/t^2", 204},
+    FieldKind{"heat_right", Rank::scalar, Role::account, "m l^2/t^2", 205},
+    FieldKind{"heat_bottom", Rank::scalar, Role::account, "m l^2/t^2", 206},
+    FieldKind{"heat_top", Rank::scalar, Role::account, "m l^2/t^2", 207},
+    FieldKind{"heat_front", Rank::scalar, Role::account, "m l^2/t^2", 208},
+    FieldKind{"heat_back", Rank::scalar, Role::account, "m l^2/t^2", 209}};
 }  // namespace field_kind
 
 inline constexpr Field Field::position{field_kind::position};
@@ -117,6 +128,10 @@ inline constexpr Field Field::work{field_kind::work};        ///< done on the pa
 inline constexpr Field Field::heat{field_kind::heat};        ///< given to them by externals
 inline constexpr Field Field::impulse{field_kind::impulse};  ///< time integral of external forces
 inline constexpr Field Field::angular_impulse{field_kind::angular_impulse};  ///< of their torques
+
+inline constexpr Field Field::wall_heat(int a, bool upper) {
+    return field_kind::wall_heat[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
+}
 
 /// The fields that have options of their own (--atol-NAME) and columns in the studies of integrators.
 inline constexpr std::array integrated_fields{Field::position, Field::velocity, Field::density,

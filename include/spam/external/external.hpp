@@ -3,6 +3,7 @@
 
 #include <spam/core/archive.hpp>
 #include <spam/core/particles.hpp>
+#include <spam/core/sums.hpp>
 
 #include <Eigen/Core>
 
@@ -42,10 +43,21 @@ class External {
     /// particles; must not look at the rates of others. No allocation.
     virtual void add(const Now& now, Eigen::Index first, Eigen::Index last) const = 0;
 
-    /// Of all particles, for an external that is a potential (mass length^2/time^2). `potential()` says
-    /// whether it is: then no work is booked.
+    /// Whether it is a potential of positions: then no work is booked, and energy_at() is the energy of one
+    /// particle in it, at x (mass length^2/time^2).
     virtual bool potential() const { return false; }
-    virtual double energy(const Particles<Dim>&, const ConstState<Dim>&) const { return 0.0; }
+    virtual double energy_at(const Particles<Dim>&, std::size_t /*particle*/,
+                             const Point<Dim>& /*x*/) const {
+        return 0.0;
+    }
+    /// Of all particles.
+    double energy(const Particles<Dim>& particles, const ConstState<Dim>& state) const {
+        const auto x = state.position();
+        CompensatedSum sum;
+        for (Eigen::Index i = 0; i < x.cols(); ++i)
+            sum += energy_at(particles, static_cast<std::size_t>(i), x.col(i));
+        return sum;
+    }
 
     /// Whether its power is heat, as that of a thermostat, not work.
     virtual bool thermal() const { return false; }

@@ -18,7 +18,10 @@ class Gravity final : public External<Dim> {
         now.rate.velocity().middleCols(first, last - first).colwise() += g_;
     }
     bool potential() const override { return true; }
-    double energy(const Particles<Dim>& particles, const ConstState<Dim>& state) const override;
+    double energy_at(const Particles<Dim>& particles, std::size_t i,
+                     const Point<Dim>& x) const override {
+        return -particles.mass[i] * g_.dot(x);
+    }
     std::string describe() const override;
 
   private:

@@ -51,6 +51,9 @@ class ClusterList {
 
     /// For sweeps over records whose positions the list serves.
     ClusterView view() const;
+    /// The same clusters with no neighbours but the images behind one wall (Ghosts::behind). Kept until the
+    /// next build; not to be asked for from several threads.
+    ClusterView behind_wall(int a, bool upper) const;
     std::size_t size() const { return size_; }
     std::size_t clusters() const { return range_of_.size(); }
     int width() const { return width_; }
@@ -113,6 +116,13 @@ class ClusterList {
     std::vector<ClusterView::Range> range_of_;
     std::vector<std::vector<std::uint32_t>> slices_;
     std::vector<const std::uint32_t*> slice_of_;
+    struct BehindWall {
+        std::size_t build = 0;  ///< of which list
+        std::vector<ClusterView::Range> range;
+        std::vector<std::uint32_t> entries;
+        std::vector<const std::uint32_t*> slices;
+    };
+    mutable std::array<BehindWall, 2 * Dim> behind_;
 };
 
 extern template class ClusterList<1>;

@@ -33,6 +33,12 @@ class Ghosts {
     /// Which of a particle's images: the same number at every build.
     std::uint32_t which(std::size_t g) const { return code_[g]; }
 
+    /// Whether ghost number g is behind that wall across direction a; where it is an image of an image, the
+    /// wall of the last direction counts. Precondition: the side is not open.
+    bool behind(std::size_t g, int a, bool upper) const {
+        return wall_of_[image_[g]] == 2 * a + upper;
+    }
+
     /// Whether there may be ghosts within `reach` of the bounds.
     bool near(const Bounds<Dim>& bounds, double reach) const;
     /// visit(first, last): ranges of slots that hold all ghosts within the reach of the bounds.
@@ -70,6 +76,7 @@ class Ghosts {
     std::uint32_t first_ = 0;
     std::vector<std::uint32_t> owner_, code_, image_;
     std::vector<Image<Dim>> images_;  ///< those that occur
+    std::vector<int> wall_of_;        ///< 2 a + (1 for the upper one); -1: behind none
     StripSort<Dim> strips_;
     mutable std::vector<double> changes_;  ///< sign and shift of every number, by image
 };

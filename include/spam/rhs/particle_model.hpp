@@ -78,7 +78,8 @@ class ParticleModel : public Model<Dim> {
     void set_bodies(std::vector<std::int32_t> bodies) final;
     void remember(Archive& archive) final;
     bool settles() const final { return walled_ || Model<Dim>::settles(); }
-    /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n.
+    /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n, where
+    /// externals have potentials with the velocity that keeps the energy.
     bool settle(double t, std::span<double> y) final;
     /// How many have been, so far.
     std::size_t reflections() const { return reflections_; }
@@ -106,7 +107,9 @@ class ParticleModel : public Model<Dim> {
     template <class GiveBlock>
     Given sum_of_blocks(const GiveBlock& give);
     void book_walls(const typename External<Dim>::Now& now);
+    double book_wall(const typename External<Dim>::Now& now, int a, bool upper);
     bool reflect(const State<Dim>& state);
+    double gained(std::size_t i, const Point<Dim>& from, const Point<Dim>& to) const;
     void reflect(const State<Dim>& state, Eigen::Index i, int axis, const Wall<Dim>& wall) const;
 
     bool moves_with_velocity() const;
