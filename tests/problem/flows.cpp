@@ -44,3 +44,13 @@ BOOST_AUTO_TEST_CASE(mirrors_act_like_periods_on_an_expanding_gas) {
     };
     BOOST_TEST(std::abs(expanded("mirror") - expanded("periodic")) < 0.03);
 }
+
+BOOST_AUTO_TEST_CASE(a_layer_heated_from_below_rolls_as_finite_differences_do) {
+    const Results found("rayleigh_benard", {"--t-end", "1000"}, "nusselt_by_grid");
+    BOOST_TEST(std::abs(found.value.at("nusselt_by_grid") - 1.0) < 0.1);
+    BOOST_TEST(std::abs(found.value.at("nusselt_difference")) < 0.1);
+    BOOST_TEST(found.value.at("nusselt_bottom") > 1.5);
+    BOOST_TEST(found.value.at("energy_drift") < 1e-6);
+    const Results quiet("rayleigh_benard", {"--rayleigh", "1000", "--t-end", "600"}, "roll_left");
+    BOOST_TEST(quiet.value.at("roll_left") < 0.1);
+}

@@ -170,6 +170,7 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"couette", {}},
     {"poiseuille", {}},
     {"shock_tube", {}},
+    {"rayleigh_benard", {}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

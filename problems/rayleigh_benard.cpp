@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: convection rolls between a hot and a cold plate, beside finite differences, [HH07] 12; 10 s
+//
+// Rayleigh-Benard convection, [HH07] 12: a gas between two plates, hot below and cold above.
+//
+//     ===================  T = 0.5     Ideal gas of two dimensions, P = rho T, e = T; viscosity eta = kappa,
+//      o  o  o  o  o  o  o             the conductivity, without bulk. Gravity g = 1/L makes the density of the
+//      o  o  o  o  o  o  o  | g        conducting layer the same everywhere: 1. Above a critical Rayleigh
+//      o  o  o  o  o  o  o  v          number
+//     ===================  T = 1.5         Ra = g L^4 (dlnT/dy)/(nu D_T) = L^2/(eta kappa)
+//          2 L, periodic               the layer at rest is not stable: two rolls turn against each other and
+//                                      carry more heat than conduction, by the Nusselt number.
+//
+// Plates are no-slip walls of given temperature: images of the particles behind them. Heat through each of
+// them is integrated with y (heat_bottom, heat_top in invariants.csv): its mean over the second half of the
+// run is what result.json tells. Beside the particles the same equations with the same coefficients are
+// solved by finite differences on a fixed grid of L cells from plate to plate (rayleigh_benard/grid.hpp).
+//
+//     --height 50        5,000 particles, as in the lecture
+//     --scan             from Ra = 1500 to 4000: which rolls stay, and the Ra of the onset. Linear theory says
+//                        1707.76, of a layer whose temperature and density vary little; here they vary by a
+//                        factor of three. The particles' onset is later: at rest they are in order, and resist
+//                        weak rolls as a solid does. 2 min
+#include "rayleigh_benard/convection.hpp"
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rayleigh_benard {
+namespace {
+
+constexpr double linear_onset = 1707.76;
+constexpr double weak_roll = 1e-3;
+
+Plan<2> plan_of(const Session& session, Convection& gas, double t_end) {
+    Plan<2> plan;
+    plan.t_end = session.common().t_end.value_or(t_end);
+    plan.output_every = plan.t_end / 160.0;
+    plan.record({roll_amplitude_column(gas.layer)});
+    return plan;
+}
+
+void report(Session& session, const Parameters& p, const Convection& gas, const RunRecord& run,
+            const GridRun& twin) {
+    const auto t = run.history.column("t");
+    const std::size_t from = middle(t), to = t.size() - 1;
+    const double bottom = nusselt(gas.layer, t, run.history.column("heat_bottom"), from, to, false);
+    const double top = nusselt(gas.layer, t, run.history.column("heat_top"), from, to, true);
+    const double grid_bottom = nusselt(gas.layer, twin.t, twin.heat_bottom, from, to, false);
+    const double grid_top = nusselt(gas.layer, twin.t, twin.heat_top, from, to, true);
+    const double mean = 0.5 * (bottom + top), of_grid = 0.5 * (grid_bottom + grid_top);
+    const bool long_enough = run.complete && run.statistics.t_end >= 79.0 * gas.layer.L;
+    const bool known = session.when_default({"height", "rayleigh", "roll", "friction", "density",
+                                             "kernel", "range"}) &&
+                       long_enough;
+    const bool still = gas.layer.rayleigh <= 1000.0;
+    session.claim({"nusselt_bottom", bottom, 1.8, 0.15, "an independent computation"}, known);
+    session.claim({"nusselt_top", top, 1.8, 0.15, "an independent computation"}, known);
+    session.claim({"nusselt_difference", top - bottom, 0.0, 0.1, "in the steady state"}, known);
+    session.measure("nusselt_of_grid", of_grid, "finite differences, both plates");
+    session.claim({"nusselt_by_grid", mean / of_grid, 1.0, 0.1, "finite differences"}, known);
+    session.measure("roll_amplitude", run.history.last("roll_amplitude"));
+    session.measure("roll_amplitude_of_grid", twin.roll.back(), "finite differences");
+    if (still && p.roll > 0.0)
+        session.claim(
+            {"roll_left", run.history.last("roll_amplitude") / run.history.first("roll_amplitude"),
+             0.0, 0.1, "below the onset rolls die out"},
+            long_enough);
+    session.measure("reflections", static_cast<double>(gas.model->reflections()),
+                    "particles that crossed a plate");
+    session.check_promises(run);
+}
+
+void run_one(Session& session, const Parameters& p) {
+    Convection gas = make_convection(p, p.rayleigh, session.common().dry_run);
+    const double t_end = session.common().smoke ? 6.0 : 80.0 * gas.layer.L;
+    // Slow convection means quick diffusion.
+    session.prefer_step(std::min(0.2, 1.5 / gas.model->fastest_damping()));
+    std::vector<Case<2>> cases;
+    cases.push_back({gas.model, gas.y0, plan_of(session, gas, t_end), ""});
+    const auto runs = session.run_all(std::move(cases));
+    if (!runs.front().complete) return;
+    Grid grid(gas.layer, p.height);
+    GridRun twin;
+    session.evaluate([&] { twin = run_grid(grid, runs.front().history.column("t")); });
+    report(session, p, gas, runs.front(), twin);
+    if (session.plots()) draw(session, gas, runs.front(), grid, twin);
+}
+
+/// Where the values change from below `limit` to above it, linear between; nothing where they do not.
+std::optional<double> crossing(const std::vector<double>& at, const std::vector<double>& value,
+                               double limit) {
+    for (std::size_t k = 1; k < value.size(); ++k)
+        if (value[k - 1] < limit && value[k] >= limit)
+            return at[k - 1] +
+                   (at[k] - at[k - 1]) * (limit - value[k - 1]) / (value[k] - value[k - 1]);
+    return {};
+}
+
+/// Strong rolls either die or stay; on the grid the growth of weak ones is found as well.
+void run_scan(Session& session, const Parameters& p) {
+    Scan scan;
+    std::vector<Convection> gases;
+    for (const double Ra : scan.rayleigh) {
+        gases.push_back(make_convection(p, Ra, session.common().dry_run));
+        gases.back().label = fmt::format("ra{:g}", Ra);
+    }
+    std::vector<Case<2>> cases;
+    for (auto& gas : gases)
+        cases.push_back({gas.model, gas.y0,
+                         plan_of(session, gas, session.common().smoke ? 6.0 : 80.0 * gas.layer.L),
+                         gas.label});
+    const auto runs = session.run_all(std::move(cases));
+    if (runs.size() < gases.size() ||
+        !std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.complete; }))
+        return;
+    session.evaluate([&] {
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const auto t = runs[k].history.column("t");
+            Grid strong(gases[k].layer, p.height);
+            Layer weak_layer = gases[k].layer;
+            weak_layer.roll = weak_roll;
+            Grid weak(weak_layer, p.height);
+            scan.of_particles.push_back(runs[k].history.last("roll_amplitude"));
+            scan.of_grid.push_back(run_grid(strong, t).roll.back());
+            const GridRun growing = run_grid(weak, t);
+            scan.growth.push_back(growth_rate(growing.t, growing.roll));
+        }
+    });
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        session.measure("roll_" + gases[k].label, scan.of_particles[k],
+                        "smooth particles, at the end");
+        session.measure("roll_of_grid_" + gases[k].label, scan.of_grid[k],
+                        "finite differences, at the end");
+        session.measure("growth_of_grid_" + gases[k].label, scan.growth[k],
+                        "finite differences, weak rolls");
+        session.check_promises(runs[k], gases[k].label + "_");
+    }
+    const auto report_onset = [&](const std::string& name, std::optional<double> Ra,
+                                  const std::string& source) {
+        if (!Ra) return;
+        session.measure(name, *Ra, source);
+        session.measure(name + "_by_linear_theory", *Ra / linear_onset, "by 1707.76");
+    };
+    report_onset("onset", crossing(scan.rayleigh, scan.of_particles, 0.25 * scan.of_grid.back()),
+                 "smooth particles: strong rolls stay");
+    report_onset("onset_of_grid", crossing(scan.rayleigh, scan.growth, 0.0),
+                 "finite differences: weak rolls grow");
+    if (session.plots()) draw_scan(session, scan);
+}
+
+}  // namespace
+}  // namespace rayleigh_benard
+
+int main(int argc, char** argv) {
+    using namespace rayleigh_benard;
+    Problem problem("rayleigh_benard", "convection between a hot and a cold plate, [HH07] 12", 0.2);
+    Parameters p;
+    auto& options = problem.options();
+    options.integer("height", p.height,
+                    "particles from plate to plate, twice as many along them, at spacing 1",
+                    between(8, 200));
+    options.number("rayleigh", p.rayleigh, "Rayleigh number", between(1.0, 1e6));
+    options.number("roll", p.roll, "speed of the rolls at the start; sound has 1.4",
+                   between(0.0, 0.3));
+    options.choice<Friction>(
+        "friction", p.friction, {Friction::pairs, Friction::gradients},
+        "viscosity and conduction from differences of pairs, or from gradients");
+    options.choice<Density>("density", p.density, {Density::summed, Density::continuity},
+                            "density as a sum over neighbours, or by the continuity equation");
+    options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
+    options.number("range", p.range, "range h of the weight function", between(1.2, 6.0));
+    options.flag("scan", p.scan, "find the Rayleigh number at which small rolls begin to grow");
+    options.exclude("scan", {"rayleigh"},
+                    "has no effect with {by} (five Rayleigh numbers); leave one out");
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke && !session.given("height")) p.height = 10;
+        if (p.scan && !session.given("roll")) p.roll = 0.2;
+        if (p.scan && p.roll == 0.0)
+            throw InputError("roll: 0 leaves nothing that could stay with --scan; give 0.2");
+        p.scan ? run_scan(session, p) : run_one(session, p);
+    });
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "convection.hpp"
+
+#include <spam/diagnostics/fits.hpp>
+#include <spam/external/gravity.hpp>
+#include <spam/material/ideal_gas.hpp>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace rayleigh_benard {
+
+using std::numbers::pi;
+
+Convection make_convection(const Parameters& p, double rayleigh, bool only_described) {
+    const double L = p.height;
+    const Layer layer{.L = L, .rayleigh = rayleigh, .roll = p.roll};
+    Box<2> box({2.0 * L, 0.0});
+    box.set_wall(1, false, {WallKind::no_slip, 0.0, Point<2>::Zero(), layer.hot});
+    box.set_wall(1, true, {WallKind::no_slip, L, Point<2>::Zero(), layer.cold});
+    Points<2> x = square_lattice<2>({2 * p.height, p.height});
+    x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
+    const Fluid gas{IdealGas{2}, NewtonViscosity::shear_and_bulk(layer.eta(), 0.0, 2),
+                    FourierConduction{layer.eta()}, p.friction == Friction::pairs};
+    const Scheme scheme{.density = p.density, .kernel = p.kernel, .range = p.range};
+    Convection convection{layer, std::make_shared<FluidModel<2>>(
+                                     make_particles<2>(x, 1.0, 1.0, box), gas, scheme, box)};
+    FluidModel<2>& model = *convection.model;
+    model.add(std::make_unique<Gravity<2>>(Point<2>(0.0, -layer.gravity())));
+    if (only_described) return convection;
+    const Points<2>& at = model.particles().reference_position;
+    Points<2> v(2, at.cols());
+    for (Eigen::Index i = 0; i < at.cols(); ++i)
+        v.col(i) = Point<2>(layer.seed_u(at(0, i), at(1, i)), layer.seed_v(at(0, i), at(1, i)));
+    convection.y0 = model.state(at, v, 1.0);
+    const State<2> state(model.layout(), convection.y0);
+    for (Eigen::Index i = 0; i < at.cols(); ++i)
+        state.energy()(0, i) = layer.temperature(at(1, i));  // e = T
+    model.layout().set_scale(Field::velocity, 0.1);
+    return convection;
+}
+
+Column<2> roll_amplitude_column(const Layer& layer) {
+    return {"roll_amplitude", [layer](const Model<2>& model, std::span<const double> y) {
+                const ConstState<2> state(model.layout(), y);
+                const auto x = state.position(), v = state.velocity();
+                std::complex<double> sum = 0.0;
+                for (Eigen::Index i = 0; i < x.cols(); ++i)
+                    sum += v(1, i) * std::sin(pi * x(1, i) / layer.L) *
+                           std::polar(1.0, pi * x(0, i) / layer.L);
+                return 4.0 * std::abs(sum) / static_cast<double>(x.cols());
+            }};
+}
+
+double nusselt(const Layer& layer, const std::vector<double>& t, const std::vector<double>& heat,
+               std::size_t from, std::size_t to, bool upper) {
+    return (upper ? -1.0 : 1.0) * (heat[to] - heat[from]) / (t[to] - t[from]) / layer.conducted();
+}
+
+std::vector<double> nusselt(const Layer& layer, const std::vector<double>& t,
+                            const std::vector<double>& heat, bool upper) {
+    std::vector<double> all;
+    for (std::size_t k = 1; k < t.size(); ++k)
+        all.push_back(nusselt(layer, t, heat, k - 1, k, upper));
+    return all;
+}
+
+std::size_t middle(const std::vector<double>& t) {
+    std::size_t k = 0;
+    while (k + 2 < t.size() && t[k] < 0.5 * t.back()) ++k;
+    return k;
+}
+
+double growth_rate(const std::vector<double>& t, const std::vector<double>& amplitude) {
+    std::vector<double> time, log;
+    for (std::size_t k = middle(t); k < t.size(); ++k) {
+        time.push_back(t[k]);
+        log.push_back(std::log(amplitude[k]));
+    }
+    return fit_line(time, log).slope;
+}
+
+}  // namespace rayleigh_benard
