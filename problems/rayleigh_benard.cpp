@@ -11,12 +11,17 @@
 //          2 L, periodic               the layer at rest is not stable: two rolls turn against each other and
 //                                      carry more heat than conduction, by the Nusselt number.
 //
-// Plates are no-slip walls of given temperature: images of the particles behind them. Heat through each of
+// Plates are no-slip walls of given temperature: images of the particles behind them. They may be mirrors, at
+// which the gas slips, and the sides may be walls too. Heat through each of
 // them is integrated with y (heat_bottom, heat_top in invariants.csv): its mean over the second half of the
 // run is what result.json tells. Beside the particles the same equations with the same coefficients are
 // solved by finite differences on a fixed grid of L cells from plate to plate (rayleigh_benard/grid.hpp).
 //
 //     --height 50        5,000 particles, as in the lecture
+//     --bottom mirror@1.5 --top mirror@0.5
+//                        plates without friction
+//     --left mirror --right mirror
+//                        a box with insulated sides instead of a layer without end
 //     --scan             from Ra = 1500 to 4000: which rolls stay, and the Ra of the onset. Linear theory says
 //                        1707.76, of a layer whose temperature and density vary little; here they vary by a
 //                        factor of three. The particles' onset is later: at rest they are in order, and resist
@@ -32,7 +37,6 @@
 namespace rayleigh_benard {
 namespace {
 
-constexpr double linear_onset = 1707.76;
 constexpr double weak_roll = 1e-3;
 
 Plan<2> plan_of(const Session& session, Convection& gas, double t_end) {
@@ -83,11 +87,23 @@ void run_one(Session& session, const Parameters& p) {
     cases.push_back({gas.model, gas.y0, plan_of(session, gas, t_end), ""});
     const auto runs = session.run_all(std::move(cases));
     if (!runs.front().complete) return;
-    Grid grid(gas.layer, p.height);
+    Grid grid(gas.layer, gas.model->box(), p.height);
     GridRun twin;
     session.evaluate([&] { twin = run_grid(grid, runs.front().history.column("t")); });
     report(session, p, gas, runs.front(), twin);
     if (session.plots()) draw(session, gas, runs.front(), grid, twin);
+}
+
+constexpr double rigid_onset = 1707.76,
+                 slip_onset =
+                     779.27;  // 8 pi^4: rolls as wide as they are high; wider ones from 657.51 on
+
+/// Between two plates at which the gas sticks or slips, and periodic along them, so that the rolls that grow
+/// first fit in very nearly.
+std::optional<double> linear_onset(const Box<2>& box) {
+    const WallKind lower = box.wall(1, false).kind, upper = box.wall(1, true).kind;
+    if (lower != upper || !box.periodic(0) || box.moving_walls()) return {};
+    return lower == WallKind::mirror ? slip_onset : rigid_onset;
 }
 
 /// Where the values change from below `limit` to above it, linear between; nothing where they do not.
@@ -103,6 +119,9 @@ std::optional<double> crossing(const std::vector<double>& at, const std::vector<
 /// Strong rolls either die or stay; on the grid the growth of weak ones is found as well.
 void run_scan(Session& session, const Parameters& p) {
     Scan scan;
+    scan.linear_onset = linear_onset(make_convection(p, 1e4, true).model->box());
+    for (const double part : {0.9, 1.2, 1.35, 1.5, 1.65, 1.8, 2.4})
+        scan.rayleigh.push_back(std::round(part * scan.linear_onset.value_or(rigid_onset)));
     std::vector<Convection> gases;
     for (const double Ra : scan.rayleigh) {
         gases.push_back(make_convection(p, Ra, session.common().dry_run));
@@ -120,10 +139,10 @@ void run_scan(Session& session, const Parameters& p) {
     session.evaluate([&] {
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const auto t = runs[k].history.column("t");
-            Grid strong(gases[k].layer, p.height);
+            Grid strong(gases[k].layer, gases[k].model->box(), p.height);
             Layer weak_layer = gases[k].layer;
             weak_layer.roll = weak_roll;
-            Grid weak(weak_layer, p.height);
+            Grid weak(weak_layer, gases[k].model->box(), p.height);
             scan.of_particles.push_back(runs[k].history.last("roll_amplitude"));
             scan.of_grid.push_back(run_grid(strong, t).roll.back());
             const GridRun growing = run_grid(weak, t);
@@ -143,7 +162,9 @@ void run_scan(Session& session, const Parameters& p) {
                                   const std::string& source) {
         if (!Ra) return;
         session.measure(name, *Ra, source);
-        session.measure(name + "_by_linear_theory", *Ra / linear_onset, "by 1707.76");
+        if (scan.linear_onset)
+            session.measure(name + "_by_linear_theory", *Ra / *scan.linear_onset,
+                            fmt::format("by {:g}", *scan.linear_onset));
     };
     report_onset("onset", crossing(scan.rayleigh, scan.of_particles, 0.25 * scan.of_grid.back()),
                  "smooth particles: strong rolls stay");
@@ -163,6 +184,8 @@ int main(int argc, char** argv) {
     options.integer("height", p.height,
                     "particles from plate to plate, twice as many along them, at spacing 1",
                     between(8, 200));
+    const Sides<2> sides(options, {"periodic", "periodic", "no-slip@1.5", "no-slip@0.5"});
+    p.sides = &sides;
     options.number("rayleigh", p.rayleigh, "Rayleigh number", between(1.0, 1e6));
     options.number("roll", p.roll, "speed of the rolls at the start; sound has 1.4",
                    between(0.0, 0.3));
@@ -175,7 +198,7 @@ int main(int argc, char** argv) {
     options.number("range", p.range, "range h of the weight function", between(1.2, 6.0));
     options.flag("scan", p.scan, "find the Rayleigh number at which small rolls begin to grow");
     options.exclude("scan", {"rayleigh"},
-                    "has no effect with {by} (five Rayleigh numbers); leave one out");
+                    "has no effect with {by} (seven Rayleigh numbers); leave one out");
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("height")) p.height = 10;
         if (p.scan && !session.given("roll")) p.roll = 0.2;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "convection.hpp"
 
+#include <spam/core/error.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/ideal_gas.hpp>
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <complex>
@@ -13,12 +16,39 @@ namespace rayleigh_benard {
 
 using std::numbers::pi;
 
+namespace {
+
+void refuse_without_plates(const Box<2>& box) {
+    for (const bool upper : {false, true})
+        if (box.wall(1, upper).open() || !box.wall(1, upper).temperature)
+            throw InputError(fmt::format(
+                "{}: heat must come from below and leave above; give a wall with a temperature, as "
+                "no-slip@{}",
+                Sides<2>::name(1, upper), upper ? "0.5" : "1.5"));
+    const double hot = *box.wall(1, false).temperature, cold = *box.wall(1, true).temperature;
+    if (!(hot > cold))
+        throw InputError(fmt::format(
+            "bottom: its temperature {:g} must be above that of --top, {:g}; nothing else drives the "
+            "gas",
+            hot, cold));
+    for (const bool upper : {false, true})
+        if (!box.periodic(0) && box.wall(0, upper).open())
+            throw InputError(
+                fmt::format("{}: 'open' would let the gas out; use periodic, mirror or no-slip",
+                            Sides<2>::name(0, upper)));
+}
+
+}  // namespace
+
 Convection make_convection(const Parameters& p, double rayleigh, bool only_described) {
     const double L = p.height;
-    const Layer layer{.L = L, .rayleigh = rayleigh, .roll = p.roll};
-    Box<2> box({2.0 * L, 0.0});
-    box.set_wall(1, false, {WallKind::no_slip, 0.0, Point<2>::Zero(), layer.hot});
-    box.set_wall(1, true, {WallKind::no_slip, L, Point<2>::Zero(), layer.cold});
+    const Box<2> box = p.sides->box(Point<2>::Zero(), Point<2>(2.0 * L, L));
+    refuse_without_plates(box);
+    const Layer layer{.L = L,
+                      .rayleigh = rayleigh,
+                      .roll = p.roll,
+                      .hot = *box.wall(1, false).temperature,
+                      .cold = *box.wall(1, true).temperature};
     Points<2> x = square_lattice<2>({2 * p.height, p.height});
     x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
     const Fluid gas{IdealGas{2}, NewtonViscosity::shear_and_bulk(layer.eta(), 0.0, 2),

@@ -4,9 +4,11 @@
 
 #include "grid.hpp"
 #include <spam/problem/nearest_state.hpp>
+#include <spam/problem/sides.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 
+#include <optional>
 #include <string_view>
 
 namespace rayleigh_benard {
@@ -19,6 +21,7 @@ inline std::string_view to_string(Friction f) {
 }
 
 struct Parameters {
+    const Sides<2>* sides = nullptr;
     int height = 20;
     double rayleigh = 1e4;
     double roll = 0.05;
@@ -37,7 +40,8 @@ struct Convection {
     std::vector<NearestState<2>> drawn{};
 };
 
-/// 2 L x L particles of mass 1 at spacing 1. `only_described`: without y0.
+/// 2 L x L particles of mass 1 at spacing 1. `only_described`: without y0. Throws InputError where the plates
+/// are no walls with temperatures, the lower one is not the hotter one, or a side is open.
 Convection make_convection(const Parameters& p, double rayleigh, bool only_described);
 
 /// |4 <v_y sin(pi y/L) exp(i pi x/L)>|: the velocity of rolls as wide as they are high.
@@ -62,8 +66,9 @@ void draw(Session& session, const Convection& gas, const RunRecord& run, const G
           const GridRun& twin);
 /// --scan: velocities of rolls at the end, and on the grid how fast weak ones grow.
 struct Scan {
-    std::vector<double> rayleigh{1500.0, 2000.0, 2250.0, 2500.0, 2750.0, 3000.0, 4000.0};
-    std::vector<double> of_particles{}, of_grid{}, growth{};
+    std::vector<double> rayleigh{}, of_particles{}, of_grid{}, growth{};
+    /// Of a layer whose density and temperature vary little, between such plates; empty where unknown.
+    std::optional<double> linear_onset{};
 };
 void draw_scan(Session& session, const Scan& scan);
 

@@ -13,7 +13,7 @@ namespace rayleigh_benard {
 
 using std::numbers::pi;
 
-double Layer::eta() const { return L / std::sqrt(rayleigh); }
+double Layer::eta() const { return (hot - cold) * L / std::sqrt(0.5 * (hot + cold) * rayleigh); }
 
 /// From the stream function (roll L/pi) sin(pi x/L) sin^2(pi y/L).
 double Layer::seed_u(double x, double y) const {
@@ -24,8 +24,9 @@ double Layer::seed_v(double x, double y) const {
     return -roll * std::cos(pi * x / L) * s * s;
 }
 
-Grid::Grid(const Layer& layer, int cells)
+Grid::Grid(const Layer& layer, const spam::Box<2>& box, int cells)
     : layer_(layer),
+      box_(box),
       nx_(2 * cells),
       ny_(cells),
       d_(layer.L / cells),
@@ -49,54 +50,60 @@ std::vector<double> Grid::start() const {
     return y;
 }
 
-/// Images beyond a plate move the other way and have the temperature that makes the mean that of the plate.
+Grid::Values Grid::image(const Values& cell, int axis, bool upper) const {
+    const auto image = box_.wall(axis, upper).image(axis);
+    const auto changed = [](double value, const auto& change) {
+        return change.sign * value + change.shift;
+    };
+    return {cell.rho, changed(cell.u, image.velocity[0]), changed(cell.v, image.velocity[1]),
+            changed(cell.T, image.temperature)};
+}
+
 Grid::Values Grid::at(int i, int j) const {
-    i = i < 0 ? i + nx_ : i >= nx_ ? i - nx_ : i;
-    const bool below = j < 0, above = j >= ny_;
-    const int row = below ? 0 : above ? ny_ - 1 : j;
-    Values c = values_[static_cast<std::size_t>(row * nx_ + i)];
-    if (!below && !above) return c;
-    return {c.rho, -c.u, -c.v, 2.0 * (below ? layer_.hot : layer_.cold) - c.T};
+    if (box_.periodic(0)) i = (i + nx_) % nx_;
+    const int column = std::clamp(i, 0, nx_ - 1), row = std::clamp(j, 0, ny_ - 1);
+    Values values = values_[static_cast<std::size_t>(row * nx_ + column)];
+    if (column != i) values = image(values, 0, i > column);
+    if (row != j) values = image(values, 1, j > row);
+    return values;
+}
+
+double Grid::pressure(int i, int j, int axis) const {
+    const int dx = axis == 0 ? 1 : 0, dy = 1 - dx;
+    const bool periodic = box_.periodic(axis);
+    const int k = axis == 0 ? i : j, last = (axis == 0 ? nx_ : ny_) - 1;
+    if (!periodic && k < 0)
+        return 1.5 * at(i + dx, j + dy).P() - 0.5 * at(i + 2 * dx, j + 2 * dy).P();
+    if (!periodic && k == last) return 1.5 * at(i, j).P() - 0.5 * at(i - dx, j - dy).P();
+    return 0.5 * (at(i, j).P() + at(i + dx, j + dy).P());
 }
 
 Grid::Flux Grid::across_x(int i, int j) const {
     const Values l = at(i, j), r = at(i + 1, j);
     const Values ln = at(i, j + 1), ls = at(i, j - 1), rn = at(i + 1, j + 1), rs = at(i + 1, j - 1);
     const double u = 0.5 * (l.u + r.u), v = 0.5 * (l.v + r.v), T = 0.5 * (l.T + r.T);
-    const double P = 0.5 * (l.P() + r.P());
+    const double P = pressure(i, j, 0), heat = -eta_ * (r.T - l.T) / d_;
     const double m = 0.5 * (l.rho + r.rho) * u;
     const double u_x = (r.u - l.u) / d_, v_x = (r.v - l.v) / d_;
     const double u_y = (ln.u - ls.u + rn.u - rs.u) / (4.0 * d_);
     const double v_y = (ln.v - ls.v + rn.v - rs.v) / (4.0 * d_);
     const double xx = eta_ * (u_x - v_y), xy = eta_ * (u_y + v_x);  // lambda = -eta
-    return {
-        m, m * u + P - xx, m * v - xy,
-        m * (T + 0.5 * (l.u * r.u + l.v * r.v)) + (P - xx) * u - xy * v - eta_ * (r.T - l.T) / d_};
+    return {m, m * u + P - xx, m * v - xy,
+            m * (T + 0.5 * (l.u * r.u + l.v * r.v)) + (P - xx) * u - xy * v + heat, heat};
 }
 
 Grid::Flux Grid::across_y(int i, int j) const {
     const Values s = at(i, j), n = at(i, j + 1);
     const Values se = at(i + 1, j), sw = at(i - 1, j), ne = at(i + 1, j + 1), nw = at(i - 1, j + 1);
     const double u = 0.5 * (s.u + n.u), v = 0.5 * (s.v + n.v), T = 0.5 * (s.T + n.T);
-    const double P = 0.5 * (s.P() + n.P());
+    const double P = pressure(i, j, 1), heat = -eta_ * (n.T - s.T) / d_;
     const double m = 0.5 * (s.rho + n.rho) * v;
     const double u_y = (n.u - s.u) / d_, v_y = (n.v - s.v) / d_;
     const double u_x = (se.u - sw.u + ne.u - nw.u) / (4.0 * d_);
     const double v_x = (se.v - sw.v + ne.v - nw.v) / (4.0 * d_);
     const double yy = eta_ * (v_y - u_x), xy = eta_ * (u_y + v_x);
-    return {
-        m, m * u - xy, m * v + P - yy,
-        m * (T + 0.5 * (s.u * n.u + s.v * n.v)) + (P - yy) * v - xy * u - eta_ * (n.T - s.T) / d_};
-}
-
-/// Nothing but force and heat. The pressure there follows from those of two cells.
-Grid::Flux Grid::plate(int i, bool upper) const {
-    const int first = upper ? ny_ - 1 : 0, second = upper ? ny_ - 2 : 1;
-    const Values c = at(i, first);
-    const double out = upper ? -2.0 / d_ : 2.0 / d_;  // d/dy of what is 0 at the plate
-    const double P = 1.5 * c.P() - 0.5 * at(i, second).P();
-    const double T = upper ? layer_.cold : layer_.hot;
-    return {0.0, -eta_ * out * c.u, P - eta_ * out * c.v, -eta_ * out * (c.T - T)};
+    return {m, m * u - xy, m * v + P - yy,
+            m * (T + 0.5 * (s.u * n.u + s.v * n.v)) + (P - yy) * v - xy * u + heat, heat};
 }
 
 void Grid::rates(std::span<const double> y, std::span<double> y_dot) {
@@ -117,29 +124,28 @@ void Grid::rates(std::span<const double> y, std::span<double> y_dot) {
     }
     y_dot[4 * n] = y_dot[4 * n + 1] = 0.0;
     const auto add = [&](int i, int j, const Flux& flux, double part) {
-        const auto k = static_cast<std::size_t>(j * nx_ + (i < nx_ ? i : 0));
+        if (box_.periodic(0)) i = (i + nx_) % nx_;
+        if (i < 0 || i >= nx_ || j < 0 || j >= ny_) return;
+        const auto k = static_cast<std::size_t>(j * nx_ + i);
         y_dot[k] += part * flux.mass;
         y_dot[n + k] += part * flux.x;
         y_dot[2 * n + k] += part * flux.y;
         y_dot[3 * n + k] += part * flux.energy;
     };
-    for (int i = 0; i < nx_; ++i) {
-        for (int j = 0; j < ny_; ++j) {
+    for (int j = 0; j < ny_; ++j)
+        for (int i = box_.periodic(0) ? 0 : -1; i < nx_; ++i) {
             const Flux flux = across_x(i, j);
             add(i, j, flux, -1.0 / d_);
             add(i + 1, j, flux, 1.0 / d_);
         }
-        for (int j = 0; j + 1 < ny_; ++j) {
+    for (int i = 0; i < nx_; ++i)
+        for (int j = -1; j < ny_; ++j) {
             const Flux flux = across_y(i, j);
             add(i, j, flux, -1.0 / d_);
             add(i, j + 1, flux, 1.0 / d_);
+            if (j < 0) y_dot[4 * n] += d_ * flux.heat;
+            if (j + 1 == ny_) y_dot[4 * n + 1] -= d_ * flux.heat;
         }
-        const Flux below = plate(i, false), above = plate(i, true);
-        add(i, 0, below, 1.0 / d_);
-        add(i, ny_ - 1, above, -1.0 / d_);
-        y_dot[4 * n] += d_ * below.energy;
-        y_dot[4 * n + 1] -= d_ * above.energy;
-    }
 }
 
 std::vector<double> Grid::field(std::span<const double> y, int which) const {

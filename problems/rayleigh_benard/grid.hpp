@@ -3,6 +3,7 @@
 #pragma once
 
 #include <spam/integrate/integrator.hpp>
+#include <spam/neighbors/box.hpp>
 
 #include <cstddef>
 #include <span>
@@ -10,8 +11,7 @@
 
 namespace rayleigh_benard {
 
-/// The layer as both methods see it: 2 L wide and periodic, L high, between plates at rest of temperature
-/// hot (below) and cold. P = rho T, e = T (k = m = 1, two dimensions); gravity g = (hot - cold)/L keeps the
+/// The layer as both methods see it: 2 L wide, L high, between plates of temperature hot (below) and cold. P = rho T, e = T (k = m = 1, two dimensions); gravity g = (hot - cold)/L keeps the
 /// density of the conducting layer at 1; viscosity without bulk, eta = kappa.
 struct Layer {
     double L = 20.0;
@@ -20,7 +20,8 @@ struct Layer {
     double hot = 1.5, cold = 0.5;
 
     double gravity() const { return (hot - cold) / L; }
-    /// eta = kappa, from Ra = g L^4 (dlnT/dy)/(nu D_T) = L^2/(eta kappa) at the mean temperature, with c_v.
+    /// eta = kappa, from Ra = g L^4 (dlnT/dy)/(nu D_T) at the mean temperature and density, with c_v = 1:
+    /// L^2/(eta kappa) between 1.5 and 0.5.
     double eta() const;
     /// Heat conducted by the layer at rest per time, over its whole width.
     double conducted() const { return eta() * (hot - cold) / L * 2.0 * L; }
@@ -35,8 +36,9 @@ struct Layer {
 /// cells are made of means and central differences: of second order.
 class Grid {
   public:
-    /// `cells` from plate to plate, at least 4.
-    Grid(const Layer& layer, int cells);
+    /// `cells` from plate to plate, at least 4, in the same box as particles are: images beyond its walls
+    /// are the same as theirs.
+    Grid(const Layer& layer, const spam::Box<2>& box, int cells);
 
     std::vector<double> start() const;
     /// dy/dt; NaN where a density is not positive.
@@ -57,21 +59,24 @@ class Grid {
     std::size_t cells() const {
         return static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_);
     }
-    /// Of a cell or, beyond a plate, of its image: rho, u, v, T.
+    /// Of a cell or, beyond a side of the box, of its image: rho, u, v, T.
     struct Values {
         double rho, u, v, T;
         double P() const { return rho * T; }
     };
     Values at(int i, int j) const;
-    /// What passes a face per length and time, in the direction of the axis: mass, momentum, energy.
+    Values image(const Values& cell, int axis, bool upper) const;
+    /// Of the face between two cells. Where one is beyond a wall, from the two before it.
+    double pressure(int i, int j, int axis) const;
+    /// What passes a face per length and time, in the direction of the axis; heat is a part of the energy.
     struct Flux {
-        double mass, x, y, energy;
+        double mass, x, y, energy, heat;
     };
     Flux across_x(int i, int j) const;  ///< between (i, j) and (i + 1, j)
     Flux across_y(int i, int j) const;  ///< between (i, j) and (i, j + 1)
-    Flux plate(int i, bool upper) const;
 
     Layer layer_;
+    spam::Box<2> box_;
     int nx_, ny_;
     double d_, eta_;
     std::vector<Values> values_;

@@ -32,10 +32,17 @@ Fields fields_of(const Convection& gas, std::span<const double> y, const FieldGr
     values.topRows(2) << v, images.velocity;
     const auto T = model.temperature(y);
     for (Eigen::Index i = 0; i < x.cols(); ++i) values(2, i) = T[static_cast<std::size_t>(i)];
+    const Box<2>& box = model.box();
     for (Eigen::Index k = 0; k < images.count(); ++k) {
-        const double plate = images.position(1, k) < 0.0 ? gas.layer.hot : gas.layer.cold;
-        const auto owner = images.owner[static_cast<std::size_t>(k)];
-        values(2, x.cols() + k) = 2.0 * plate - values(2, owner);
+        double& temperature = values(2, x.cols() + k);
+        temperature = values(2, images.owner[static_cast<std::size_t>(k)]);
+        for (int a = 0; a < 2; ++a)
+            for (const bool upper : {false, true}) {
+                const auto& wall = box.wall(a, upper);
+                const double beyond = (upper ? 1.0 : -1.0) * (images.position(a, k) - wall.at);
+                if (!wall.open() && wall.temperature && beyond > 0.0)
+                    temperature = 2.0 * *wall.temperature - temperature;
+            }
     }
     std::vector<double> mass = model.particles().mass;
     for (const auto owner : images.owner) mass.push_back(mass[static_cast<std::size_t>(owner)]);
@@ -134,7 +141,8 @@ void draw(Session& session, const Convection& gas, const RunRecord& run, const G
                 fastest)},
         2));
     const double L = gas.layer.L;
-    const ContourPanel::Colours of_rho{0.7, 1.4, "density"}, of_T{0.5, 1.5, "temperature"};
+    const ContourPanel::Colours of_rho{0.7, 1.4, "density"},
+        of_T{gas.layer.cold, gas.layer.hot, "temperature"};
     session.note_drawn(
         draw_contours(session.plots_folder(), "fields", title,
                       {coloured(nodes, rho, of_rho), coloured(nodes, row(fields.density), of_rho),
@@ -143,6 +151,8 @@ void draw(Session& session, const Convection& gas, const RunRecord& run, const G
 }
 
 void draw_scan(Session& session, const Scan& scan) {
+    const std::string theory =
+        scan.linear_onset ? fmt::format(" (linear theory: Ra = {:g})", *scan.linear_onset) : "";
     CurvePanel rolls{"", "Rayleigh number", "velocity of strong rolls at the end", false, {}};
     rolls.curves = {{.title = "smooth particles", .x = scan.rayleigh, .y = scan.of_particles},
                     {.title = "finite differences", .x = scan.rayleigh, .y = scan.of_grid}};
@@ -153,8 +163,7 @@ void draw_scan(Session& session, const Scan& scan) {
          .x = {scan.rayleigh.front(), scan.rayleigh.back()},
          .y = {0.0, 0.0},
          .style = 3}};
-    session.note_drawn(draw_curves(session.plots_folder(), "onset",
-                                   "Onset of convection (linear theory: Ra = 1707.76)",
+    session.note_drawn(draw_curves(session.plots_folder(), "onset", "Onset of convection" + theory,
                                    {rolls, growth}));
 }
 

@@ -13,7 +13,26 @@ template <int Dim>
 ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       walled_(box.walled()) {
-    if (walled_) add_accounts();
+    if (!walled_) return;
+    refuse_beyond_walls();
+    add_accounts();
+}
+
+template <int Dim>
+void ParticleModel<Dim>::refuse_beyond_walls() const {
+    const Points<Dim>& x = this->particles().reference_position;
+    for (int a = 0; a < Dim; ++a)
+        for (const bool upper : {false, true}) {
+            const Wall<Dim>& wall = this->box().wall(a, upper);
+            if (wall.open()) continue;
+            for (Eigen::Index i = 0; i < x.cols(); ++i)
+                if (upper ? x(a, i) > wall.at : x(a, i) < wall.at)
+                    throw InputError(fmt::format(
+                        "wall: particle {} at {} = {:g} is beyond the {} wall at {:g}; move the body "
+                        "or the wall",
+                        this->particles().id[static_cast<std::size_t>(i)], "xyz"[a], x(a, i),
+                        wall.describe(), wall.at));
+        }
 }
 
 template <int Dim>

@@ -40,6 +40,7 @@ spam_test(problem/own_study problem nlohmann_json::nlohmann_json)
 spam_test(problem/judged problem nlohmann_json::nlohmann_json)
 spam_test(problem/taken_folders problem nlohmann_json::nlohmann_json)
 spam_test(problem/drift_guard unit)
+spam_test(problem/sides unit)
 spam_test(problem/walls property)  # parts of the problem relaxation
 target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxation/region.cpp
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/wall.cpp

@@ -255,6 +255,10 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const Scheme far{.density = Density::continuity, .range = 6.5};
     BOOST_TEST(says(refused([&] { FluidModel<2>(particles, gas, far, mirrors<2>(cells)); }),
                     "images of images without end"));
+    Box<2> narrow;
+    narrow.set_wall(1, true, {WallKind::mirror, 3.0});
+    BOOST_TEST(says(refused([&] { FluidModel<2>(particles, gas, {.range = 2.5}, narrow); }),
+                    "is beyond the mirror wall at 3; move the body or the wall"));
     Scheme balanced{.angular_momentum = AngularMomentum::torque_pair, .range = 2.5};
     BOOST_TEST(says(
         refused([&] {

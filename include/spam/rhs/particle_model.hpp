@@ -19,7 +19,8 @@ class ParticleModel : public Model<Dim> {
     using Externals = std::vector<std::unique_ptr<External<Dim>>>;
 
     /// Without a term nothing moves but by externals. Walls of the box (neighbors/wall.hpp) act by images of
-    /// particles in every term; what they give is booked in the accounts: y then has these.
+    /// particles in every term; what they give is booked in the accounts: y then has these. Throws InputError
+    /// where the reference position of a particle is beyond one.
     explicit ParticleModel(Particles<Dim> particles, const Box<Dim>& box = {});
 
     /// One more term, Law(*this, arguments...). y grows by its fields: add terms and externals before a
@@ -97,6 +98,7 @@ class ParticleModel : public Model<Dim> {
     };
     static constexpr Eigen::Index block = 256;  ///< particles whose rates are changed at a time
 
+    void refuse_beyond_walls() const;
     void take(std::unique_ptr<Term<Dim>> term);
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sides of a box as options say them.
+#include "support/refusal.hpp"
+#include <spam/problem/sides.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace spam;
+using spam::test::refusal;
+using Words = std::vector<std::string>;
+
+namespace {
+
+/// The box of these options between (0, 0) and (4, 3), else periodic along x, between mirrors along y.
+Box<2> box_of(const Words& words) {
+    Options options("test", "a test");
+    const Sides<2> sides(options, {"periodic", "periodic", "mirror", "mirror"});
+    std::vector<const char*> arguments{"test"};
+    for (const auto& word : words) arguments.push_back(word.c_str());
+    options.parse(static_cast<int>(arguments.size()), arguments.data());
+    return sides.box(Point<2>::Zero(), Point<2>(4.0, 3.0));
+}
+
+bool refused(const Words& words, const std::string& what) {
+    const std::string line = refusal([&] { box_of(words); });
+    return line.find(what) != std::string::npos && line.find('\n') == std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(words_make_walls) {
+    const Box<2> box = box_of({"--top", "moving:-0.25@1.5", "--bottom", "no-slip"});
+    BOOST_TEST(box.periodic(0));
+    BOOST_TEST(box.length(0) == 4.0);
+    BOOST_TEST((box.wall(1, false).kind == WallKind::no_slip));
+    BOOST_TEST(!box.wall(1, false).temperature);
+    BOOST_TEST(box.wall(1, true).at == 3.0);
+    BOOST_TEST(box.wall(1, true).velocity == Point<2>(-0.25, 0.0));
+    BOOST_TEST(*box.wall(1, true).temperature == 1.5);
+}
+
+BOOST_AUTO_TEST_CASE(sides_move_along_themselves) {
+    const Box<2> box = box_of({"--left", "moving:0.5", "--right", "open", "--top", "open"});
+    BOOST_TEST(!box.periodic(0));
+    BOOST_TEST(box.wall(0, false).velocity == Point<2>(0.0, 0.5));
+    BOOST_TEST(box.wall(0, true).open());
+    BOOST_TEST(box.wall(1, true).open());
+    BOOST_TEST((box.wall(1, false).kind == WallKind::mirror));
+}
+
+BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
+    BOOST_TEST(refused({"--left", "mirror"}, "right: 'periodic' but --left is not"));
+    BOOST_TEST(refused({"--right", "open"}, "but --right is not"));
+    BOOST_TEST(refused({"--top", "wall"}, "top: 'wall' is none of open, periodic, mirror"));
+    BOOST_TEST(refused({"--top", "mirror@"}, "has '' for a temperature"));
+    BOOST_TEST(refused({"--top", "mirror@0"}, "not above 0"));
+    BOOST_TEST(refused({"--top", "no-slip@-1"}, "not above 0"));
+    BOOST_TEST(refused({"--top", "no-slip@inf"}, "has 'inf' for a temperature"));
+    BOOST_TEST(refused({"--top", "open@1"}, "is no wall"));
+    BOOST_TEST(refused({"--left", "periodic@1"}, "is no wall"));
+    BOOST_TEST(refused({"--bottom", "moving:fast"}, "has 'fast' for a velocity"));
+    BOOST_TEST(refused({"--bottom", "moving"}, "is none of"));
+    Options options("test", "a test");
+    const Sides<1> line(options, {"moving:1", "open"});
+    BOOST_TEST(refusal([&] { line.box(Point<1>(0.0), Point<1>(1.0)); }).find("is none of") !=
+               std::string::npos);
+}
