@@ -102,12 +102,16 @@ double OwnRanges<Dim>::range_of(std::size_t i, double rho) const {
     return scheme_.range * std::cbrt(volume);
 }
 
-/// Half of the shortest periodic length.
+/// Half of the shortest periodic length, or the distance of two walls that face each other.
 template <int Dim>
 double OwnRanges<Dim>::most_range() const {
     double most = std::numeric_limits<double>::infinity();
     for (int a = 0; a < Dim; ++a)
-        if (this->box().periodic(a)) most = std::min(most, 0.5 * this->box().length(a));
+        if (this->box().periodic(a))
+            most = std::min(most, 0.5 * this->box().length(a));
+        else if (const auto& lower = this->box().wall(a, false), &upper = this->box().wall(a, true);
+                 !lower.open() && !upper.open())
+            most = std::min(most, upper.at - lower.at);
     return most;
 }
 
@@ -128,8 +132,10 @@ std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
     }
     reach_ = range_[widest];
     if (reach_ < most_range()) return {};
-    return fmt::format("range {:g} of particle {} has grown to half of the periodic box", reach_,
-                       this->particles().id[widest]);
+    return fmt::format(
+        "range {:g} of particle {} has grown to half of the periodic box or to the distance of two "
+        "walls",
+        reach_, this->particles().id[widest]);
 }
 
 /// A list that reaches as far as the longest range, and some way further as long as ranges grow.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every law of matter x every further term x every choice of scheme, with and without externals: each
-// combination keeps what it promises, or is refused with a reason. No term and no external is forgotten:
-// the headers are looked at.
+// combination keeps what it promises, or is refused with a reason; and all of it between walls of every kind. No
+// term, no external and no kind of wall is forgotten: the headers are looked at.
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/clamp.hpp>
@@ -42,7 +42,9 @@ const double site_density = 2.0 / std::sqrt(3.0);
 
 /// A model on the way, and how its y begins.
 struct Sample {
-    ParticleModel<2> model{make_particles<2>(triangular_block(8, 5), 1.0)};
+    explicit Sample(const Box<2>& box = {})
+        : model(make_particles<2>(triangular_block(8, 5), 1.0), box) {}
+    ParticleModel<2> model;
     std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};
 
     std::vector<double> start() {
@@ -129,6 +131,28 @@ const std::map<std::string, std::function<void(ParticleModel<2>&)>> externals{
              select<2>(m.particles(), [](const Point<2>& x) { return x.x() < 1.2; })));
      }}};
 
+/// Walls of one kind on all sides, outside the body, and further apart than any range.
+const std::map<std::string, Wall<2>> walls{
+    {"mirror", {WallKind::mirror, 0.0, {0, 0}, {}}},
+    {"mirror of a temperature", {WallKind::mirror, 0.0, {0, 0}, 0.3}},
+    {"no_slip", {WallKind::no_slip, 0.0, {0, 0}, {}}},
+    {"no_slip of a temperature", {WallKind::no_slip, 0.0, {0, 0}, 0.3}},
+    {"no_slip that moves", {WallKind::no_slip, 0.0, {0.02, 0.02}, {}}}};
+
+Box<2> walled_by(Wall<2> wall) {
+    const Points<2> x = triangular_block(8, 5);
+    const Point<2> along = wall.velocity;
+    Box<2> box;
+    for (int a = 0; a < 2; ++a)
+        for (const bool upper : {false, true}) {
+            wall.at = upper ? x.row(a).maxCoeff() + 1.5 : x.row(a).minCoeff() - 0.43;
+            wall.velocity = along;
+            wall.velocity[a] = 0.0;
+            box.set_wall(a, upper, wall);
+        }
+    return box;
+}
+
 /// What a combination came to.
 struct Row {
     std::string refused{};
@@ -167,8 +191,8 @@ Row run(Sample& sample) {
 }
 
 Row combine(const Build& law, const std::function<void(Sample&)>& more, const Scheme& scheme,
-            const std::function<void(ParticleModel<2>&)>& external) {
-    Sample sample;
+            const std::function<void(ParticleModel<2>&)>& external, const Box<2>& box = {}) {
+    Sample sample(box);
     try {
         law(sample, scheme);
         more(sample);
@@ -280,6 +304,45 @@ BOOST_AUTO_TEST_CASE(every_law_with_every_further_term_and_every_external) {
                         ++ran;
                     }
     BOOST_TEST(ran == 8 * 5 * 7);
+}
+
+BOOST_AUTO_TEST_CASE(no_kind_of_wall_is_left_out) {
+    std::ifstream in(std::filesystem::path(SPAM_SOURCE) / "include/spam/neighbors/wall.hpp");
+    std::stringstream text;
+    text << in.rdbuf();
+    const std::string source = text.str(), begin = "enum class WallKind {";
+    const auto from = source.find(begin) + begin.size();
+    const std::string kinds = source.substr(from, source.find('}', from) - from);
+    const std::regex name("\\n\\s+(\\w+),");
+    int found = 0;
+    for (std::sregex_iterator it(kinds.begin(), kinds.end(), name), end; it != end; ++it, ++found)
+        BOOST_TEST(((*it)[1] == "open" || walls.contains((*it)[1])), (*it)[1]);
+    BOOST_TEST(found >= 3);
+}
+
+BOOST_AUTO_TEST_CASE(every_kind_of_wall_with_every_law_is_accounted_for_or_refused) {
+    int ran = 0, refused = 0;
+    const auto count = [&](const Row& row) {
+        judge(row);
+        ++(row.refused.empty() ? ran : refused);
+    };
+    const auto gravity = externals.at("Gravity"), nothing = externals.at("");
+    for (const auto& [kind, wall] : walls) {
+        const Box<2> box = walled_by(wall);
+        for (const auto& [law, build] : with_scheme)
+            for_each_scheme([&](const Scheme& scheme) {
+                BOOST_TEST_CONTEXT(kind << ": " << law << ", " << scheme.describe())
+                count(combine(build, further.at(""), scheme, gravity, box));
+            });
+        for (const auto* laws : {&with_scheme, &without_scheme})
+            for (const auto& [law, build] : *laws)
+                for (const auto& [more, add] : further)
+                    BOOST_TEST_CONTEXT(kind << ": " << law << " + " << more)
+        count(combine(build, add, Scheme{}, nothing, box));
+    }
+    BOOST_TEST_MESSAGE(ran << " combinations with walls run, " << refused << " are refused");
+    BOOST_TEST(ran > 200);
+    BOOST_TEST(refused > 200);
 }
 
 /// What the text forbids, by name.
