@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(killed_in_either_run_it_ends_with_the_same_bytes) {
             child.send(stops % 2 == 0 ? SIGKILL : SIGTERM);
         }
         const Outcome outcome = child.finish();
-        if (outcome.signal != SIGKILL && outcome.status != 143) {
+        if (outcome.signal == 0 && outcome.status != 143) {  // SIGTERM ends a set-up at once
             require_ran(outcome);
             break;
         }
