@@ -74,6 +74,7 @@ template <int Dim>
 void SnapshotSeries<Dim>::resume(const std::vector<double>& times) {
     files_.clear();
     for (const double t : times) files_.emplace_back(t, snapshot_name(files_.size()));
+    if (!files_.empty()) write_file_series(folder_, "snapshots", files_);  // none may follow
     std::error_code ignored;
     for (std::size_t k = times.size();
          std::filesystem::remove(folder_ / snapshot_name(k), ignored);)

@@ -76,6 +76,14 @@ Extent extent_of(const std::vector<ConfigurationPanel>& panels) {
     return e;
 }
 
+/// Each sign with its own colours, whatever the range of the other.
+std::string about_zero(const Extent& e) {
+    return fmt::format(
+        "set palette defined ({0:g} '#8c2d04', {1:g} '#e6550d', -1e-9 '#fdae6b', 0 '#9ecae1', {2:g} "
+        "'#2171b5', {3:g} '#08306b')\n",
+        e.low, 0.5 * e.low, 0.5 * e.high, e.high);
+}
+
 std::string particle_block(const ConfigurationPanel& panel) {
     std::string block;
     for (Eigen::Index i = 0; i < panel.position.cols(); ++i)
@@ -96,17 +104,21 @@ std::string outline_block(const Points<2>& outline) {
 
 bool draw_configurations(const RunFolder& folder, std::string_view name, std::string_view title,
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
-                         std::string_view colour_label) {
+                         std::string_view colour_label, ColourScale scale) {
     columns = std::max<std::size_t>(1, std::min(columns, panels.size()));
     const std::size_t rows = (panels.size() + columns - 1) / columns;
-    const Extent e = extent_of(panels);
+    Extent e = extent_of(panels);
+    if (scale == ColourScale::about_zero) {
+        e.low = std::min(e.low, -1e-3 * (e.high - e.low));
+        e.high = std::max(e.high, -1e-3 * e.low);
+    }
     const double frame_width = e.width() + 12.0, frame_height = e.height() + 12.0;
     const double width = frame_width * static_cast<double>(columns) + bar;
     const double height = frame_height * static_cast<double>(rows) + top;
     const double title_room = (e.y[1] - e.y[0]) * title_share / (e.height() - title_share);
 
     std::string data, script = gnuplot::preamble(name, width, height);
-    script += gnuplot::palette;
+    script += scale == ColourScale::about_zero ? about_zero(e) : std::string(gnuplot::palette);
     script += fmt::format(
         "set multiplot title \"{}\" font ',15' offset 0,-0.2\n"
         "set cbrange [{:g}:{:g}]\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -94,11 +95,28 @@ Remade<Dim> remake(const Model<Dim>& model, std::span<const double> y,
     return remade;
 }
 
+template <int Dim>
+std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
+                             const Model<Dim>& next) {
+    if (!std::ranges::equal(model.particles().id, next.particles().id))
+        throw InputError("start: the next model has other particles than the one before");
+    std::vector<double> started(next.layout().size(), 0.0);
+    const ConstState<Dim> from(model.layout(), y);
+    const State<Dim> to(next.layout(), started);
+    for (const auto& block : next.layout().blocks())
+        if (block.field.role() != Role::account && model.layout().has(block.field))
+            to.field(block.field) = from.field(block.field);
+    return started;
+}
+
 template Remade<1> remake(const Model<1>&, std::span<const double>, const Population<1>&,
                           Model<1>&);
 template Remade<2> remake(const Model<2>&, std::span<const double>, const Population<2>&,
                           Model<2>&);
 template Remade<3> remake(const Model<3>&, std::span<const double>, const Population<3>&,
                           Model<3>&);
+template std::vector<double> restated(const Model<1>&, std::span<const double>, const Model<1>&);
+template std::vector<double> restated(const Model<2>&, std::span<const double>, const Model<2>&);
+template std::vector<double> restated(const Model<3>&, std::span<const double>, const Model<3>&);
 
 }  // namespace spam

@@ -69,7 +69,8 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
                              double own, double otherwise) {
         return given ? *given : earlier ? (*earlier).*remembered : own > 0.0 ? own : otherwise;
     };
-    plan.t_end = settled(common.t_end, &PlanMemory::t_end, plan.t_end, plan.t_end);
+    plan.t_end = settled(plan.own_end ? std::nullopt : common.t_end, &PlanMemory::t_end, plan.t_end,
+                         plan.t_end);
     if (!(plan.t_end > 0.0) || !std::isfinite(plan.t_end))
         throw InputError(fmt::format("t-end: {} must be a number above 0", plan.t_end));
     // Times closer than this would not be told apart, or never be reached.
@@ -175,7 +176,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (const auto& one : cases) refuse_unstable(one);
     for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
         // Vectors as long as y show that there is room for them; a dry run does without.
-        const std::size_t numbers = problem_.common_.dry_run ? 1 : one.y0.size();
+        const std::size_t numbers = problem_.common_.dry_run ? 1 : one.model->layout().size();
         const SundialsContext context;
         Vector y(numbers, context);
         std::size_t unused = 0;
@@ -198,7 +199,9 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     std::vector<RunRecord> records;
     for (auto& one : cases) {
         if (!records.empty() && InterruptWatch::received() != 0) break;
+        if (one.start && !records.back().complete) break;
         describe(one);
+        if (one.start) one.y0 = one.start(records.back());
         records.push_back(run_one(one, one.label.empty() ? *folder_ : folder_->inside(one.label)));
         report(records.back());
     }

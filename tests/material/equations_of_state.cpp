@@ -216,3 +216,28 @@ BOOST_AUTO_TEST_CASE(cavitation_limits_tension_not_pressure) {
     BOOST_TEST(worst < accuracy);
     static_assert(!ColdEquationOfState<Cavitating<EmbeddedAtom>>, "its energy is the work done");
 }
+
+BOOST_AUTO_TEST_CASE(cavitating_embedded_atoms_have_an_energy) {
+    for (const double limit : {0.0, 0.01, 0.05, 0.14}) {
+        const CavitatingEmbeddedAtom law({1.2, 1.1}, limit);
+        const Cavitating<EmbeddedAtom> clamped{{1.2, 1.1}, limit};
+        double worst = 0.0;  // P = rho^2 de/d rho, and e without jumps
+        for (double rho = 0.1; rho < 1.6; rho += 0.01) {
+            BOOST_TEST(law.pressure(rho) == clamped.pressure(rho, 0.0));
+            bool at_the_clamp = false;
+            for (const double edge : law.limits())
+                at_the_clamp = at_the_clamp || std::abs(rho - edge) < 0.005;
+            const double slope = derivative([&](double x) { return law.cold_energy(x); }, rho);
+            if (!at_the_clamp)
+                worst = std::max(worst, std::abs(rho * rho * slope - law.pressure(rho)));
+        }
+        BOOST_TEST(worst < accuracy);
+        for (const double edge : law.limits()) {
+            if (edge < 1e-6) continue;  // where no tension is borne there is no lower one
+            BOOST_TEST(std::abs(EmbeddedAtom({1.2, 1.1}).pressure(edge) + limit) < 1e-12);
+            BOOST_TEST(std::abs(law.cold_energy(edge + 1e-9) - law.cold_energy(edge - 1e-9)) <
+                       1e-8);
+        }
+        BOOST_TEST(std::isnan(law.cold_energy(-1.0)));
+    }
+}

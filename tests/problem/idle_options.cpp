@@ -124,6 +124,11 @@ const std::map<std::string, std::string> another_value{
     {"reynolds", "30"},
     {"gamma", "1.6"},
     {"friction", "gradients"},
+    {"width", "9"},
+    {"aspect", "2"},
+    {"cavitation", "0.02"},
+    {"gravity", "0.3"},
+    {"relaxation-time", "6.4"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -171,6 +176,8 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"poiseuille", {}},
     {"shock_tube", {}},
     {"rayleigh_benard", {}},
+    {"water_column", {}},
+    {"water_column", {"--core", "0"}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

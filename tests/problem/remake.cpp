@@ -140,3 +140,23 @@ BOOST_AUTO_TEST_CASE(changes_without_meaning_are_refused) {
     Repopulation<2> mixed(particles);
     BOOST_CHECK_THROW(mixed.merge({8, 9}), InputError);
 }
+
+/// Another box, another external: what moves is the same, and accounts begin anew.
+BOOST_AUTO_TEST_CASE(a_run_starts_where_another_model_ended) {
+    const auto particles = make_particles<2>(triangular_hexagon(3), 1.0);
+    const auto first = model_of(particles, true), second = model_of(particles, false);
+    second->add(std::make_unique<Friction<2>>(0.2, FrictionOf::all_motion));
+    auto y0 = initial_state<2>(*first, 1.1547, 0.43, rigid_rotation(0.05));
+    State<2>(first->layout(), y0).velocity()(0, 3) += 0.1;
+    Motion<2> motion(*first, y0, options_of("rk4"));
+    motion.advance_to(4.0);
+    const auto y = restated<2>(*first, motion.y(), *second);
+    BOOST_TEST(y.size() == second->layout().size());
+    const ConstState<2> from(first->layout(), motion.y()), to(second->layout(), y);
+    for (const Field field : {Field::position, Field::velocity, Field::density, Field::stress})
+        BOOST_TEST((from.field(field) == to.field(field)));
+    BOOST_TEST(from.field(Field::work)(0, 0) != 0.0);
+    BOOST_TEST(to.field(Field::work)(0, 0) == 0.0);
+    const auto other = model_of(make_particles<2>(triangular_hexagon(2), 1.0), true);
+    BOOST_CHECK_THROW(restated<2>(*first, motion.y(), *other), InputError);
+}

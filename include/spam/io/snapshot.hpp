@@ -28,7 +28,8 @@ class SnapshotSeries {
         : folder_(folder),
           model_(model) {}
 
-    /// Goes on after earlier ones at these times; removes what an earlier run left after them.
+    /// Goes on after earlier ones at these times; removes what an earlier run left after them. Throws
+    /// OutputError.
     void resume(const std::vector<double>& times);
     /// Names of the files so far.
     std::vector<std::string> names() const;

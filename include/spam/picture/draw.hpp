@@ -84,10 +84,16 @@ struct ConfigurationPanel {
     std::vector<Points<2>> outlines;  ///< closed polygons
 };
 
+enum class ColourScale {
+    dark_to_light,
+    about_zero  ///< negative values in warm colours, positive ones in cold colours
+};
+
 /// `columns` frames in a row, all with the same scale and the same colour range.
 bool draw_configurations(const RunFolder& folder, std::string_view name, std::string_view title,
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
-                         std::string_view colour_label);
+                         std::string_view colour_label,
+                         ColourScale scale = ColourScale::dark_to_light);
 
 /// One frame of a row: a field on a grid, or particles where it has no values.
 struct ContourPanel {

@@ -7,6 +7,7 @@
 #include <spam/problem/observer.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 namespace spam {
@@ -20,6 +21,8 @@ struct Plan {
     double output_every = 0.0;
     double snapshot_every = 0.0;
     double checkpoint_every = 0.0;
+    /// t_end stays what it is: --t-end is meant for other cases of the session.
+    bool own_end = false;
     std::vector<Observer<Dim>> observers{};
     /// Checked after every row. Off unless the session's options say otherwise.
     DriftLimits guard{};
@@ -33,22 +36,6 @@ struct Plan {
     }
 };
 
-/// One run to do: a model, where it starts, and a name for its folder when there are several. The model
-/// is shared with whoever looks at it afterwards.
-template <int Dim>
-struct Case {
-    std::shared_ptr<Model<Dim>> model;
-    std::vector<double> y0;
-    Plan<Dim> plan;
-    std::string label{};
-};
-
-/// A model that somebody else keeps until the run has ended, for a Case.
-template <int Dim>
-std::shared_ptr<Model<Dim>> kept_elsewhere(Model<Dim>& model) {
-    return {std::shared_ptr<void>{}, &model};
-}
-
 /// What a run left behind.
 struct RunRecord {
     std::string label;
@@ -59,5 +46,25 @@ struct RunRecord {
     std::vector<double> y;                           ///< the last accepted state
     bool complete = false;                           ///< reached t_end, or enough
 };
+
+/// One run to do: a model, where it starts, and a name for its folder when there are several. The model
+/// is shared with whoever looks at it afterwards.
+template <int Dim>
+struct Case {
+    std::shared_ptr<Model<Dim>> model;
+    std::vector<double> y0;
+    Plan<Dim> plan;
+    std::string label{};
+    /// y0 where it follows from how the case before ended; y0 is then empty, and the case is begun only
+    /// where the one before is complete. Asked again when a run is gone on with: the same record must give
+    /// the same y0.
+    std::function<std::vector<double>(const RunRecord& before)> start{};
+};
+
+/// A model that somebody else keeps until the run has ended, for a Case.
+template <int Dim>
+std::shared_ptr<Model<Dim>> kept_elsewhere(Model<Dim>& model) {
+    return {std::shared_ptr<void>{}, &model};
+}
 
 }  // namespace spam

@@ -29,11 +29,24 @@ template <int Dim>
 Remade<Dim> remake(const Model<Dim>& model, std::span<const double> y,
                    const Population<Dim>& population, Model<Dim>& next);
 
+/// `y` of `model` as the start of a run of its own of `next`, which has the same particles in another
+/// box, with other laws or other externals: the fields that both have, accounts and other fields at zero.
+/// Throws InputError where the particles are others. Scales of the layout are those of `next`.
+template <int Dim>
+std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
+                             const Model<Dim>& next);
+
 extern template Remade<1> remake(const Model<1>&, std::span<const double>, const Population<1>&,
                                  Model<1>&);
 extern template Remade<2> remake(const Model<2>&, std::span<const double>, const Population<2>&,
                                  Model<2>&);
 extern template Remade<3> remake(const Model<3>&, std::span<const double>, const Population<3>&,
                                  Model<3>&);
+extern template std::vector<double> restated(const Model<1>&, std::span<const double>,
+                                             const Model<1>&);
+extern template std::vector<double> restated(const Model<2>&, std::span<const double>,
+                                             const Model<2>&);
+extern template std::vector<double> restated(const Model<3>&, std::span<const double>,
+                                             const Model<3>&);
 
 }  // namespace spam

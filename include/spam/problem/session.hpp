@@ -51,7 +51,8 @@ class Session {
     RunRecord run(Model<Dim>& model, std::vector<double> y0, Plan<Dim> plan);
 
     /// Runs several, each in a folder of its own named by its label. A case stopped by a guard is
-    /// recorded and the next one begins; after a signal no further case is begun.
+    /// recorded and the next one begins, unless it starts from that one (Case::start); then, and after a
+    /// signal, no further case is begun and fewer records come back. Precondition: the first case has a y0.
     template <int Dim>
     std::vector<RunRecord> run_all(std::vector<Case<Dim>> cases);
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A column of water at rest and on its way, as a user runs it: what is known of it and what is refused.
+#include "problem/found.hpp"
+
+#include <cmath>
+
+using namespace spam::test;
+
+BOOST_AUTO_TEST_CASE(the_column_of_the_lecture) {
+    const Results found("water_column", {}, "front_at_80");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("profile_error") < 0.006);
+    BOOST_TEST(std::abs(found.value.at("front_at_40") - 33.6) < 1.0);
+    BOOST_TEST(std::abs(found.value.at("front_at_80") - 57.2) < 2.5);
+    BOOST_TEST(found.value.at("leading_percent_at_80") < found.value.at("front_at_80"));
+}
+
+BOOST_AUTO_TEST_CASE(a_dam_of_water_is_as_fast_in_the_end) {
+    const Results found("water_column", {"--aspect", "2"}, "difference_from_water");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(std::abs(found.value.at("difference_from_water")) < 0.06);
+    const Results stiff("water_column", {"--aspect", "2", "--gravity", "0.1"},
+                        "difference_from_water");
+    BOOST_TEST(stiff.claims == 0U);
+    BOOST_TEST(stiff.value.at("largest_difference_from_water") < 0.12);
+    BOOST_TEST(found.value.at("largest_difference_from_water") >
+               stiff.value.at("largest_difference_from_water"));
+}
+
+// What other fluids do is claimed nowhere, and what they conserve everywhere.
+BOOST_AUTO_TEST_CASE(a_limited_tension_keeps_the_energy) {
+    const Results found("water_column", {"--cavitation", "0.02"}, "front_at_80");
+    BOOST_TEST(found.claims == 0U);
+    BOOST_TEST(found.value.at("relaxation_energy_drift") < 1e-4);
+    BOOST_TEST(found.value.at("collapse_energy_drift") < 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(columns_without_meaning_are_refused) {
+    struct Bad {
+        Words arguments, says;
+    };
+    const std::vector<Bad> all{
+        {{"--width", "4", "--range", "5"}, {"width: 4", "range 5", "larger --width"}},
+        {{"--width", "2"}, {"width", "2", "between 4 and 400"}},
+        {{"--width", "16.5"}, {"width", "16.5"}},
+        {{"--aspect", "0.15"}, {"aspect", "2.4", "range 3", "larger --aspect"}},
+        {{"--aspect", "-2"}, {"aspect", "-2"}},
+        {{"--gravity", "0"}, {"gravity", "0", "between 0.01 and 2"}},
+        {{"--range", "1"}, {"range: 1", "above the particle spacing"}},
+        {{"--relaxation-time", "0"}, {"relaxation-time", "0", "above 0"}},
+        {{"--damping", "-0.1"}, {"damping", "-0.1"}},
+        {{"--damping", "1000"}, {"dt", "damping", "smaller --dt"}},
+        {{"--cavitation", "0.2"}, {"cavitation", "0.2", "0.148"}},
+        {{"--surface-tension", "-1"}, {"surface-tension", "-1"}},
+        {{"--kernel", "w2"}, {"kernel", "continuous derivatives"}},
+        {{"--core", "0", "--core-range", "0.8"}, {"core-range", "without a core"}},
+        {{"--core-range", "0.001"}, {"core-range", "hundredth"}},
+        {{"--core-range", "3.5"}, {"core-range", "3.5", "range 3"}},
+        {{"--output-every", "1e-300"}, {"output-every"}},
+    };
+    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, "water_column", bad.arguments);
+            BOOST_TEST(outcome.status == 2);
+            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+            for (const auto& word : bad.says)
+                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
+            BOOST_TEST(folder.listing().empty());
+        }
+}
