@@ -45,6 +45,7 @@ const std::map<std::string, Words> runs{
     {"shock_tube", {"--cells", "200", "--t-end", "0.1", "--single", "--checkpoint-every", "0.007"}},
     {"string_phase", {"--t-end", "50", "--checkpoint-every", "7"}},
     {"tensile_instability", {"--cells", "12", "--t-end", "150", "--checkpoint-every", "9"}},
+    {"water_column", {"--width", "8", "--t-end", "20", "--checkpoint-every", "3.3"}},
 };
 /// Analyses, and studies that go on from their table.
 const std::set<std::string> without_checkpoints{"algorithm_sweep", "integrator_accuracy",
