@@ -42,8 +42,13 @@ const double site_density = 2.0 / std::sqrt(3.0);
 
 /// A model on the way, and how its y begins.
 struct Sample {
-    ParticleModel<2> model{make_particles<2>(triangular_block(8, 5), 1.0)};
+    ParticleModel<2> model;
     std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};
+
+    explicit Sample(const Box<2>* box)
+        : model(box == nullptr ? make_particles<2>(triangular_block(8, 5), 1.0)
+                               : make_particles<2>(triangular_block(8, 6), 1.0, 1.0, *box),
+                box == nullptr ? Box<2>{} : *box) {}
 
     std::vector<double> start() {
         const Points<2>& x = model.particles().reference_position;
@@ -166,9 +171,10 @@ Row run(Sample& sample) {
     return row;
 }
 
+/// In open space, or where a box is given filling that.
 Row combine(const Build& law, const std::function<void(Sample&)>& more, const Scheme& scheme,
-            const std::function<void(ParticleModel<2>&)>& external) {
-    Sample sample;
+            const std::function<void(ParticleModel<2>&)>& external, const Box<2>* box = nullptr) {
+    Sample sample(box);
     try {
         law(sample, scheme);
         more(sample);
@@ -196,7 +202,8 @@ void judge(const Row& row) {
 template <class F>
 void for_each_scheme(const F& f) {
     for (const auto density : {Density::continuity, Density::summed, Density::chain_rule})
-        for (const auto transport : {Transport::plain, Transport::average, Transport::monaghan})
+        for (const auto transport :
+             {Transport::plain, Transport::average, Transport::monaghan, Transport::shifting})
             for (const auto angular_momentum :
                  {AngularMomentum::free, AngularMomentum::gauss, AngularMomentum::torque_particle,
                   AngularMomentum::torque_pair})
@@ -280,6 +287,33 @@ BOOST_AUTO_TEST_CASE(every_law_with_every_further_term_and_every_external) {
                         ++ran;
                     }
     BOOST_TEST(ran == 8 * 5 * 7);
+}
+
+/// Shifting is refused above, in open space. Here fluids fill a periodic box.
+BOOST_AUTO_TEST_CASE(shifted_fluids_with_every_external) {
+    Fluid rubbing{EmbeddedAtom{1.0, site_density}, NewtonViscosity{0.1, 0.3}};
+    const Fluid smooth = rubbing, cold{rubbing.state};
+    rubbing.by_pairs = true;
+    const Box<2> box = triangular_box(8, 6);
+    int ran = 0, refused = 0;
+    for (const Fluid& fluid : {cold, smooth, rubbing})
+        for (const auto& [external, act] : externals)
+            for_each_scheme([&](const Scheme& scheme) {
+                if (scheme.transport != Transport::shifting) return;
+                BOOST_TEST_CONTEXT(fluid.describe()
+                                   << " + " << external << ", " << scheme.describe()) {
+                    const Build full = [&](Sample& s, const Scheme& given) {
+                        add_fluid(s, fluid, given);
+                    };
+                    const Row row = combine(full, further.at(""), scheme, act, &box);
+                    judge(row);
+                    BOOST_TEST(!row.turns);
+                    ++(row.refused.empty() ? ran : refused);
+                }
+            });
+    // Continuity or summed, with artificial viscosity where friction is not by pairs.
+    BOOST_TEST(ran == 7 * 2 * (2 + 2 + 1));
+    BOOST_TEST(refused == 7 * 3 * 3 * 4 * 2 * 2 - ran);
 }
 
 /// What the text forbids, by name.
