@@ -41,8 +41,8 @@ struct ForceSweeps {
     }
     static Sweep<Dim> conducting(const Scheme& scheme) {
         if (scheme.transport == Transport::shifting)
-            return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, ShiftingTransport<Dim, Mean>,
-                             StressForce<Dim>, HeatFlow<Dim>, Continuity>;
+            return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>,
+                             Continuity, ShiftingTransport<Dim, Mean>>;
         return by_transport(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, decltype(transport),
                              decltype(force), HeatFlow<Dim>, Continuity>;
@@ -58,8 +58,8 @@ struct ForceSweeps {
 
     /// Without friction and conduction their coefficients are 0.
     static constexpr Sweep<Dim> shifted =
-        run_sweep<Kind, W, Dim, ShiftedRecord<Dim>, ShiftingTransport<Dim, Mean>,
-                  PressureForce<Dim>, Continuity, PairFriction<Dim>, PairConduction>;
+        run_sweep<Kind, W, Dim, ShiftedRecord<Dim>, PressureForce<Dim>, Continuity,
+                  ShiftingTransport<Dim, Mean>, PairFriction<Dim>, PairConduction>;
 
   private:
     template <class Make>

@@ -18,7 +18,7 @@ enum class Mutation {
     none,
     uphill,       ///< to where particles crowd
     own_density,  ///< m_j/rho_i in place of m_j/rho_ij
-    flat_images   ///< images behind walls that do not see the particles' own
+    no_images     ///< nothing behind the walls across y
 };
 
 template <int Dim>
@@ -65,54 +65,49 @@ inline std::vector<double> images(const Box<2>& box, int a, double x) {
     return {x, 2.0 * box.wall(a, false).at - x, 2.0 * box.wall(a, true).at - x};
 }
 
+/// f(i, j, x_j - x_i) for every particle i and every image of every particle j, itself included.
+template <class F>
+void for_each_image(const Box<2>& box, const Points<2>& x, const F& f) {
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        for (Eigen::Index j = 0; j < x.cols(); ++j)
+            for (const double across : images(box, 0, x(0, j)))
+                for (const double up : images(box, 1, x(1, j)))
+                    f(i, j, Point<2>(Point<2>(across, up) - x.col(i)));
+}
+
 /// u - v of every particle by sums over all of them and all images.
 inline Points<2> brute_force(const FluidModel<2>& model, const ConstState<2>& state,
                              Mutation mutation = Mutation::none) {
     const Scheme& scheme = model.scheme();
     const auto weight = weight_function<2>(to_string(scheme.kernel), scheme.range);
     const auto& mass = model.particles().mass;
-    const auto each_image = [&](const Points<2>& x, Eigen::Index i, const auto& f) {
-        for (Eigen::Index j = 0; j < x.cols(); ++j)
-            for (const double across : images(model.box(), 0, x(0, j)))
-                for (const double up : images(model.box(), 1, x(1, j))) {
-                    const bool behind = up != x(1, j) && !model.box().periodic(1);
-                    if (mutation == Mutation::flat_images && behind) continue;
-                    f(j, Point<2>(Point<2>(across, up) - x.col(i)));
-                }
-    };
     // Density at rest, in the mean over the reference configuration.
     const Points<2>& X = model.particles().reference_position;
+    const auto m = [&](Eigen::Index i) { return mass[static_cast<std::size_t>(i)]; };
     double rest = 0.0;
-    for (Eigen::Index i = 0; i < X.cols(); ++i)
-        for (Eigen::Index j = 0; j < X.cols(); ++j)
-            for (const double across : images(model.box(), 0, X(0, j)))
-                for (const double up : images(model.box(), 1, X(1, j)))
-                    rest += mass[static_cast<std::size_t>(j)] *
-                            weight.value((Point<2>(across, up) - X.col(i)).norm()) /
-                            static_cast<double>(X.cols());
+    for_each_image(model.box(), X, [&](Eigen::Index, Eigen::Index j, const Point<2>& r) {
+        rest += m(j) * weight.value(r.norm()) / static_cast<double>(X.cols());
+    });
     const double D = scheme.shifting * model.fluid().state.sound_speed(rest, 0.0) * scheme.range;
     const Points<2> x = state.position();
-    std::vector<double> rho(mass.size(), 0.0);
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        if (state.has(Field::density))
-            rho[k] = state.density()(0, i);
-        else
-            each_image(x, i, [&](Eigen::Index j, const Point<2>& r) {
-                rho[k] += mass[static_cast<std::size_t>(j)] * weight.value(r.norm());
-            });
-    }
-    Points<2> u = Points<2>::Zero(2, x.cols());
-    for (Eigen::Index i = 0; i < x.cols(); ++i)
-        each_image(x, i, [&](Eigen::Index j, const Point<2>& r) {
-            const double a = rho[static_cast<std::size_t>(i)], b = rho[static_cast<std::size_t>(j)];
-            double mean = scheme.mean_density == MeanDensityKind::arithmetic ? 0.5 * (a + b)
-                                                                             : std::sqrt(a * b);
-            if (mutation == Mutation::own_density) mean = a;
-            const double sign = mutation == Mutation::uphill ? 1.0 : -1.0;
-            u.col(i) += sign * D * mass[static_cast<std::size_t>(j)] / mean *
-                        weight.minus_slope_over_r(r.norm()) * r;
+    Eigen::RowVectorXd rho = Eigen::RowVectorXd::Zero(x.cols());
+    if (state.has(Field::density))
+        rho = state.density();
+    else
+        for_each_image(model.box(), x, [&](Eigen::Index i, Eigen::Index j, const Point<2>& r) {
+            rho[i] += m(j) * weight.value(r.norm());
         });
+    Points<2> u = Points<2>::Zero(2, x.cols());
+    for_each_image(model.box(), x, [&](Eigen::Index i, Eigen::Index j, const Point<2>& r) {
+        const bool behind = !model.box().periodic(1) && r[1] != x(1, j) - x(1, i);
+        if (mutation == Mutation::no_images && behind) return;
+        double mean = scheme.mean_density == MeanDensityKind::arithmetic
+                          ? 0.5 * (rho[i] + rho[j])
+                          : std::sqrt(rho[i] * rho[j]);
+        if (mutation == Mutation::own_density) mean = rho[i];
+        const double sign = mutation == Mutation::uphill ? 1.0 : -1.0;
+        u.col(i) += sign * D * m(j) / mean * weight.minus_slope_over_r(r.norm()) * r;
+    });
     return u;
 }
 
