@@ -124,6 +124,7 @@ const std::map<std::string, std::string> another_value{
     {"reynolds", "30"},
     {"gamma", "1.6"},
     {"friction", "gradients"},
+    {"shifting", "0.7"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -169,6 +170,10 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"relaxation", {}},
     {"couette", {}},
     {"poiseuille", {}},
+    {"taylor_green", {}},
+    {"taylor_green", {"--disorder", "0.1"}},
+    {"taylor_green", {"--transport", "plain"}},
+    {"cavity", {"--density", "continuity"}},
     {"shock_tube", {}},
 };
 

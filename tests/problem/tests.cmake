@@ -25,6 +25,7 @@ spam_test(problem/lattice_sums property)  # a part of the problem kernels
 target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
 spam_problem_test(problem/flows nlohmann_json::nlohmann_json)
+spam_problem_test(problem/stirred_flows nlohmann_json::nlohmann_json)
 spam_problem_test(problem/expansion nlohmann_json::nlohmann_json)
 spam_problem_test(problem/sweep nlohmann_json::nlohmann_json)
 spam_problem_test(problem/guarded_runs nlohmann_json::nlohmann_json)
