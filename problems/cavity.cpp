@@ -6,8 +6,8 @@
 //
 //      ============= -> U       All four sides are no-slip walls: images of the particles behind them move with
 //     |  ->  ->  ->  |          2 V - v. One vortex fills the square, its centre near the lid. Particles are
-//     |  ^   o   |   |          stirred for ten turns and more: those that move with v alone lose their
-//     |  |       v   |          order, shifting (physics/shifting.hpp) keeps it.
+//     |  ^   o   |   |          stirred for ten turns and more; shifting (physics/shifting.hpp) keeps their
+//     |  |       v   |          order. With v alone and the continuity equation the run does not survive.
 //     |  <-  <-  <-  |
 //      ==============           at rest
 #include "cavity/centre_line.hpp"
@@ -104,14 +104,13 @@ void draw_profiles(Session& session, const Parameters& p, const std::vector<Flow
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const auto u = flows[k].line->mean();
         const auto& heights = flows[k].line->heights();
-        panel.curves.push_back({.title = fmt::format("{0} x {0} particles", flows[k].L),
+        panel.curves.push_back({.title = fmt::format("{0} x {0}", flows[k].L),
                                 .x = {u.begin() + even, u.end()},
                                 .y = {heights.begin() + even, heights.end()},
                                 .style = static_cast<int>(k) + 2});
     }
     if (p.reynolds == 100.0) {
-        Curve points{
-            .title = "Ghia, Ghia and Shin", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
+        Curve points{.title = "Ghia et al.", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
         for (const auto& [y, u] : ghia()) points.x.push_back(u), points.y.push_back(y);
         panel.curves.push_back(points);
     }

@@ -57,9 +57,9 @@ Observer<2> CentreLine::observer(bool known) {
         ++rows_;
     };
     if (known)
-        observer.columns.push_back({"off_ghia_now", [this](const Model<2>&, std::span<const double>) {
-                                        return off_ghia(latest_);
-                                    }});
+        observer.columns.push_back(
+            {"off_ghia_now",
+             [this](const Model<2>&, std::span<const double>) { return off_ghia(latest_); }});
     observer.memory = [this](Archive& archive) { archive(sum_, rows_); };
     return observer;
 }

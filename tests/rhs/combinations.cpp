@@ -297,15 +297,15 @@ BOOST_AUTO_TEST_CASE(shifted_fluids_with_every_external) {
     const Box<2> box = triangular_box(8, 6);
     int ran = 0, refused = 0;
     for (const Fluid& fluid : {cold, smooth, rubbing})
-        for (const auto& [external, act] : externals)
+        for (const auto& external : externals)
             for_each_scheme([&](const Scheme& scheme) {
                 if (scheme.transport != Transport::shifting) return;
                 BOOST_TEST_CONTEXT(fluid.describe()
-                                   << " + " << external << ", " << scheme.describe()) {
+                                   << " + " << external.first << ", " << scheme.describe()) {
                     const Build full = [&](Sample& s, const Scheme& given) {
                         add_fluid(s, fluid, given);
                     };
-                    const Row row = combine(full, further.at(""), scheme, act, &box);
+                    const Row row = combine(full, further.at(""), scheme, external.second, &box);
                     judge(row);
                     BOOST_TEST(!row.turns);
                     ++(row.refused.empty() ? ran : refused);
