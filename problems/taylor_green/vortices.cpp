@@ -66,7 +66,7 @@ void draw_curves_of(Session& session, const Parameters& p, const std::vector<Flo
                     const std::vector<RunRecord>& runs) {
     const ExactFlow& exact = flows.front().exact;
     CurvePanel energy{"", "t U/L", "kinetic energy by that at the start", true, {}},
-        error{"", "t U/L", "velocity error (L_1)", false, {}};
+        error{"", "t U/L", "velocity error", false, {}};
     Curve right{.title = "exact", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
     for (int k = 0; k <= 20; ++k) {
         const double t = 0.05 * k * runs.front().statistics.t_end;
