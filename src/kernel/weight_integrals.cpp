@@ -34,6 +34,19 @@ double mean_wave(double kr) {
     return std::sph_bessel(1U, kr);
 }
 
+/// The largest of factor(k) times integral of (-w'(r)/r) x sin kx.
+template <int Dim, class Factor>
+double largest_wave(const AnyWeight<Dim>& weight, const Factor& factor) {
+    const double h = weight.range();
+    double largest = 0.0;
+    for (double kh = 0.25; kh < 16.0; kh += 0.25)
+        largest = std::max(largest, factor(kh / h) * over_space<Dim>(h, [&](double r) {
+                                        return r * weight.minus_slope_over_r(r) *
+                                               mean_wave<Dim>(kh / h * r);
+                                    }));
+    return largest;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,13 +56,12 @@ double mean_square(const AnyWeight<Dim>& weight) {
 
 template <int Dim>
 double steepest_wave(const AnyWeight<Dim>& weight) {
-    const double h = weight.range();
-    double largest = 0.0;
-    for (double kh = 0.25; kh < 16.0; kh += 0.25)
-        largest = std::max(largest, over_space<Dim>(h, [&](double r) {
-                               return r * weight.minus_slope_over_r(r) * mean_wave<Dim>(kh / h * r);
-                           }));
-    return largest;
+    return largest_wave(weight, [](double) { return 1.0; });
+}
+
+template <int Dim>
+double fastest_diffusion(const AnyWeight<Dim>& weight) {
+    return largest_wave(weight, [](double k) { return k; });
 }
 
 template double mean_square(const AnyWeight<1>&);
@@ -58,5 +70,8 @@ template double mean_square(const AnyWeight<3>&);
 template double steepest_wave(const AnyWeight<1>&);
 template double steepest_wave(const AnyWeight<2>&);
 template double steepest_wave(const AnyWeight<3>&);
+template double fastest_diffusion(const AnyWeight<1>&);
+template double fastest_diffusion(const AnyWeight<2>&);
+template double fastest_diffusion(const AnyWeight<3>&);
 
 }  // namespace spam

@@ -27,6 +27,28 @@ void Scheme::validate(int dim) const {
     if (!(viscosity >= 0.0) || !std::isfinite(viscosity))
         throw InputError(fmt::format(
             "viscosity: {} must be 0 (none) or a positive number; try --viscosity 1", viscosity));
+    if (transport == Transport::shifting) validate_shifting();
+}
+
+/// Shifting is for fluids that fill their box: there nobody keeps an angular momentum.
+void Scheme::validate_shifting() const {
+    if (!(shifting > 0.0) || !std::isfinite(shifting))
+        throw InputError(fmt::format(
+            "shifting: {} must be a positive number; try --shifting 1, or --transport plain for none",
+            shifting));
+    if (density == Density::chain_rule)
+        throw InputError(
+            "density: chain_rule is the rate of the summed density, which shifting needs no detour to; "
+            "use --density continuity or summed");
+    if (angular_momentum != AngularMomentum::free)
+        throw InputError(fmt::format(
+            "angular-momentum: {} is for bodies in open space, and shifting for fluids that "
+            "fill their box; use --angular-momentum free",
+            to_string(angular_momentum)));
+    if (closest_approach > 0.0)
+        throw InputError(
+            "closest-approach: shifting parts particles by itself, and moves on those that are "
+            "reflected; leave --closest-approach out");
 }
 
 void Scheme::validate_distances(double spacing) const {
@@ -51,7 +73,8 @@ Promises Scheme::promises(int dim) const {
 }
 
 std::string Scheme::describe() const {
-    std::string more;
+    std::string more, strength;
+    if (transport == Transport::shifting) strength = fmt::format(" of strength {}", shifting);
     if (balance == Balance::global) more += " over all bodies";
     if (angular_momentum == AngularMomentum::gauss && gauss_singular == GaussSingular::stop)
         more += " until it is singular";
@@ -59,8 +82,8 @@ std::string Scheme::describe() const {
     if (closest_approach > 0.0)
         more += fmt::format(", approaching pairs reflected at {}", closest_approach);
     return fmt::format(
-        "density {}, transport {}, {} mean density, angular momentum {}{}, {} weight of range {}",
-        to_string(density), to_string(transport), to_string(mean_density),
+        "density {}, transport {}{}, {} mean density, angular momentum {}{}, {} weight of range {}",
+        to_string(density), to_string(transport), strength, to_string(mean_density),
         to_string(angular_momentum), more, to_string(kernel), range);
 }
 
@@ -83,9 +106,11 @@ std::string_view to_string(Transport t) {
         case Transport::average:
             return "average";
         case Transport::monaghan:
+            return "monaghan";
+        case Transport::shifting:
             break;
     }
-    return "monaghan";
+    return "shifting";
 }
 
 std::string_view to_string(MeanDensityKind m) {

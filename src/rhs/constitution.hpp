@@ -105,7 +105,7 @@ class FluidConstitution final : public Constitution<Dim> {
   private:
     void find_pressures(std::span<const double> rho, std::span<const double> e);
     std::string complaint(std::span<const double> rho, std::span<const double> e) const;
-    void fill(std::span<const double> rho, MeanDensityKind mean,
+    void fill(std::span<const double> rho, const PassConstants& constants,
               PackedParticles<Dim>& packed) const;
     void close_gradients(const SweptBlock& block, std::span<const double> rho);
     void load_fluxes(PackedParticles<Dim>& packed) const;

@@ -21,10 +21,13 @@ bool has_pairs(const Fluid& fluid) { return fluid.diffuses() && fluid.by_pairs; 
 void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
     const Fluid& first = fluids.front();
     if (!has_pairs(first) && std::none_of(fluids.begin(), fluids.end(), has_pairs)) return;
-    if (scheme.transport != Transport::plain || scheme.viscosity > 0.0 || scheme.balances_torques())
+    const bool own =
+        scheme.transport == Transport::plain || scheme.transport == Transport::shifting;
+    if (!own || scheme.viscosity > 0.0 || scheme.balances_torques())
         throw InputError(
-            "friction: that of pairs is for particles that move with their own velocity, without "
-            "artificial viscosity and balanced torques; leave these out, or take friction by gradients");
+            "friction: that of pairs is for particles that move with their own velocity or are shifted, "
+            "without artificial viscosity and balanced torques; leave these out, or take friction by "
+            "gradients");
     if (fluids.size() > 1)
         throw InputError(
             "friction: that of pairs is for one fluid, and several are given; take friction by gradients");
@@ -33,6 +36,13 @@ void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
             "friction: that of pairs needs -eta <= lambda <= eta, and eta = {:g}, lambda = {:g}; "
             "choose another bulk viscosity",
             first.viscosity->eta, first.viscosity->lambda));
+}
+
+void check_shifting(const std::vector<Fluid>& fluids, const Scheme& scheme) {
+    if (scheme.transport == Transport::shifting && fluids.size() > 1)
+        throw InputError(
+            "transport: shifting would mix fluids, and several are given; use --transport plain, or "
+            "one fluid");
 }
 
 void check_fluid(const Fluid& fluid, int dim) {
@@ -76,18 +86,22 @@ FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,
 
 template <int Dim>
 void FluidConstitution<Dim>::check(const Scheme& scheme) const {
-    if (scheme.density == Density::summed && scheme.transport != Transport::plain)
+    if (scheme.density == Density::summed && scheme.transport != Transport::plain &&
+        scheme.transport != Transport::shifting)
         throw InputError(
             "density: a fluid whose density is summed gains energy without limit where its "
             "particles move with an averaged velocity, because densities then change at another "
             "rate than work is done; use --density continuity, or --transport plain");
     for (const Fluid& fluid : fluids_) check_fluid(fluid, Dim);
     check_pairs(fluids_, scheme);
+    check_shifting(fluids_, scheme);
 }
 
 /// What neither friction and conduction nor the scheme ask for is left out.
 template <int Dim>
 Matter FluidConstitution<Dim>::matter(const Scheme& scheme) const {
+    if (scheme.transport == Transport::shifting)
+        return gradients_ || scheme.viscosity > 0.0 ? Matter::conducting : Matter::shifted;
     if (std::any_of(fluids_.begin(), fluids_.end(), has_pairs)) return Matter::rubbing;
     const bool plain = scheme.transport == Transport::plain && scheme.viscosity == 0.0 &&
                        (scheme.angular_momentum == AngularMomentum::free ||
@@ -103,14 +117,16 @@ std::string FluidConstitution<Dim>::describe() const {
     return words;
 }
 
-/// Pressures act along r_ij, viscous stresses do not; <v> moves particles without regard to where they are.
+/// Pressures act along r_ij, viscous stresses do not; <v> moves particles without regard to where they are,
+/// shifting without regard to where they go.
 template <int Dim>
 bool FluidConstitution<Dim>::central(const Scheme& scheme) const {
     const bool stresses = std::any_of(fluids_.begin(), fluids_.end(), [](const Fluid& fluid) {
         const auto& newton = fluid.viscosity;
         return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
     });
-    return !stresses && scheme.transport != Transport::average;
+    return !stresses && scheme.transport != Transport::average &&
+           scheme.transport != Transport::shifting;
 }
 
 template <int Dim>
@@ -128,7 +144,7 @@ std::string FluidConstitution<Dim>::prepare(const Now& now, std::span<const doub
     rho_ = rho, e_ = e;
     find_pressures(rho, e);
     if (auto reason = complaint(rho, e); !reason.empty()) return reason;
-    fill(rho, in.constants.mean_density, packed);
+    fill(rho, in.constants, packed);
     if (!gradients_) return {};
     fluxes_.resize(packed.list().order().size());
     struct Context {
@@ -182,11 +198,14 @@ std::string FluidConstitution<Dim>::complaint(std::span<const double> rho,
 
 /// What the next sweep reads beyond x, v and m.
 template <int Dim>
-void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind mean,
+void FluidConstitution<Dim>::fill(std::span<const double> rho, const PassConstants& constants,
                                   PackedParticles<Dim>& packed) const {
     using R = ConductingRecord<Dim>;
     const auto order = packed.list().order();
-    const bool rubbing = packed.numbers() == RubbingRecord<Dim>::numbers;
+    const MeanDensityKind mean = constants.mean_density;
+    const bool shifted =
+        constants.shifting > 0.0 && !gradients_ && packed.numbers() == ShiftedRecord<Dim>::numbers;
+    const bool rubbing = shifted || packed.numbers() == RubbingRecord<Dim>::numbers;
     const bool tensors = !rubbing && packed.numbers() != InviscidRecord<Dim>::numbers;
     parallel_for(order.size(), [&](std::size_t slot) {
         const std::size_t i = order[slot];
@@ -197,6 +216,9 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind m
             if (!rubbing) return;
             record[RubbingRecord<Dim>::template at<column::InverseDensity>] = 1.0 / rho[i];
             record[RubbingRecord<Dim>::template at<column::Temperature>] = temperature_[i];
+            if (shifted)
+                record[ShiftedRecord<Dim>::template at<column::Density>] =
+                    EitherMean::number(mean, rho[i]);
             return;
         }
         record[R::template at<column::Density>] = EitherMean::number(mean, rho[i]);
@@ -210,7 +232,7 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, MeanDensityKind m
     if (tensors)
         packed.template refresh<R>(R::template at<column::Density>);
     else
-        packed.template refresh<RubbingRecord<Dim>>(
+        packed.template refresh<ShiftedRecord<Dim>>(
             InviscidRecord<Dim>::template at<column::Pressure>);
 }
 

@@ -45,9 +45,11 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
     if (scheme.density == Density::summed)
         sweeps.density = run_sweep<GeneralSweep, W, Dim, MotionRecord<Dim>, DensitySum>;
     using Forces = ForceSweeps<GeneralSweep, Dim, EitherMean>;
-    if (matter == Matter::inviscid || matter == Matter::rubbing) {
+    if (matter == Matter::inviscid || matter == Matter::rubbing || matter == Matter::shifted) {
         sweeps.pack = pack<Dim, InviscidRecord<Dim>>;
-        sweeps.force = matter == Matter::inviscid ? Forces::inviscid : Forces::rubbing;
+        sweeps.force = matter == Matter::inviscid  ? Forces::inviscid
+                       : matter == Matter::rubbing ? Forces::rubbing
+                                                   : Forces::shifted;
     } else {
         // A fluid's stress comes later.
         using Densities = typename MotionRecord<Dim>::template And<column::Density>;
@@ -61,6 +63,7 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
                       VelocityGradient<Dim, EitherMean>, TemperatureGradient<Dim, EitherMean>>;
     const int first = matter == Matter::inviscid     ? InviscidRecord<Dim>::numbers
                       : matter == Matter::rubbing    ? RubbingRecord<Dim>::numbers
+                      : matter == Matter::shifted    ? ShiftedRecord<Dim>::numbers
                       : matter == Matter::conducting ? ConductingRecord<Dim>::numbers
                                                      : Record<Dim>::numbers;
     const int later =

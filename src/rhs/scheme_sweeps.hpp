@@ -10,6 +10,7 @@
 #include <spam/physics/mean_density.hpp>
 #include <spam/physics/pair_friction.hpp>
 #include <spam/physics/pressure_force.hpp>
+#include <spam/physics/shifting.hpp>
 #include <spam/physics/torque_balance.hpp>
 #include <spam/physics/transport.hpp>
 #include <spam/physics/velocity_gradient.hpp>
@@ -39,6 +40,9 @@ struct ForceSweeps {
         });
     }
     static Sweep<Dim> conducting(const Scheme& scheme) {
+        if (scheme.transport == Transport::shifting)
+            return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>,
+                             Continuity, ShiftingTransport<Dim, Mean>>;
         return by_transport(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, decltype(transport),
                              decltype(force), HeatFlow<Dim>, Continuity>;
@@ -52,6 +56,11 @@ struct ForceSweeps {
         run_sweep<Kind, W, Dim, RubbingRecord<Dim>, PlainTransport<Dim>, PressureForce<Dim>,
                   Continuity, PairFriction<Dim>, PairConduction>;
 
+    /// Without friction and conduction their coefficients are 0.
+    static constexpr Sweep<Dim> shifted =
+        run_sweep<Kind, W, Dim, ShiftedRecord<Dim>, PressureForce<Dim>, Continuity,
+                  ShiftingTransport<Dim, Mean>, PairFriction<Dim>, PairConduction>;
+
   private:
     template <class Make>
     static Sweep<Dim> by_transport(const Scheme& scheme, const Make& make) {
@@ -61,6 +70,7 @@ struct ForceSweeps {
             case Transport::average:
                 return by_force(scheme, make, AverageTransport<Dim>{});
             case Transport::monaghan:
+            case Transport::shifting:  // of fluids: above
                 break;
         }
         return by_force(scheme, make, MonaghanTransport<Dim, Mean>{});

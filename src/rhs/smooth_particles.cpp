@@ -3,9 +3,11 @@
 #include "constitution.hpp"
 #include "gauss_forces.hpp"
 #include "resting_body.hpp"
+#include "shifting_coefficient.hpp"
 #include "torque_factors.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
@@ -76,7 +78,7 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
         if (sweeps_->gradient != nullptr) heat_.resize(n);
     }
     tell_walls_apart();
-    estimate_viscosity();
+    estimate_damping();
     set_bodies();
 }
 
@@ -105,22 +107,27 @@ Groups SmoothParticles<Dim>::groups() const {
 /// each other, v_ij = 2 v_i, lose their velocity at the rate (2/D) (alpha c l/rho) sum m |w'|/r in the
 /// mean over directions, by half of the pairs: those that approach.
 template <int Dim>
-void SmoothParticles<Dim>::estimate_viscosity() {
+void SmoothParticles<Dim>::estimate_damping() {
     const GeneralWeight<Dim> general(scheme_.kernel, scheme_.range);
     const Matter matter = constitution_->matter(scheme_);
     const bool friction = matter == Matter::rubbing || sweeps_->gradient != nullptr;
-    if (!(scheme_.viscosity > 0.0) && !friction) return;
+    const bool shifted = scheme_.transport == Transport::shifting;
+    if (!(scheme_.viscosity > 0.0) && !friction && !shifted) return;
     const RestingBody rest = resting_body(this->particles(), this->box(), general);
-    viscous_damping_ = constitution_->damping(general, rest);
-    if (!(scheme_.viscosity > 0.0)) return;
+    damping_ = constitution_->damping(general, rest);
     const auto c = constitution_->sound_speed(rest.density);
+    if (shifted) {
+        shifting_ = shifting_coefficient(this->among(), scheme_, rest.density, c);
+        damping_ += shifting_ * fastest_diffusion<Dim>(general);
+    }
+    if (!(scheme_.viscosity > 0.0)) return;
     if (!c)
         throw InputError(fmt::format(
             "viscosity: {} needs a sound speed, and the material ({}) has none; give it a "
             "sound_speed(density), or leave --viscosity out",
             scheme_.viscosity, constitution_->describe()));
     const double length = 0.5 * scheme_.range;
-    viscous_damping_ += scheme_.viscosity * *c * length / Dim * rest.slope / rest.density;
+    damping_ += scheme_.viscosity * *c * length / Dim * rest.slope / rest.density;
     viscosity_ = {scheme_.viscosity, *c, length};
 }
 
@@ -132,6 +139,7 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
     SweepInput<Dim> in = packed_->input();
     in.constants.mean_density = scheme_.mean_density;
     in.constants.viscosity = viscosity_;
+    in.constants.shifting = shifting_;
     constitution_->set_constants(in.constants);
     const std::span<const double> rho =
         sweeps_->density != nullptr
@@ -324,10 +332,6 @@ std::vector<Event> SmoothParticles<Dim>::events() const {
         this->layout(), this->among().first())};
 }
 
-template <int Dim>
-double SmoothParticles<Dim>::fastest_damping() const {
-    return viscous_damping_;
-}
 template <int Dim>
 std::size_t SmoothParticles<Dim>::pairs() const {
     return packed_->list().pairs();

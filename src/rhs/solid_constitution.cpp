@@ -20,7 +20,12 @@ class SolidConstitution final : public Constitution<Dim> {
     }
 
     std::size_t materials() const override { return materials_.size(); }
-    void check(const Scheme&) const override {}
+    void check(const Scheme& scheme) const override {
+        if (scheme.transport == Transport::shifting)
+            throw InputError(
+                "transport: shifting would leave the stress of a solid, which remembers where its "
+                "particle has been, at wrong places; use --transport plain, average or monaghan");
+    }
     Matter matter(const Scheme&) const override { return Matter::solid; }
     bool central(const Scheme&) const override { return false; }
 

@@ -15,6 +15,7 @@ enum class Matter {
     solid,       ///< from the stress in y; the velocity gradients of the force sweep give its rate
     inviscid,    ///< a pressure, known before any sweep; particles move with their own velocity
     rubbing,     ///< the same, with friction and conduction of pairs
+    shifted,     ///< the same or without them, by particles that are shifted
     conducting,  ///< pressure, friction and conduction, from a sweep of gradients
 };
 

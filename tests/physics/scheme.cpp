@@ -23,6 +23,30 @@ BOOST_AUTO_TEST_CASE(combinations_without_meaning_are_refused) {
         (Scheme{.density = Density::chain_rule, .transport = Transport::average}.validate(3)));
 }
 
+BOOST_AUTO_TEST_CASE(shifting_goes_with_few_others) {
+    const Scheme shifted{.transport = Transport::shifting};
+    BOOST_CHECK_NO_THROW(shifted.validate(1));
+    BOOST_CHECK_NO_THROW(shifted.validate(3));
+    for (const double strength : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+        Scheme scheme = shifted;
+        scheme.shifting = strength;
+        BOOST_CHECK_THROW(scheme.validate(2), InputError);
+        scheme.transport = Transport::plain;  // it is not read
+        BOOST_CHECK_NO_THROW(scheme.validate(2));
+    }
+    Scheme scheme = shifted;
+    scheme.density = Density::chain_rule;
+    BOOST_CHECK_THROW(scheme.validate(2), InputError);
+    scheme = shifted;
+    scheme.angular_momentum = AngularMomentum::torque_pair;
+    BOOST_CHECK_THROW(scheme.validate(2), InputError);
+    scheme = shifted;
+    scheme.closest_approach = 0.7;
+    BOOST_CHECK_THROW(scheme.validate(2), InputError);
+    BOOST_TEST((shifted.promises(2).angular_momentum == Promise::not_kept));
+    BOOST_TEST((shifted.describe().find("shifting of strength 1,") != std::string::npos));
+}
+
 BOOST_AUTO_TEST_CASE(promises_follow_the_scheme) {
     const Scheme free{}, balanced{.angular_momentum = AngularMomentum::torque_pair};
     BOOST_TEST((free.promises(2).angular_momentum == Promise::not_kept));

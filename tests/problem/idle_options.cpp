@@ -129,6 +129,7 @@ const std::map<std::string, std::string> another_value{
     {"cavitation", "0.02"},
     {"gravity", "0.3"},
     {"relaxation-time", "6.4"},
+    {"shifting", "0.7"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -174,6 +175,10 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"relaxation", {}},
     {"couette", {}},
     {"poiseuille", {}},
+    {"taylor_green", {}},
+    {"taylor_green", {"--disorder", "0.1"}},
+    {"taylor_green", {"--transport", "plain"}},
+    {"cavity", {"--density", "continuity"}},
     {"shock_tube", {}},
     {"rayleigh_benard", {}},
     {"water_column", {}},

@@ -23,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 /// A second or less each; no interval of checkpoints divides the end.
 const std::map<std::string, Words> runs{
+    {"cavity", {"--cells", "12", "--t-end", "120", "--checkpoint-every", "17"}},
     {"couette", {"--cells", "16", "--t-end", "120", "--checkpoint-every", "17"}},
     {"counter_rotating", {"--size", "4", "--turns", "0.5", "--checkpoint-every", "9"}},
     {"diffusion_waves", {"--cells", "16", "--t-end", "20", "--checkpoint-every", "3"}},
@@ -44,6 +45,7 @@ const std::map<std::string, Words> runs{
     {"sheared_square", {"--cells", "12", "--checkpoint-every", "7"}},
     {"shock_tube", {"--cells", "200", "--t-end", "0.1", "--single", "--checkpoint-every", "0.007"}},
     {"string_phase", {"--t-end", "50", "--checkpoint-every", "7"}},
+    {"taylor_green", {"--cells", "14", "--t-end", "120", "--checkpoint-every", "17"}},
     {"tensile_instability", {"--cells", "12", "--t-end", "150", "--checkpoint-every", "9"}},
     {"water_column", {"--width", "8", "--t-end", "20", "--checkpoint-every", "3.3"}},
 };

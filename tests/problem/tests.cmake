@@ -26,6 +26,7 @@ target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DI
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
 spam_problem_test(problem/flows nlohmann_json::nlohmann_json)
 spam_problem_test(problem/water_column nlohmann_json::nlohmann_json)
+spam_problem_test(problem/stirred_flows nlohmann_json::nlohmann_json)
 spam_problem_test(problem/expansion nlohmann_json::nlohmann_json)
 spam_problem_test(problem/sweep nlohmann_json::nlohmann_json)
 spam_problem_test(problem/guarded_runs nlohmann_json::nlohmann_json)

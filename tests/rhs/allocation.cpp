@@ -4,6 +4,7 @@
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/embedded_atom.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
@@ -68,6 +69,16 @@ BOOST_AUTO_TEST_CASE(the_second_right_hand_side_allocates_nothing) {
     for (const Scheme& scheme : all_schemes<2>()) {
         BOOST_TEST(allocations_of_second_call(8, scheme, 1) == 0, scheme.describe());
         BOOST_TEST(allocations_of_second_call(40, scheme, 2) == 0, scheme.describe());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(nor_does_that_of_a_shifted_fluid) {
+    for (const int threads : {1, 2}) {
+        const Box<2> box({40.0, 40.0});
+        FluidModel<2> model(make_particles<2>(square_lattice<2>({40, 40}), 1.0, 1.0, box),
+                            Fluid{EmbeddedAtom{}, NewtonViscosity{0.1, 0.3}, {}, true},
+                            {.transport = Transport::shifting}, box);
+        BOOST_TEST(allocations_of_second_call(model, threads) == 0);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "support/random_state.hpp"
 #include <spam/core/sums.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/own_ranges.hpp>
@@ -151,6 +152,15 @@ BOOST_AUTO_TEST_CASE(fluids) {
                     };
                     BOOST_TEST(narrow_against_wide<2>(plane) < 2e-14, scheme.describe());
                 }
+    for (const bool by_pairs : {false, true}) {
+        Fluid cold{EmbeddedAtom{}, NewtonViscosity{0.1, 0.3}};
+        cold.by_pairs = by_pairs;
+        const Scheme scheme{.transport = Transport::shifting, .range = 2.7};
+        const Build<2> shifted = [&](Particles<2> particles, const Box<2>& box) {
+            return std::make_unique<FluidModel<2>>(std::move(particles), cold, scheme, box);
+        };
+        BOOST_TEST(narrow_against_wide<2>(shifted) < 2e-14, scheme.describe());
+    }
     const Scheme summed{.density = Density::summed, .range = 2.7};
     const Build<1> line = [&](Particles<1> particles, const Box<1>& box) {
         return std::make_unique<FluidModel<1>>(std::move(particles), water, summed, box);

@@ -7,6 +7,7 @@
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/problem/motion.hpp>
@@ -172,6 +173,16 @@ BOOST_AUTO_TEST_CASE(mirrors_are_half_of_a_symmetric_whole) {
                     BOOST_TEST(against_symmetric_whole<2>(flow) < 1e-13, scheme.describe());
                 }
             }
+    for (const auto density : {Density::continuity, Density::summed})
+        for (const bool by_pairs : {false, true}) {
+            Fluid cold{EmbeddedAtom{}, NewtonViscosity{0.1, 0.3}};
+            cold.by_pairs = by_pairs;
+            const Scheme scheme{.density = density, .transport = Transport::shifting, .range = 2.7};
+            const Build<2> shifted = [&](Particles<2> particles, const Box<2>& box) {
+                return std::make_unique<FluidModel<2>>(std::move(particles), cold, scheme, box);
+            };
+            BOOST_TEST(against_symmetric_whole<2>(shifted) < 1e-13, scheme.describe());
+        }
     const DensityPotentials everything = every_potential();
     const Build<2> of_density = [&](Particles<2> particles, const Box<2>& box) {
         return std::make_unique<DensityPotentialModel<2>>(std::move(particles), everything, box);

@@ -15,11 +15,19 @@ double mean_square(const AnyWeight<Dim>& weight);
 template <int Dim>
 double steepest_wave(const AnyWeight<Dim>& weight);
 
+/// The fastest rate at which diffusion by such sums with the coefficient 1 smooths a wave, in the continuum:
+/// the maximum over k of k integral of (-w'(r)/r) x sin kx = k^2 W(k), W the transform of w.
+template <int Dim>
+double fastest_diffusion(const AnyWeight<Dim>& weight);
+
 extern template double mean_square(const AnyWeight<1>&);
 extern template double mean_square(const AnyWeight<2>&);
 extern template double mean_square(const AnyWeight<3>&);
 extern template double steepest_wave(const AnyWeight<1>&);
 extern template double steepest_wave(const AnyWeight<2>&);
 extern template double steepest_wave(const AnyWeight<3>&);
+extern template double fastest_diffusion(const AnyWeight<1>&);
+extern template double fastest_diffusion(const AnyWeight<2>&);
+extern template double fastest_diffusion(const AnyWeight<3>&);
 
 }  // namespace spam

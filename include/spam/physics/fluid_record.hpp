@@ -44,4 +44,8 @@ template <int Dim, class T = double>
 using RubbingRecord =
     typename InviscidRecord<Dim, T>::template And<column::InverseDensity, column::Temperature>;
 
+/// The same for particles that are shifted.
+template <int Dim, class T = double>
+using ShiftedRecord = typename RubbingRecord<Dim, T>::template And<column::Density>;
+
 }  // namespace spam

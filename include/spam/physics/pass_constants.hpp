@@ -18,6 +18,7 @@ struct ViscosityConstants {
 struct PassConstants {
     MeanDensityKind mean_density = MeanDensityKind::arithmetic;
     ViscosityConstants viscosity{};
+    double shifting = 0.0;         ///< D of shifting.hpp; 0 without
     double inverse_density = 1.0;  ///< of a total-Lagrangian solid: 1/rho_0
     double penalty = 0.0;          ///< its penalty times its stiffness, kappa lambda
     /// Of friction and conduction by pairs: eta, lambda and kappa.

@@ -9,7 +9,7 @@
 namespace spam {
 
 enum class Density { continuity, summed, chain_rule };
-enum class Transport { plain, average, monaghan };
+enum class Transport { plain, average, monaghan, shifting };
 enum class MeanDensityKind { arithmetic, geometric };
 enum class AngularMomentum { free, gauss, torque_particle, torque_pair };
 enum class Balance { body, global };      ///< what keeps an angular momentum of its own
@@ -39,7 +39,9 @@ struct Scheme {
     AngularMomentum angular_momentum = AngularMomentum::free;
     Balance balance = Balance::body;
     GaussSingular gauss_singular = GaussSingular::skip;
-    double viscosity = 0.0;         ///< von Neumann's artificial viscosity: alpha; 0 without
+    double viscosity = 0.0;  ///< von Neumann's artificial viscosity: alpha; 0 without
+    /// Of Transport::shifting: its coefficient by sound speed at rest times range (physics/shifting.hpp).
+    double shifting = 1.0;
     double closest_approach = 0.0;  ///< distance at which approaching pairs are reflected; 0: none
     Kernel kernel = Kernel::lucy;
     double range = 3.0;
@@ -47,6 +49,9 @@ struct Scheme {
     /// Throws InputError naming the combination, the reason and the fix if it makes no sense in
     /// `dim` dimensions.
     void validate(int dim) const;
+
+    /// What validate() says of Transport::shifting.
+    void validate_shifting() const;
 
     /// The same for particles of this spacing: pairs cannot be reflected there or beyond.
     void validate_distances(double spacing) const;

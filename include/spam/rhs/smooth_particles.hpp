@@ -42,7 +42,8 @@ class SmoothParticles final : public Term<Dim> {
     /// spacing or beyond, a periodic box is narrower than a fifth of the range, a particle's material is not
     /// there, a solid's law tells no sound speed and the scheme has viscosity, a fluid has conduction
     /// without temperature or negative coefficients (eta, bulk viscosity, kappa), or its density is summed
-    /// while its particles move with an averaged velocity.
+    /// while its particles move with an averaged velocity; where particles are shifted, of a solid, of several
+    /// fluids, of one without a sound speed at rest, and in a box that is open somewhere or not full.
     SmoothParticles(const Selection<Dim>& among, std::vector<Material<Dim>> solids,
                     const Scheme& scheme);
     SmoothParticles(const Selection<Dim>& among, std::vector<Fluid> fluids, const Scheme& scheme);
@@ -81,7 +82,7 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<Event> events() const override;
     Promises promises() const override;
     std::string describe() const override;
-    double fastest_damping() const override;
+    double fastest_damping() const override { return damping_; }
     /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
     /// sets in and out.
     bool smooth() const override {
@@ -122,7 +123,7 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<double> summed_density(const PackedFields& fields) const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     void load_transport(const Now& now);
-    void estimate_viscosity();
+    void estimate_damping();
     Groups groups() const;
 
     std::unique_ptr<Constitution<Dim>> constitution_;
@@ -130,7 +131,8 @@ class SmoothParticles final : public Term<Dim> {
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
     ViscosityConstants viscosity_;
-    double viscous_damping_ = 0.0;
+    double damping_ = 0.0;   ///< friction's and that of shifting
+    double shifting_ = 0.0;  ///< its coefficient D
     std::vector<double> summed_density_;
     std::vector<double> heat_;         ///< by conduction, where work is found after it
     std::vector<std::int32_t> group_;  ///< per particle, what keeps its angular momentum

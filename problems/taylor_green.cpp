@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: four vortices that decay in a periodic square: particles that keep their order; 20 s
+//
+// Taylor and Green's vortices (1937), exact at all times for a fluid that is not compressed.
+//
+//     +-----------------+      u = -U e^(-8 pi^2 nu t/L^2) cos(2 pi x/L) sin(2 pi y/L)
+//     |  ->  ->  <-  <- |      v =  U e^(-8 pi^2 nu t/L^2) sin(2 pi x/L) cos(2 pi y/L)
+//     |   o   o   o   o |
+//     |  <-  <-  ->  -> |      Particles that move with v are drawn out into strings where the flow parts,
+//     |   o   o   o   o |      and lose their order, their forces the meaning. Shifting (physics/
+//     |  ->  ->  <-  <- |      shifting.hpp) lets them find places between each other.
+//     +-----------------+
+#include "taylor_green/vortices.hpp"
+
+#include <fmt/format.h>
+
+using namespace spam;
+using namespace taylor_green;
+
+namespace {
+
+Plan<2> plan_of(const Session& session, Flow& flow) {
+    Plan<2> plan;
+    plan.t_end =
+        session.common().t_end.value_or((session.common().smoke ? 0.02 : 1.0) * flow.exact.turn());
+    plan.snapshot_every = plan.t_end / 20.0;
+    plan.observe(compare_with_exact(flow.exact));
+    for (const double part : {0.0, 0.2, 1.0}) flow.drawn.push_back({part * plan.t_end});
+    plan.observe(keep_nearest(flow.drawn));
+    return plan;
+}
+
+/// Of e^(-rate t U/L), from the root of the kinetic energy at the end.
+double decay_rate(const Flow& flow, const RunRecord& run) {
+    const double t = run.history.last("t") / flow.exact.turn();
+    return t > 0.0 ? -std::log(run.history.last("decay") / run.history.first("decay")) / t : 0.0;
+}
+
+void report(Session& session, const Parameters& p, const Flow& flow, const RunRecord& run) {
+    const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
+    const double exact = 8.0 * std::numbers::pi * std::numbers::pi / p.reynolds;
+    const bool known = session.when_default(stirred::decisive_options()) && run.complete &&
+                       session.when_default({"disorder"}) && flow.label != "plain" &&
+                       flow.exact.L >= 50.0 && run.statistics.t_end >= 0.99 * flow.exact.turn();
+    const std::string source = "Taylor and Green 1937";
+    session.claim({prefix + "decay_rate", decay_rate(flow, run), exact, 0.03 * exact, source},
+                  known);
+    session.claim({prefix + "velocity_error_half",
+                   run.history.at(0.5 * flow.exact.turn(), "velocity_error"), 0.0, 0.05, source},
+                  known);
+    session.claim(
+        {prefix + "velocity_error", run.history.last("velocity_error"), 0.0, 0.05, source}, known);
+    session.measure(prefix + "largest_velocity_error", run.history.largest("velocity_error"));
+    session.check_promises(run, prefix);
+}
+
+std::vector<Flow> flows_of(const Parameters& p) {
+    if (p.compare) {
+        std::vector<Flow> flows;
+        for (const int cells : {p.cells / 2, p.cells, 2 * p.cells})
+            flows.push_back(make_flow(p, cells, fmt::format("{}", cells)));
+        return flows;
+    }
+    std::vector<Flow> flows;
+    flows.push_back(make_flow(p, p.cells, ""));
+    if (!p.shifted()) return flows;
+    Parameters plain = p;
+    plain.scheme.transport = Transport::plain;
+    flows.push_back(make_flow(plain, p.cells, "plain"));
+    flows.front().label = "shifting";
+    return flows;
+}
+
+void run(Session& session, const Parameters& p) {
+    std::vector<Flow> flows = flows_of(p);
+    // Disorder goes away fast at first.
+    session.prefer_step((p.disorder > 0.0 ? 0.25 : 1.0) *
+                        stirred::step_of(p, flows.front().exact.nu));
+    std::vector<Case<2>> cases;
+    for (auto& flow : flows)
+        cases.push_back({flow.model, flow.y0, plan_of(session, flow), flow.label});
+    const auto runs = session.run_all(std::move(cases));
+    for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
+    for (std::size_t k = 1; p.compare && k < runs.size(); ++k) {
+        const auto error = [&](std::size_t n) { return runs[n].history.last("velocity_error"); };
+        session.measure(fmt::format("order_{}_to_{}", flows[k - 1].label, flows[k].label),
+                        std::log2(error(k - 1) / error(k)), "of the velocity error at the end");
+    }
+    if (session.plots() && !runs.empty()) draw(session, p, flows, runs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("taylor_green",
+                    "four vortices decay in a periodic square, against the exact solution");
+    Parameters p;
+    auto& options = problem.options();
+    stirred::add_options(options, p, "largest speed at the start");
+    options.number("disorder", p.disorder,
+                   "particles start off the square lattice by up to so many spacings",
+                   between(0.0, 0.4));
+    options.integer("seed", p.seed, "seed of the random displacements", between(0, 1000000000));
+    options.only_when(
+        {"seed"}, {"disorder"}, [&p] { return p.disorder > 0.0; },
+        "has no meaning with {by}; it needs a disorder above 0");
+    return problem.main(argc, argv, [&](Session& session) {
+        if (session.common().smoke && !session.given("cells")) p.cells = 16;
+        run(session, p);
+    });
+}

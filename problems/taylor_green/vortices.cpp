@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vortices.hpp"
+
+#include <spam/picture/draw.hpp>
+
+#include <fmt/format.h>
+
+namespace taylor_green {
+
+Point<2> ExactFlow::velocity(const Point<2>& x, double t) const {
+    const double k = wave(), now = U * left(t);
+    return {-now * std::cos(k * x[0]) * std::sin(k * x[1]),
+            now * std::sin(k * x[0]) * std::cos(k * x[1])};
+}
+
+double ExactFlow::pressure(const Point<2>& x, double t) const {
+    const double k = wave(), now = U * left(t);
+    return -0.25 * now * now * (std::cos(2.0 * k * x[0]) + std::cos(2.0 * k * x[1]));
+}
+
+Flow make_flow(const Parameters& p, int cells, const std::string& label) {
+    const double L = cells;
+    const Box<2> box({L, L});
+    auto model = stirred::make_model(p, cells, box, p.disorder, static_cast<std::uint64_t>(p.seed));
+    Flow flow{{L, p.viscosity(cells), p.speed}, nullptr, {}, label};
+    flow.transport = to_string(p.scheme.transport);
+    flow.title = p.compare ? fmt::format("{0} x {0}", cells) : flow.transport;
+    const Points<2>& x = model->particles().reference_position;
+    Points<2> v(2, x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i) v.col(i) = flow.exact.velocity(x.col(i), 0.0);
+    // Moved particles carry the mean momentum of where they happen to be: they start without.
+    v.colwise() -= Point<2>(v.rowwise().mean());
+    flow.y0 = model->state(x, v);
+    stirred::set_pressure(*model, flow.y0,
+                          [&](const Point<2>& at) { return flow.exact.pressure(at, 0.0); });
+    model->layout().set_scale(Field::velocity, p.speed);
+    flow.model = std::move(model);
+    return flow;
+}
+
+Observer<2> compare_with_exact(const ExactFlow& exact) {
+    const auto now = std::make_shared<double>(0.0);
+    const auto error = [exact, now](const Model<2>& model, std::span<const double> y) {
+        const ConstState<2> state(model.layout(), y);
+        double off = 0.0, size = 0.0;
+        for (Eigen::Index i = 0; i < state.position().cols(); ++i) {
+            const Point<2> v = exact.velocity(state.position().col(i), *now);
+            off += (state.velocity().col(i) - v).norm();
+            size += v.norm();
+        }
+        return off / size;
+    };
+    // sum v^2 of the exact flow over its square, at mass one.
+    const double start = exact.U * exact.L / std::numbers::sqrt2;
+    const auto decay = [start](const Model<2>& model, std::span<const double> y) {
+        return ConstState<2>(model.layout(), y).velocity().norm() / start;
+    };
+    return {.columns = {{"velocity_error", error}, {"decay", decay}},
+            .on_row = [now](double t, const auto&, auto) { *now = t; }};
+}
+
+namespace {
+
+/// Points: exact. Lines: each flow.
+void draw_curves_of(Session& session, const Parameters& p, const std::vector<Flow>& flows,
+                    const std::vector<RunRecord>& runs) {
+    const ExactFlow& exact = flows.front().exact;
+    CurvePanel energy{"", "t U/L", "kinetic energy by that at the start", true, {}},
+        error{"", "t U/L", "velocity error", false, {}};
+    Curve right{.title = "exact", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
+    for (int k = 0; k <= 20; ++k) {
+        const double t = 0.05 * k * runs.front().statistics.t_end;
+        right.x.push_back(t / exact.turn());
+        right.y.push_back(exact.left(t) * exact.left(t));
+    }
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const auto t = runs[k].history.column("t"), decay = runs[k].history.column("decay");
+        const auto off = runs[k].history.column("velocity_error");
+        const auto style = static_cast<int>(k) + 2;
+        Curve of_energy{.title = flows[k].title, .x = {}, .y = {}, .style = style};
+        Curve of_error = of_energy;
+        for (std::size_t row = 0; row < t.size(); ++row) {
+            const double when = t[row] / flows[k].exact.turn();
+            of_energy.x.push_back(when), of_error.x.push_back(when);
+            of_energy.y.push_back(decay[row] * decay[row]), of_error.y.push_back(off[row]);
+        }
+        energy.curves.push_back(of_energy);
+        error.curves.push_back(of_error);
+    }
+    energy.curves.push_back(right);  // on top
+    session.note_drawn(draw_curves(session.plots_folder(), "decay",
+                                   fmt::format("Taylor-Green vortices, Re = {:g}", p.reynolds),
+                                   {energy, error}));
+}
+
+}  // namespace
+
+void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
+          const std::vector<RunRecord>& runs) {
+    draw_curves_of(session, p, flows, runs);
+    std::vector<ConfigurationPanel> panels;
+    if (p.compare) return;
+    for (const Flow& flow : flows)
+        for (NearestState<2> state : flow.drawn)
+            if (state.there()) {
+                state.position = flow.model->box().wrapped(state.position);
+                panels.push_back(speed_panel(
+                    fmt::format("{}, t = {:.2f} L/U", flow.transport, state.t / flow.exact.turn()),
+                    *flow.model, state));
+                panels.back().outlines.clear();
+            }
+    if (panels.empty()) return;
+    session.note_drawn(
+        draw_configurations(session.plots_folder(), "configurations",
+                            fmt::format("Taylor-Green vortices, {} particles, Re = {:g}",
+                                        flows.front().model->particles().size(), p.reynolds),
+                            panels, flows.front().drawn.size(), "speed"));
+}
+
+}  // namespace taylor_green

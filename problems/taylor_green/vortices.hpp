@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "stirred_fluid.hpp"
+#include <spam/problem/nearest_state.hpp>
+
+namespace taylor_green {
+
+using namespace spam;
+
+struct Parameters : stirred::Parameters {
+    double disorder = 0.0;  // particles moved from the lattice by up to so many spacings
+    int seed = 1;
+};
+
+/// Four vortices in a periodic square of side L, an exact solution for a fluid that is not compressed.
+struct ExactFlow {
+    double L, nu, U;
+
+    double wave() const { return 2.0 * std::numbers::pi / L; }
+    /// What is left of velocities after this time.
+    double left(double t) const { return std::exp(-2.0 * nu * wave() * wave() * t); }
+    Point<2> velocity(const Point<2>& x, double t) const;
+    /// Of density one.
+    double pressure(const Point<2>& x, double t) const;
+    double turn() const { return L / U; }
+};
+
+struct Flow {
+    ExactFlow exact;
+    std::shared_ptr<ParticleModel<2>> model;
+    std::vector<double> y0;
+    std::string label{}, transport{}, title{};
+    std::vector<NearestState<2>> drawn{};
+};
+
+/// Velocity, and the density that belongs to the exact pressure, of cells x cells particles.
+Flow make_flow(const Parameters& p, int cells, const std::string& label);
+
+/// `velocity_error`: mean |v - v_exact| by mean |v_exact|, both at the places of the particles and at that
+/// time, and `decay`: root of the kinetic energy by that at the start.
+Observer<2> compare_with_exact(const ExactFlow& exact);
+
+/// Decay and errors against time, and configurations of flows of one size.
+void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
+          const std::vector<RunRecord>& runs);
+
+}  // namespace taylor_green
