@@ -131,9 +131,9 @@ void draw(Session& session, const Convection& gas, const RunRecord& run, const G
     for (Eigen::Index k = 0; k < fields.rest.cols(); ++k)
         fastest = std::max(fastest, std::hypot(fields.rest(0, k), fields.rest(1, k)));
     if (!(fastest > 0.0)) fastest = 1.0;
-    const auto title = fmt::format(
-        "Ra = {:g}: grid of {} x {} (left), {} particles (right)", gas.layer.rayleigh,
-        grid.nx(), grid.ny(), gas.model->particles().size());
+    const auto title =
+        fmt::format("Ra = {:g}: grid of {} x {} (left), {} particles (right)", gas.layer.rayleigh,
+                    grid.nx(), grid.ny(), gas.model->particles().size());
     session.note_drawn(draw_paths(
         session.plots_folder(), "velocity", title,
         {dashes(fmt::format("finite differences, at most {:.3f}", fastest), grid, u, v, fastest),

@@ -129,13 +129,13 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
         balance(now, in, out);
     } else {
         sweeps_->force(in, out);
-        sweep_walls(in, sweeps_->force);
+        if (!walls_.empty()) sweep_walls(in, sweeps_->force);
         if (sweeps_->second != nullptr) {
             load_transport(now);
             if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
             out.close = nullptr;
             sweeps_->second(in, out);
-            sweep_walls(in, sweeps_->second);
+            if (!walls_.empty()) sweep_walls(in, sweeps_->second);
         }
     }
     if (gauss_)

@@ -23,6 +23,8 @@ const std::set<std::string> no_part_of_the_case{
 
 /// What must happen for an option to show: given beside it, and to the run it is compared with.
 const std::map<std::string, Words> beside{
+    {"left", {"--right", "mirror"}},
+    {"right", {"--left", "mirror"}},
     {"balance", {"--t-end", "80"}},  // the bar has broken
     {"guard", {"--limit-energy", "1e-300"}},
     {"gauss-singular", {"--t-end", "40"}},  // the constraint sets in at 14 and is singular at 36
@@ -130,6 +132,13 @@ const std::map<std::string, std::string> another_value{
     {"gravity", "0.3"},
     {"relaxation-time", "6.4"},
     {"shifting", "0.7"},
+    {"left", "mirror"},
+    {"right", "mirror"},
+    {"bottom", "mirror@1.5"},
+    {"top", "mirror@0.5"},
+    {"height", "12"},
+    {"roll", "0.1"},
+    {"rayleigh", "2000"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -180,7 +189,7 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"taylor_green", {"--transport", "plain"}},
     {"cavity", {"--density", "continuity"}},
     {"shock_tube", {}},
-    {"rayleigh_benard", {}},
+    {"rayleigh_benard", {"--density", "continuity"}},
     {"water_column", {}},
     {"water_column", {"--core", "0"}},
 };

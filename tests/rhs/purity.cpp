@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(old_and_new_lists_of_a_gas_give_the_same_bits) {
     const Fluid gas{IdealGas{}, NewtonViscosity{0.1, 0.3}, FourierConduction{0.2}};
     const Scheme scheme{.density = Density::summed, .range = 3.0};
     FluidModel<2> old(particles, gas, scheme, box), young(particles, gas, scheme, box);
-    std::uniform_real_distribution<double> u(-0.09, 0.09);
+    std::uniform_real_distribution<double> u(-0.07, 0.07);
     Points<2> v = x;
     for (double& c : v.reshaped()) c = u(random);
     auto y = old.state(particles.reference_position, v, 1.0);

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of matter, further terms, choices of scheme and externals, and what becomes of any combination of them.
+#pragma once
+
+#include <spam/core/error.hpp>
+#include <spam/diagnostics/invariants.hpp>
+#include <spam/external/clamp.hpp>
+#include <spam/external/drag.hpp>
+#include <spam/external/friction.hpp>
+#include <spam/external/gravity.hpp>
+#include <spam/external/load.hpp>
+#include <spam/external/rigid_velocity.hpp>
+#include <spam/external/thermostat.hpp>
+#include <spam/material/elastic_solid.hpp>
+#include <spam/material/embedded_atom.hpp>
+#include <spam/material/ideal_gas.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/problem/motion.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/own_ranges.hpp>
+#include <spam/rhs/pair_potentials.hpp>
+#include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/springs.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
+#include <spam/setup/initial_state.hpp>
+#include <spam/setup/lattices.hpp>
+
+#include <boost/test/unit_test.hpp>
+
+#include <map>
+#include <regex>
+
+namespace spam::test {
+
+inline const double site_density = 2.0 / std::sqrt(3.0);
+
+/// A model on the way, and how its y begins.
+struct Sample {
+    /// In a periodic box particles fill it.
+    explicit Sample(const Box<2>& box = {})
+        : model(box.periodic() ? make_particles<2>(triangular_block(8, 6), 1.0, 1.0, box)
+                               : make_particles<2>(triangular_block(8, 5), 1.0),
+                box) {}
+    ParticleModel<2> model;
+    std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};
+
+    std::vector<double> start() {
+        const Points<2>& x = model.particles().reference_position;
+        Points<2> v(2, x.cols());
+        for (Eigen::Index i = 0; i < x.cols(); ++i) {
+            v(0, i) = x(0, i) < 1.2 ? 0.0 : 0.02 * std::sin(0.7 * x(0, i)) - 0.01 * x(1, i);
+            v(1, i) = x(0, i) < 1.2 ? 0.0 : 0.01 * x(0, i) + 0.02 * std::cos(0.9 * x(1, i));
+        }
+        if (fluid) return fluid(x, v);
+        auto y = initial_state<2>(model, site_density, 0.43,
+                                  [](const Point<2>&) { return Point<2>::Zero().eval(); });
+        State<2>(model.layout(), y).velocity() = v;
+        return y;
+    }
+};
+
+using Build = std::function<void(Sample&, const Scheme&)>;
+
+inline void add_fluid(Sample& s, const Fluid& fluid, const Scheme& scheme) {
+    auto& law = s.model.add_term<SmoothParticles<2>>(fluid, scheme);
+    s.fluid = [&law](const Points<2>& x, const Points<2>& v) { return law.start(x, v, 0.2); };
+}
+
+/// Laws that a scheme belongs to.
+inline const std::map<std::string, Build> with_scheme{
+    {"SmoothParticles, solid",
+     [](Sample& s, const Scheme& scheme) {
+         s.model.add_term<SmoothParticles<2>>(ElasticSolid{0.43, 0.43}, scheme);
+     }},
+    {"SmoothParticles, gas",
+     [](Sample& s, const Scheme& scheme) { add_fluid(s, {IdealGas{}}, scheme); }},
+    {"SmoothParticles, fluid with friction and conduction", [](Sample& s, const Scheme& scheme) {
+         add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}, FourierConduction{0.2}}, scheme);
+     }}};
+
+/// Laws that make a body by themselves.
+inline const std::map<std::string, Build> without_scheme{
+    {"OwnRanges",
+     [](Sample& s, const Scheme&) {
+         auto& law = s.model.add_term<OwnRanges<2>>(Fluid{IdealGas{}}, VariableRangeScheme{});
+         s.fluid = [&law](const Points<2>& x, const Points<2>& v) { return law.start(x, v, 0.2); };
+     }},
+    {"DensityPotentialTerm",
+     [](Sample& s, const Scheme&) {
+         s.model.add_term<DensityPotentialTerm<2>>(
+             DensityPotentials{.state = EmbeddedAtom{1.0, site_density}});
+     }},
+    {"LucyPairPotential",
+     [](Sample& s, const Scheme&) { s.model.add_term<LucyPairPotential<2>>(3.0); }},
+    {"TotalLagrangian",
+     [](Sample& s, const Scheme&) {
+         s.model.add_term<TotalLagrangian<2>>(StVenantKirchhoff{0.43, 0.43},
+                                              TotalLagrangianScheme{site_density});
+     }},
+    {"Springs", [](Sample& s, const Scheme&) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }}};
+
+/// What is put on top.
+inline const std::map<std::string, std::function<void(Sample&)>> further{
+    {"", [](Sample&) {}},
+    {"Core",
+     [](Sample& s) {
+         s.model.add_term<Core<2>>(CorePotential{0.1, 1.1});
+     }},
+    {"Springs", [](Sample& s) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }},
+    {"LucyPairPotential", [](Sample& s) { s.model.add_term<LucyPairPotential<2>>(2.5); }},
+    {"DensityPotentialTerm", [](Sample& s) {
+         s.model.add_term<DensityPotentialTerm<2>>(
+             DensityPotentials{.surface_tension = 0.02, .kernel = Kernel::w4});
+     }}};
+
+inline const std::map<std::string, std::function<void(ParticleModel<2>&)>> externals{
+    {"", [](auto&) {}},
+    {"Gravity", [](auto& m) { m.add(std::make_unique<Gravity<2>>(Point<2>(0.003, -0.01))); }},
+    {"Friction", [](auto& m) { m.add(std::make_unique<Friction<2>>(0.1)); }},
+    {"Drag", [](auto& m) { m.add(std::make_unique<Drag<2>>(0.5, 1.0, Point<2>(0.1, 0.0))); }},
+    {"Thermostat", [](auto& m) { m.add(std::make_unique<Thermostat<2>>(1e-3, 0.3)); }},
+    {"Load",
+     [](auto& m) {
+         m.add(std::make_unique<Load<2>>([](double t) { return Point<2>(0.01 * t, 0.02); }));
+     }},
+    {"Clamp", [](auto& m) {
+         m.add(std::make_unique<Clamp<2>>(
+             select<2>(m.particles(), [](const Point<2>& x) { return x.x() < 1.2; })));
+     }}};
+
+/// What a combination came to.
+struct Row {
+    std::string refused{};
+    double momentum = 0.0, angular_momentum = 0.0, energy = 0.0;  ///< how fast what is kept changes
+    bool turns = false;  ///< the angular momentum is promised
+};
+
+/// The derivatives of p - impulse, L - angular impulse and E - work - heat along the rates, as in
+/// accounts.cpp, at a state on the way.
+inline Row run(Sample& sample) {
+    Row row;
+    IntegratorOptions rk4;
+    rk4.dt = 0.1;
+    Motion<2> motion(sample.model, sample.start(), rk4);
+    motion.advance_to(0.2);
+    const std::vector<double> y(motion.y().begin(), motion.y().end());
+    std::vector<double> y_dot(y.size());
+    sample.model.rates(0.2, y, y_dot);
+    BOOST_TEST_REQUIRE(sample.model.failure().empty(), sample.model.failure());
+    constexpr double h = 1e-3;
+    std::vector<Invariants<2>> at;
+    for (const double step : {h, -h, 2.0 * h, -2.0 * h}) {
+        std::vector<double> z = y;
+        for (std::size_t k = 0; k < z.size(); ++k) z[k] += step * y_dot[k];
+        at.push_back(measure_invariants<2>(sample.model, z));
+    }
+    const auto slope = [&](const auto& f) {
+        return std::abs((8.0 * (f(at[0]) - f(at[1])) - (f(at[2]) - f(at[3]))) / (12.0 * h));
+    };
+    row.momentum = std::max(slope([](const auto& i) { return i.momentum_balance()[0]; }),
+                            slope([](const auto& i) { return i.momentum_balance()[1]; }));
+    row.angular_momentum = slope([](const auto& i) { return i.angular_momentum_balance()[0]; });
+    row.energy = slope([](const auto& i) { return i.energy_balance(); });
+    row.turns = sample.model.promises().angular_momentum != Promise::not_kept;
+    return row;
+}
+
+inline Row combine(const Build& law, const std::function<void(Sample&)>& more, const Scheme& scheme,
+                   const std::function<void(ParticleModel<2>&)>& external, const Box<2>& box = {}) {
+    Sample sample(box);
+    try {
+        law(sample, scheme);
+        more(sample);
+        external(sample.model);
+        sample.model.events();
+    } catch (const InputError& e) {
+        return {.refused = e.what()};
+    }
+    return run(sample);
+}
+
+/// A reason is one line that names the option, says what is wrong and what to do.
+inline void judge(const Row& row) {
+    if (!row.refused.empty()) {
+        BOOST_TEST(row.refused.find('\n') == std::string::npos);
+        BOOST_TEST(std::regex_search(row.refused, std::regex("^[a-z-]+: .{30,}[;,] ")),
+                   row.refused);
+        return;
+    }
+    BOOST_TEST(row.momentum < 1e-10);
+    BOOST_TEST(row.energy < 1e-8);
+    if (row.turns) BOOST_TEST(row.angular_momentum < 1e-9);
+}
+
+template <class F>
+void for_each_scheme(const F& f) {
+    for (const auto density : {Density::continuity, Density::summed, Density::chain_rule})
+        for (const auto transport :
+             {Transport::plain, Transport::average, Transport::monaghan, Transport::shifting})
+            for (const auto angular_momentum :
+                 {AngularMomentum::free, AngularMomentum::gauss, AngularMomentum::torque_particle,
+                  AngularMomentum::torque_pair})
+                for (const double viscosity : {0.0, 1.0})
+                    for (const double closest : {0.0, 0.5})
+                        f(Scheme{.density = density,
+                                 .transport = transport,
+                                 .angular_momentum = angular_momentum,
+                                 .viscosity = viscosity,
+                                 .closest_approach = closest});
+}
+
+}  // namespace spam::test
