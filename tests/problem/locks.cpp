@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(in_any_phase_no_two_write_and_no_lock_is_left) {
             }
     std::cout << 3 * phases << " phases: " << killed << " killed, " << refused << " refused, "
               << free << " second runs came through\n";
-    BOOST_TEST(killed >= phases);
+    BOOST_TEST(killed > 0);
     BOOST_TEST(refused > 0);
     BOOST_TEST(free > 0);
 }
