@@ -70,7 +70,7 @@ class ClusterList<Dim>::SliceSearch {
                                                  near_.data(), count, out_.data() + used_, pairs);
         const std::ptrdiff_t particles = end - (out_.data() + used_);
         end = among_ghosts(cluster, end, pairs);
-        if (end - (out_.data() + used_) > particles) sort_by_number(end);
+        sort_in(out_.data() + used_ + particles, end);
         finish(cluster, end);
         return pairs;
     }
@@ -92,31 +92,23 @@ class ClusterList<Dim>::SliceSearch {
                                  ghost_ranges_.size(), out_.data() + used_ + written, pairs);
     }
 
-    /// Entries of the cluster in ascending number of the particle, or of the one whose image they are, and images
-    /// of one particle by their place: an order that no other list changes, whatever slots particles have there.
-    void sort_by_number(std::uint32_t* end) {
-        std::uint32_t* const begin = out_.data() + used_;
+    /// Puts the ghosts, `from` to `end`, among the particles before them, by the number of their owner: an
+    /// order that no later build changes.
+    void sort_in(std::uint32_t* from, std::uint32_t* end) {
+        const std::size_t owned = list_.order_.size();
         sorted_.clear();
-        for (const std::uint32_t* entry = begin; entry != end; ++entry)
-            sorted_.push_back(std::uint64_t{list_.particle(*entry / list_.stride_)} << 32 | *entry);
-        std::sort(sorted_.begin(), sorted_.end());
-        for (auto first = sorted_.begin(); first != sorted_.end();) {
-            auto last = first + 1;
-            while (last != sorted_.end() && *last >> 32 == *first >> 32) ++last;
-            if (last - first > 1)
-                std::sort(first, last, [&](std::uint64_t one, std::uint64_t other) {
-                    return place(one) < place(other);
-                });
-            first = last;
+        for (const std::uint32_t* entry = from; entry != end; ++entry) {
+            const std::size_t ghost = *entry / list_.stride_ - owned;
+            sorted_.push_back(
+                {list_.ghosts_.owner(ghost) * list_.stride_, list_.ghosts_.which(ghost), *entry});
         }
-        std::transform(sorted_.begin(), sorted_.end(), begin,
-                       [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
-    }
-    std::array<double, Dim> place(std::uint64_t key) const {
-        const std::size_t slot = static_cast<std::uint32_t>(key) / list_.stride_;
-        std::array<double, Dim> x;
-        for (std::size_t a = 0; a < Dim; ++a) x[a] = list_.x_[a][slot];
-        return x;
+        std::sort(sorted_.begin(), sorted_.end());
+        const std::uint32_t* const begin = out_.data() + used_;
+        for (auto ghost = sorted_.rbegin(); ghost != sorted_.rend();)
+            if (from != begin && from[-1] > (*ghost)[0])
+                *--end = *--from;
+            else
+                *--end = (*ghost++)[2];
     }
 
     std::size_t among_strips(std::size_t cluster) {
@@ -143,9 +135,7 @@ class ClusterList<Dim>::SliceSearch {
                                     ranges_.size(), end, pairs);
         else
             end = search_.around_bounds(input_, bounds, ranges_.data(), ranges_.size(), end);
-        end = among_ghosts(cluster, end, pairs);
-        sort_by_number(end);
-        finish(cluster, end);
+        finish(cluster, among_ghosts(cluster, end, pairs));
         return counted ? pairs : 0;
     }
 
@@ -171,7 +161,8 @@ class ClusterList<Dim>::SliceSearch {
     std::size_t used_ = 0;
     std::vector<std::uint32_t> near_group_, near_;
     std::vector<SlotRange> ranges_, ghost_ranges_;
-    std::vector<std::uint64_t> sorted_;  ///< particle and entry
+    std::vector<std::array<std::uint32_t, 3>>
+        sorted_;  ///< of ghosts: where the owner is, which, entry
 };
 
 }  // namespace spam

@@ -47,10 +47,12 @@ std::size_t wrong_clusters(const ClusterList<Dim>& list, const Points<Dim>& x, d
                 ? found == std::vector(neighbours.begin(), neighbours.end())
                 : std::includes(found.begin(), found.end(), neighbours.begin(), neighbours.end()) &&
                       found.size() <= 4 * neighbours.size() + 32;
-        // Images stand at the place of their particle's number.
+        // Images take the place of their particle's number where slots are numbers.
+        const bool in_numbers = std::is_sorted(order.begin(), order.end());
         std::vector<std::uint32_t> numbers;
         for (const auto slot : slots) numbers.push_back(list.particle(slot));
-        const bool right = complete && std::is_sorted(numbers.begin(), numbers.end());
+        const bool right = complete && (in_numbers ? std::is_sorted(numbers.begin(), numbers.end())
+                                                   : std::is_sorted(slots.begin(), slots.end()));
         wrong += right ? 0 : 1;
     }
     const bool permutation = particles.size() == list.size() && list.size() == expected.size();

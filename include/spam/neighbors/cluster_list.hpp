@@ -14,14 +14,14 @@
 namespace spam {
 
 /// Neighbours of clusters: `width` particles at a time, next to each other in space, which a sweep
-/// computes in the lanes of one register (sweep.hpp). A cluster's list holds every slot j with
-/// |r_ij| < range + skin for at least one of its particles i, themselves included, in large flows some more,
-/// in ascending number of the particle, or of the one whose image is there: slots beyond those of the
-/// particles are their images across the borders of the box (ghosts.hpp). Weight functions vanish exactly
-/// beyond the range, and adding an exact zero changes no bit, so a sum over the list depends on nothing
-/// else: not on the skin, the number of threads, or when the list was built. Slots are the particles' own
-/// numbers as long as these keep neighbours together, as in a solid. In a flow they are sorted into strips
-/// at every build.
+/// computes in the lanes of one register (sweep.hpp). A cluster's list holds, in ascending slot, every
+/// slot j with |r_ij| < range + skin for at least one of its particles i, themselves included, in large
+/// flows some more. Slots beyond those of the particles are their images across the borders of the box
+/// (ghosts.hpp). Weight functions vanish exactly beyond the range, and adding an exact zero changes no
+/// bit, so a sum over the list depends on the order of the slots alone: not on the skin, nor on the number
+/// of threads. Slots are the particles' own numbers as long as these keep neighbours together, as in a
+/// solid, and images take the place that their particle's number has in the order: then sums do not depend
+/// on when the list was built either. In a flow slots are sorted into strips at every build.
 template <int Dim>
 class ClusterList {
   public:

@@ -35,8 +35,9 @@ class Model {
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 
-    /// y_dot = f(t, y). Pure: the same (t, y) give the same bits with any number of threads and any
-    /// history. Never throws, never allocates after warm-up except for new lists. A state without physical meaning
+    /// y_dot = f(t, y). Pure: the same (t, y) give the same bits with any number of threads, and in a
+    /// solid with any history; in a flow neighbour lists of another age change the last digits. Never
+    /// throws, never allocates after warm-up except for new lists. A state without physical meaning
     /// fills y_dot with NaN and leaves the reason in failure().
     virtual void rates(double t, std::span<const double> y, std::span<double> y_dot) = 0;
 
