@@ -59,10 +59,10 @@ BOOST_AUTO_TEST_CASE(every_kind_of_wall_with_every_law_is_accounted_for_or_refus
     const auto gravity = externals.at("Gravity"), nothing = externals.at("");
     for (const auto& [kind, wall] : walls) {
         const Box<2> box = walled_by(wall);
-        for (const auto& [law, build] : with_scheme)
-            for_each_scheme([&](const Scheme& scheme) {
-                BOOST_TEST_CONTEXT(kind << ": " << law << ", " << scheme.describe())
-                count(combine(build, further.at(""), scheme, gravity, box));
+        for (const auto& law : with_scheme)
+            for_each_scheme([&, name = kind](const Scheme& scheme) {
+                BOOST_TEST_CONTEXT(name << ": " << law.first << ", " << scheme.describe())
+                count(combine(law.second, further.at(""), scheme, gravity, box));
             });
         for (const auto* laws : {&with_scheme, &without_scheme})
             for (const auto& [law, build] : *laws)
