@@ -189,9 +189,7 @@ int main(int argc, char** argv) {
     options.number("rayleigh", p.rayleigh, "Rayleigh number", between(1.0, 1e6));
     options.number("roll", p.roll, "speed of the rolls at the start; sound has 1.4",
                    between(0.0, 0.3));
-    options.choice<Friction>(
-        "friction", p.friction, {Friction::pairs, Friction::gradients},
-        "viscosity and conduction from differences of pairs, or from gradients");
+    add_friction_option(options, p.friction);
     options.choice<Density>("density", p.density, {Density::summed, Density::continuity},
                             "density as a sum over neighbours, or by the continuity equation");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");

@@ -164,7 +164,7 @@ Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described)
                                                  Fluid{LucyGas{},
                                                        NewtonViscosity::shear_and_bulk(nu, 0.0, 2),
                                                        {},
-                                                       p.friction == Friction::pairs},
+                                                       p.friction == FrictionBy::pairs},
                                                  p.scheme, box);
     if (!plate)
         model->add(std::make_unique<Gravity<2>>(Point<2>(8.0 * nu * p.speed / (H * H), 0.0)));
@@ -191,9 +191,7 @@ int main_of(int argc, char** argv, const std::string& name, const std::string& s
                    "Reynolds number: speed times distance of the plates by "
                    "the kinematic viscosity",
                    between(0.01, 1e4));
-    options.choice<Friction>(
-        "friction", p.friction, {Friction::pairs, Friction::gradients},
-        "viscous forces from differences of pairs, or from gradients of velocity");
+    add_friction_option(options, p.friction);
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
     options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 6.0));
     options.flag("compare", p.compare,

@@ -3,6 +3,7 @@
 // (poiseuille): what the two problems share.
 #pragma once
 
+#include "../friction.hpp"
 #include <spam/problem/nearest_state.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
@@ -12,17 +13,12 @@ namespace channel {
 using namespace spam;
 
 enum class Drive { plate, force };
-enum class Friction { pairs, gradients };
-inline std::string_view to_string(Friction f) {
-    return f == Friction::pairs ? "pairs" : "gradients";
-}
-
 struct Parameters {
     int cells = 20;          // particles from plate to plate, at spacing 1
     double speed = 0.1;      // of the plate, or in the middle of the finished flow; sound: 1
     double reynolds = 10.0;  // speed cells/nu
     bool compare = false;
-    Friction friction = Friction::pairs;
+    FrictionBy friction = FrictionBy::pairs;
     Scheme scheme{.density = Density::continuity, .kernel = Kernel::w4, .range = 4.0};
 };
 

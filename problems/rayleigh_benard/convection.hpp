@@ -2,6 +2,7 @@
 // The layer as smooth particles: what the parts of the problem share.
 #pragma once
 
+#include "../friction.hpp"
 #include "grid.hpp"
 #include <spam/problem/nearest_state.hpp>
 #include <spam/problem/sides.hpp>
@@ -15,17 +16,12 @@ namespace rayleigh_benard {
 
 using namespace spam;
 
-enum class Friction { pairs, gradients };
-inline std::string_view to_string(Friction f) {
-    return f == Friction::pairs ? "pairs" : "gradients";
-}
-
 struct Parameters {
     const Sides<2>* sides = nullptr;
     int height = 20;
     double rayleigh = 1e4;
     double roll = 0.05;
-    Friction friction = Friction::pairs;
+    FrictionBy friction = FrictionBy::pairs;
     Density density = Density::summed;
     Kernel kernel = Kernel::w4;
     double range = 3.5;

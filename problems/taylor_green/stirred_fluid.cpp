@@ -10,7 +10,7 @@ Fluid fluid_of(const Parameters& p, double nu) {
     return {EmbeddedAtom{1.0, 1.0},
             NewtonViscosity::shear_and_bulk(nu, 0.0, 2),
             {},
-            p.friction == Friction::pairs};
+            p.friction == FrictionBy::pairs};
 }
 
 std::unique_ptr<FluidModel<2>> make_model(const Parameters& p, int cells, const Box<2>& box,
@@ -62,9 +62,7 @@ void add_options(Options& options, Parameters& p, const std::string& speed_of_wh
         "has no meaning with {by}; it needs shifting");
     options.choice<Density>("density", p.scheme.density, {Density::continuity, Density::summed},
                             "by the continuity equation, or as a sum over neighbours");
-    options.choice<Friction>(
-        "friction", p.friction, {Friction::pairs, Friction::gradients},
-        "viscous forces from differences of pairs, or from gradients of velocity");
+    add_friction_option(options, p.friction);
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
     options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 6.0));
     options.flag("compare", p.compare,

@@ -2,6 +2,7 @@
 // A viscous fluid whose particles are stirred, in a box that it fills: what taylor_green and cavity share.
 #pragma once
 
+#include "../friction.hpp"
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 
@@ -9,17 +10,12 @@ namespace stirred {
 
 using namespace spam;
 
-enum class Friction { pairs, gradients };
-inline std::string_view to_string(Friction f) {
-    return f == Friction::pairs ? "pairs" : "gradients";
-}
-
 struct Parameters {
     int cells = 50;           // particles along each side, at spacing 1
     double speed = 0.1;       // of the lid, or the largest at the start; sound: 1
     double reynolds = 100.0;  // speed cells/nu
     bool compare = false;
-    Friction friction = Friction::pairs;
+    FrictionBy friction = FrictionBy::pairs;
     Scheme scheme{.density = Density::continuity,
                   .transport = Transport::shifting,
                   .kernel = Kernel::w4,

@@ -2,12 +2,9 @@
 #include "carried_energy.hpp"
 #include "constitution.hpp"
 #include "gauss_forces.hpp"
-#include "resting_body.hpp"
-#include "shifting_coefficient.hpp"
 #include "torque_factors.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/kernel/weight_integrals.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 

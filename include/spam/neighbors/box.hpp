@@ -10,8 +10,9 @@
 
 namespace spam {
 
-/// Free space, periodic space or space between walls, direction by direction. Positions in y are never wrapped; right-hand sides see
-/// images of particles across a border (ghosts.hpp), observers take the nearest image of a separation.
+/// Free space, periodic space or space between walls, direction by direction. Positions in y are never
+/// wrapped; right-hand sides see images of particles across a border (ghosts.hpp), observers take the
+/// nearest image of a separation.
 ///
 /// Periods are rounded to 50 bits and positions, where images are made of them, to their last place: then
 /// x, L and x +- L up to some periods away are exact, and so is r_ij = -r_ji across a border.

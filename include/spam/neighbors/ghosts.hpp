@@ -13,9 +13,8 @@
 
 namespace spam {
 
-/// Images of particles that others have for neighbours, beyond the borders of a periodic box
-/// and behind walls: slots behind
-/// those of the particles themselves. A ghost is its owner's slot and how its numbers follow from the
+/// Images of particles that others have for neighbours, beyond the borders of a periodic box and behind
+/// walls: slots behind those of the particles themselves. A ghost is its owner's slot and how its numbers follow from the
 /// owner's; these are made anew (refresh) whenever those that neighbours read have changed. Ghosts are
 /// neighbours only, never particles whose sums are wanted, and so sweeps know nothing of them.
 template <int Dim>
