@@ -194,6 +194,7 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     out.context = &stresses;
     sweeps_->gradient(in, out);
     if (!stresses.finite) return complaint();
+    if (material_.has_rates()) memory_rates(now);
     refresh(records_, F_at<Dim>);
     out.close = nullptr;
     if (scheme_.penalty > 0.0)
@@ -205,10 +206,32 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     return {};
 }
 
+/// F is linear in the positions: F_dot = F(x + v) - F(x), in periodic boxes too.
+template <int Dim>
+void TotalLagrangian<Dim>::memory_rates(const Now& now) {
+    carried_on_ = records_;
+    const double* const v = now.state.velocity().data();
+    const auto order = list_.order();
+    parallel_for(order.size(), [&](std::size_t slot) {
+        double* const present = &carried_on_[slot * stride<Dim> + present_at<Dim>];
+        for (std::size_t a = 0; a < Dim; ++a) present[a] += v[order[slot] * Dim + a];
+    });
+    refresh(carried_on_, present_at<Dim>);
+    SweepOutput<Dim> out;
+    out.records = carried_on_.data();
+    sweeps_->gradient(input(carried_on_), out);
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t at = slot * stride<Dim> + F_at<Dim>;
+        const Mat<Dim> F = tensor_at<Dim>(&records_[at]);
+        material_.rates(order[slot], F, tensor_at<Dim>(&carried_on_[at]) + (-1.0) * F, now.state,
+                        now.rate);
+    });
+}
+
 /// By the deformation gradients of the state that has been accepted.
 template <int Dim>
 bool TotalLagrangian<Dim>::settle(double, const State<Dim>& state) {
-    if (material_.history().empty()) return false;
+    if (material_.history().empty() || material_.has_rates()) return false;
     load(ConstState<Dim>(state), records_);
     SweepOutput<Dim> out;
     out.records = records_.data();

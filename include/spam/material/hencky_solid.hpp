@@ -11,6 +11,62 @@
 
 namespace spam {
 
+/// Logarithmic strain of what is elastic in F: with the plastic metric Cp^-1, b = F Cp^-1 F^t =
+/// sum b_a n_a n_a, e_a = ln(b_a)/2.
+template <int Dim>
+struct LogarithmicStrain {
+    Vec<Dim> strain;
+    double zz = 0.0;
+    Mat<Dim> vectors;  ///< n_a in column a
+
+    /// `metric`: Cp^-1 - 1, as y holds it; metric_zz likewise, 0 where there is none. NaN where F is turned
+    /// inside out.
+    static LogarithmicStrain of(const Mat<Dim>& F, const double* metric, double metric_zz) {
+        LogarithmicStrain e;
+        if (!(determinant(F) > 0.0)) {
+            e.strain[0] = std::numeric_limits<double>::quiet_NaN();
+            return e;
+        }
+        SymTensor<Dim> inverse_Cp;
+        std::copy_n(metric, inverse_Cp.c.size(), inverse_Cp.c.begin());
+        for (int a = 0; a < Dim; ++a) inverse_Cp(a, a) += 1.0;
+        const auto b = symmetric_eigen(transformed(F, inverse_Cp));
+        e.vectors = b.vectors;
+        for (int a = 0; a < Dim; ++a) e.strain[a] = 0.5 * std::log(b.value[a]);
+        e.zz = 0.5 * std::log1p(metric_zz);
+        return e;
+    }
+    double trace() const {
+        double sum = zz;
+        for (int a = 0; a < Dim; ++a) sum += strain[a];
+        return sum;
+    }
+    /// lambda (tr e)^2/2 + eta e:e
+    double energy(double lambda, double eta) const {
+        double square = zz * zz;
+        for (int a = 0; a < Dim; ++a) square += strain[a] * strain[a];
+        return 0.5 * lambda * trace() * trace() + eta * square;
+    }
+    /// P = tau F^-t, tau = lambda tr e + 2 eta e.
+    Mat<Dim> stress(double lambda, double eta, const Mat<Dim>& F) const {
+        Vec<Dim> tau;
+        for (int a = 0; a < Dim; ++a) tau[a] = lambda * trace() + 2.0 * eta * strain[a];
+        const SymTensor<Dim> kirchhoff = from_eigen(tau, vectors);
+        const Mat<Dim> back = inverse(F);
+        Mat<Dim> P;
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b)
+                for (int c = 0; c < Dim; ++c) P(a, b) += kirchhoff(a, c) * back(b, c);
+        return P;
+    }
+    /// 2 eta e along its own axes: as a stress it has the deviator of tau.
+    SymTensor<Dim> as_stress(double eta) const {
+        SymTensor<Dim> s;
+        for (int a = 0; a < Dim; ++a) s(a, a) = 2.0 * eta * strain[a];
+        return s;
+    }
+};
+
 /// Hooke's law between the logarithmic strain and Kirchhoff's stress, with von Mises' surface: yielding at
 /// any deformation (Simo 1992). With b = F Cp^-1 F^t = sum b_a n_a n_a, Cp^-1 the plastic metric,
 ///     e_a = ln(b_a)/2,   tau_a = lambda tr e + 2 eta e_a,   P = tau F^-t,   W = lambda (tr e)^2/2 + eta e:e,
@@ -52,29 +108,13 @@ class HenckySolid {
         const double *strain, *metric, *metric_zz, *work;
 
         Mat<dim> stress(std::size_t i, const Mat<dim>& F) const {
-            const Elastic e = law.elastic(*this, i, F);
-            const double pressure = surface().lambda * e.trace();
-            Vec<dim> tau;
-            for (int a = 0; a < dim; ++a) tau[a] = pressure + 2.0 * surface().eta * e.strain[a];
-            const SymTensor<dim> kirchhoff = from_eigen(tau, e.vectors);
-            // P_ab = tau_ac (F^-1)_bc
-            const Mat<dim> back = inverse(F);
-            Mat<dim> P;
-            for (int a = 0; a < dim; ++a)
-                for (int b = 0; b < dim; ++b)
-                    for (int c = 0; c < dim; ++c) P(a, b) += kirchhoff(a, c) * back(b, c);
-            return P;
+            return law.elastic(*this, i, F).stress(law.surface_.lambda, law.surface_.eta, F);
         }
         double energy(std::size_t i, const Mat<dim>& F) const {
             const Elastic e = law.elastic(*this, i, F);
-            double square = e.zz * e.zz;
-            for (int a = 0; a < dim; ++a) square += e.strain[a] * e.strain[a];
-            return 0.5 * surface().lambda * e.trace() * e.trace() + surface().eta * square +
-                   work[i] + law.flow_.work(strain[i], e.flow);
+            return e.energy(law.surface_.lambda, law.surface_.eta) + work[i] +
+                   law.flow_.work(strain[i], e.flow);
         }
-
-      private:
-        const Surface& surface() const { return law.surface_; }
     };
 
     InState in_state(const ConstState<dim>& state) const {
@@ -103,36 +143,14 @@ class HenckySolid {
 
   private:
     /// Returned to the surface.
-    struct Elastic {
-        Vec<dim> strain;
-        double zz = 0.0;
-        Mat<dim> vectors;
+    struct Elastic : LogarithmicStrain<dim> {
         double flow = 0.0;  ///< d eps_p
-
-        double trace() const {
-            double sum = zz;
-            for (int a = 0; a < dim; ++a) sum += strain[a];
-            return sum;
-        }
     };
 
     Elastic elastic(const InState& now, std::size_t i, const Mat<dim>& F) const {
-        Elastic e;
-        if (!(determinant(F) > 0.0)) {  // turned inside out
-            e.strain[0] = std::numeric_limits<double>::quiet_NaN();
-            return e;
-        }
-        SymTensor<dim> metric;
-        std::copy_n(now.metric + metric.c.size() * i, metric.c.size(), metric.c.begin());
-        for (int a = 0; a < dim; ++a) metric(a, a) += 1.0;
-        const auto b = symmetric_eigen(transformed(F, metric));
-        e.vectors = b.vectors;
-        for (int a = 0; a < dim; ++a) e.strain[a] = 0.5 * std::log(b.value[a]);
-        if (Surface::across) e.zz = 0.5 * std::log1p(now.metric_zz[i]);
-        // As a stress along its own axes, 2 eta e, which has the deviator of tau.
-        SymTensor<dim> trial;
-        for (int a = 0; a < dim; ++a) trial(a, a) = 2.0 * surface_.eta * e.strain[a];
-        const auto parts = Surface::parts(trial, 2.0 * surface_.eta * e.zz);
+        Elastic e{LogarithmicStrain<dim>::of(F, now.metric + SymTensor<dim>().c.size() * i,
+                                             Surface::across ? now.metric_zz[i] : 0.0)};
+        const auto parts = Surface::parts(e.as_stress(surface_.eta), 2.0 * surface_.eta * e.zz);
         const double excess = parts.q - flow_.yield_stress({now.strain[i]});
         if (!(excess > 0.0)) return e;
         e.flow = flow_at(parts.q, excess, now.strain[i]);

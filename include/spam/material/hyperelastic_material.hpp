@@ -34,6 +34,13 @@ class HyperelasticMaterial {
     }
     /// What y holds for the law; none where it has no memory.
     std::vector<Field> history() const { return loop_->history(); }
+    /// Whether the memory of the law has rates.
+    bool has_rates() const { return loop_->has_rates(); }
+    /// Sets them for particle i.
+    void rates(std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot,
+               const ConstState<Dim>& state, const State<Dim>& rate) const {
+        loop_->rates(i, F, F_dot, state, rate);
+    }
     /// After an accepted step: whether the law has changed the history of particle i.
     bool settle(std::size_t i, const Mat<Dim>& F, const State<Dim>& state) const {
         return loop_->settle(i, F, state);
@@ -48,6 +55,9 @@ class HyperelasticMaterial {
                               const ConstState<Dim>&) const = 0;
         virtual double energy(std::size_t, const Mat<Dim>&, const ConstState<Dim>&) const = 0;
         virtual std::vector<Field> history() const = 0;
+        virtual bool has_rates() const = 0;
+        virtual void rates(std::size_t, const Mat<Dim>&, const Mat<Dim>&, const ConstState<Dim>&,
+                           const State<Dim>&) const = 0;
         virtual bool settle(std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
@@ -93,6 +103,13 @@ class HyperelasticMaterial {
         std::vector<Field> history() const override {
             if constexpr (remembers) return law.history();
             return {};
+        }
+        bool has_rates() const override { return HyperelasticLawWithRates<Law, Dim>; }
+        void rates([[maybe_unused]] std::size_t i, [[maybe_unused]] const Mat<Dim>& F,
+                   [[maybe_unused]] const Mat<Dim>& F_dot,
+                   [[maybe_unused]] const ConstState<Dim>& state,
+                   [[maybe_unused]] const State<Dim>& rate) const override {
+            if constexpr (HyperelasticLawWithRates<Law, Dim>) law.rates(state, rate)(i, F, F_dot);
         }
         bool settle([[maybe_unused]] std::size_t i, [[maybe_unused]] const Mat<Dim>& F,
                     [[maybe_unused]] const State<Dim>& state) const override {

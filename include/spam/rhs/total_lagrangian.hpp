@@ -68,14 +68,16 @@ class TotalLagrangian final : public Term<Dim> {
     void load(const ConstState<Dim>& state, std::vector<double>& records) const;
     /// Images of particles, from a number of their records on.
     void refresh(std::vector<double>& records, std::size_t from) const;
+    void memory_rates(const Now& now);
     std::vector<double> deformed(std::span<const double> y) const;
     std::string complaint() const;
 
     HyperelasticMaterial<Dim> material_;
     TotalLagrangianScheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
-    ClusterList<Dim> list_;        ///< of the reference positions
-    std::vector<double> records_;  ///< StressedRecord by slot
+    ClusterList<Dim> list_;           ///< of the reference positions
+    std::vector<double> records_;     ///< StressedRecord by slot
+    std::vector<double> carried_on_;  ///< a time 1 later, where the material's memory has rates
 };
 
 extern template class TotalLagrangian<1>;
