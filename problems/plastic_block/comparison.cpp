@@ -171,7 +171,7 @@ void report_material_point(Session& session, const Parameters& p) {
                    order_at_a_point(YieldingSolid<PlaneVonMises>(surface, flow), 1.0 / 64.0), 1.0,
                    0.1, "a strain rate that turns"});
     session.check({"order_of_smooth_at_a_point",
-                   order_at_a_point(SmoothYield<PlaneVonMises>(surface, flow, p.width), 1.0 / 16.0),
+                   order_at_a_point(SmoothYield<PlaneVonMises>(surface, flow, p.width), 1.0 / 64.0),
                    4.0, 0.4, "a strain rate that turns"});
 }
 
@@ -250,7 +250,7 @@ void compare(Session& session, const Parameters& p) {
         if (!std::isfinite(point.error)) continue;
         const bool standard =
             session.when_default({"columns", "rows", "amplitude", "spin", "yield-stress",
-                                  "hardening", "width", "range", "penalty", "transport"});
+                                  "hardening", "yield-width", "range", "penalty", "transport"});
         double known = 0.0;
         for (std::size_t k = 0; k < steps.size(); ++k)
             if (one.dt == steps[k]) known = one.form->known[k];

@@ -90,7 +90,7 @@ struct RadialVonMises {
     }
     /// The deviator times `factor`.
     static ReturnedStress<dim> with_deviator(const Parts& p, double factor, double strain) {
-        ReturnedStress<dim> r{factor * p.deviator, p.mean + factor * p.zz, strain};
+        ReturnedStress<dim> r{factor * p.deviator, Across ? p.mean + factor * p.zz : 0.0, strain};
         for (int a = 0; a < dim; ++a) r.stress(a, a) += p.mean;
         return r;
     }
