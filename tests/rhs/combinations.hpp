@@ -10,6 +10,7 @@
 #include <spam/external/gravity.hpp>
 #include <spam/external/load.hpp>
 #include <spam/external/rigid_velocity.hpp>
+#include <spam/external/rigid_wall.hpp>
 #include <spam/external/thermostat.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
@@ -125,6 +126,11 @@ inline const std::map<std::string, std::function<void(ParticleModel<2>&)>> exter
     {"Load",
      [](auto& m) {
          m.add(std::make_unique<Load<2>>([](double t) { return Point<2>(0.01 * t, 0.02); }));
+     }},
+    {"RigidWall",
+     [](auto& m) {
+         m.add(std::make_unique<RigidWall<2>>(
+             Point<2>(0.9, 0.4), [](double t) { return 0.1 * t - 0.2; }, 0.2, 1.0));
      }},
     {"Clamp", [](auto& m) {
          m.add(std::make_unique<Clamp<2>>(
