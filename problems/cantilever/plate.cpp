@@ -102,23 +102,24 @@ void draw(Session& session, const Parameters& p, const std::vector<Plate>& plate
     }
     std::vector<CurvePanel> all{tip};
     if (runs.size() > 1) {
-        CurvePanel periods{"period against layers", "layers", "T, s", false, {}};
+        const auto ms = [](double T) { return 1000.0 * T; };
+        CurvePanel periods{"period", "layers", "T, ms", false, {}};
         Curve found{"particles", {}, {}, Mark::points};
-        Curve expected{"derived for so many layers", {}, {}};
+        Curve derived{"derived for layers", {}, {}};
         for (std::size_t k = 0; k < runs.size(); ++k) {
             found.x.push_back(plates[k].layers);
-            found.y.push_back(period_of(p, runs[k].history));
+            found.y.push_back(ms(period_of(p, runs[k].history)));
         }
-        const int most = plates.back().layers;
-        for (int n = plates.front().layers; n <= most; ++n) {
-            expected.x.push_back(n);
-            expected.y.push_back(layered_period(beam, n, p.range()));
+        const double least = plates.front().layers - 1.0, most = plates.back().layers + 2.0;
+        for (int n = plates.front().layers; n <= static_cast<int>(most); ++n) {
+            derived.x.push_back(n);
+            derived.y.push_back(ms(layered_period(beam, n, p.range())));
         }
-        const std::vector<double> ends{found.x.front(), found.x.back()};
+        const double thin = ms(beam.thin_period()), thick = ms(beam.period());
         periods.curves = {found,
-                          expected,
-                          {"thin beam", ends, {beam.thin_period(), beam.thin_period()}},
-                          {"with shear and rotary inertia", ends, {beam.period(), beam.period()}}};
+                          derived,
+                          {"thin beam", {least, most}, {thin, thin}},
+                          {"beam with shear", {least, most}, {thick, thick}}};
         all.push_back(periods);
     }
     session.note_drawn(draw_curves(folder, "curves", "An oscillating plate", all));

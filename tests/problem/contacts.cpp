@@ -47,6 +47,29 @@ BOOST_AUTO_TEST_CASE(rings_that_meet_off_their_line_keep_the_angular_momentum) {
     BOOST_TEST(found.value.at("parted_at") > 20.0);
 }
 
+BOOST_AUTO_TEST_CASE(a_sheet_that_is_crushed_folds_and_does_not_stick) {
+    const Results found("crushed_sheet", {}, "contact_energy_at_end");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("closest_contact") > 0.69);
+    BOOST_TEST(found.value.at("largest_contact_energy") > 1e-3);
+    BOOST_TEST(found.value.at("contact_energy_at_end") == 0.0);
+    BOOST_TEST(found.value.at("energy_less_wall_work") < 1e-5);
+    BOOST_TEST(found.value.at("shortest_length") < 11.0);
+    BOOST_TEST(found.value.at("height") > 10.0);
+    BOOST_TEST(found.value.at("closest_pair") > 0.25);
+    BOOST_TEST(found.value.at("plastic_work") > 0.5 * found.value.at("wall_work"));
+    BOOST_TEST(found.value.at("plastic_work") < found.value.at("wall_work"));
+}
+
+// An elastic one springs back.
+BOOST_AUTO_TEST_CASE(a_sheet_that_does_not_yield_keeps_no_fold) {
+    const Results found("crushed_sheet", {"--yield-stress", "10", "--columns", "40"}, "height");
+    BOOST_TEST(found.value.at("plastic_work") == 0.0);
+    BOOST_TEST(found.value.at("height") > 36.0);  // straight again, across the walls
+    BOOST_TEST(found.value.at("energy_drift") < 1e-4);
+    BOOST_TEST(found.value.at("angular_momentum_drift") < 1e-7);
+}
+
 BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
     struct Bad {
         Words arguments, says;
@@ -69,4 +92,14 @@ BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
                 BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
             BOOST_TEST(folder.listing().empty());
         }
+}
+
+BOOST_AUTO_TEST_CASE(a_sheet_without_room_is_refused) {
+    for (const Words& bad : {Words{"--width", "61"}, Words{"--columns", "12", "--width", "13"}}) {
+        const Scratch folder;
+        const Outcome outcome = run_in(folder, "crushed_sheet", bad);
+        BOOST_TEST(outcome.status == 2);
+        BOOST_TEST(outcome.err.find("width: the walls begin") != std::string::npos, outcome.err);
+        BOOST_TEST(folder.listing().empty());
+    }
 }

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: a plastic sheet is crushed between two walls, folds upon itself and is let go; 15 s
+//
+// A thin sheet of plastic metal between two rigid walls without friction.
+//
+//      | ooooooooooooooooooooooooo |          |    /\  /\    |      Total-Lagrangian smooth particles of a
+//   -> | ooooooooooooooooooooooooo | <-   ->  |   /  \/  \   | <-   material that yields at any strain
+//      | ooooooooooooooooooooooooo |          |  /        \  |      (material/hencky_solid.hpp). The walls
+//                                                                   come in, turn back at --width, and go
+// out again. The sheet buckles and folds, and what is folded touches: particles of the sheet that are
+// farther apart than 2.5 spacings in the reference configuration repel each other by
+//
+//     phi = e_c (1 - r^2/s^2)^4,   r < s <= 1   (rhs/contact.hpp).
+//
+// The walls are external (external/rigid_wall.hpp): what they give is in the accounts, and p - impulse,
+// L - angular impulse and E - work are kept through plastic flow and contact. E contains what has been spent
+// on plastic flow. When the walls are gone nobody touches anybody: folds that were pressed together do not
+// stick.
+#include <spam/core/error.hpp>
+#include <spam/external/rigid_wall.hpp>
+#include <spam/material/hencky_solid.hpp>
+#include <spam/picture/draw.hpp>
+#include <spam/rhs/contact.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
+#include <spam/spam.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace spam;
+
+const double rho = std::sqrt(4.0 / 3.0);       // stress-free; mass and spacing are 1
+const double modulus = std::sqrt(3.0 / 16.0);  // lambda = eta
+constexpr double wall_energy = 0.2, wall_range = 0.7;
+
+struct Parameters {
+    int columns = 60, rows = 3;
+    double speed = 0.04;  // of each wall
+    double width = 10.0;
+    double yield_stress = 0.02, hardening = 0.0;
+    double amplitude = 0.001;
+    double range = 3.0, penalty = 1.0;  // 0.1 lets neighbours meet in sharp folds
+    ContactScheme contact{.energy = 0.3, .range = 1.0, .folds_beyond = 2.5};
+
+    /// Half of the distance of the walls at the start: they touch nobody.
+    double start() const { return 0.5 * columns + 0.5; }
+    double turning_time() const { return (start() - 0.5 * width) / speed; }
+    double half_width(double t) const { return 0.5 * width + speed * std::abs(turning_time() - t); }
+    /// The walls have gone back by a third of their way.
+    double t_end() const { return turning_time() + start() / 3.0 / speed; }
+};
+
+std::unique_ptr<ParticleModel<2>> make_model(const Parameters& p) {
+    Points<2> x = triangular_block(p.columns, p.rows);
+    x.colwise() -= 0.5 * (x.rowwise().minCoeff() + x.rowwise().maxCoeff()).eval();
+    auto model = std::make_unique<ParticleModel<2>>(make_particles<2>(x, 1.0));
+    model->add_term<TotalLagrangian<2>>(
+        HenckySolid<PlaneVonMises>({modulus, modulus}, {p.yield_stress, p.hardening}),
+        TotalLagrangianScheme{rho, p.range, p.penalty});
+    model->add_term<Contact<2>>(p.contact);
+    for (const double side : {1.0, -1.0})
+        model->add(std::make_unique<RigidWall<2>>(
+            Point<2>(side, 0.0), [p](double t) { return -p.half_width(t); }, wall_energy,
+            wall_range));
+    return model;
+}
+
+/// What decides to which side the sheet buckles, and that its halves are not alike.
+VelocityField<2> slight_bend(const Parameters& p) {
+    return [p](const Point<2>& x) {
+        const double k = 2.0 * std::numbers::pi / p.columns;
+        return Point<2>(0.0, p.amplitude * (std::cos(k * x.x()) + 0.5 * std::sin(2.0 * k * x.x())));
+    };
+}
+
+double plastic_work(const Model<2>& model, std::span<const double> y) {
+    return ConstState<2>(model.layout(), y).field(field_kind::plastic_work).sum() / rho;
+}
+
+std::vector<Column<2>> columns(const Contact<2>& contact) {
+    using State = std::span<const double>;
+    const auto extent = [](const Model<2>& m, State y, int axis) {
+        const auto x = ConstState<2>(m.layout(), y).position().row(axis);
+        return x.maxCoeff() - x.minCoeff();
+    };
+    return {
+        {"length", [extent](const Model<2>& m, State y) { return extent(m, y, 0); }},
+        {"height", [extent](const Model<2>& m, State y) { return extent(m, y, 1); }},
+        {"plastic_work", plastic_work},
+        {"contact_energy", [&contact](const Model<2>&, State y) { return contact.energy(y); }},
+        {"closest_contact", [&contact](const Model<2>&, State y) { return contact.closest(y); }},
+        closest_pair_column<2>()};
+}
+
+void report(Session& session, const Parameters& p, const RunRecord& run) {
+    const History& h = run.history;
+    const bool crushed = run.complete && run.statistics.t_end >= p.turning_time();
+    const bool released = run.complete && run.statistics.t_end >= 0.99 * p.t_end();
+    const bool known =
+        session.when_default({"columns", "rows", "speed", "width", "yield-stress", "hardening",
+                              "amplitude", "range", "penalty", "contact", "contact-range"});
+    session.check({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
+                   "no two particles that touch are nearer than half a spacing"});
+    if (crushed)
+        session.claim({"touched", h.largest("contact_energy") > 0.0 ? 1.0 : 0.0, 1.0, 0.0,
+                       "the sheet has folded upon itself"},
+                      known);
+    if (released)
+        session.claim({"contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
+                       "contact does not hold on to anything"},
+                      known);
+    session.check({"energy_less_wall_work",
+                   std::abs((h.last("energy") - h.last("work")) - h.first("energy")) /
+                       std::max(h.largest("energy"), 1e-300),
+                   0.0, 1e-3, "by the largest energy"});
+    session.measure("largest_contact_energy", h.largest("contact_energy"));
+    session.measure("wall_work", h.last("work"));
+    session.measure("plastic_work", h.last("plastic_work"));
+    session.measure("shortest_length", h.smallest("length"));
+    session.measure("length", h.last("length"));
+    session.measure("height", h.last("height"));
+    session.measure("closest_pair", h.smallest("closest_pair"));
+    session.check_promises(run);
+}
+
+/// The sheet at a wanted time, or at the snapshot next to it.
+struct Shape {
+    double wanted;
+    double t = -1.0;
+    Points<2> position{};
+    std::vector<double> strain{};
+    void remember(Archive& archive) { archive(t, position, strain); }
+};
+
+Observer<2> keep_shapes(std::vector<Shape>& shapes) {
+    return {.on_snapshot =
+                [&shapes](double t, const Model<2>& model, std::span<const double> y) {
+                    const ConstState<2> state(model.layout(), y);
+                    const auto strain = state.field(field_kind::plastic_strain);
+                    for (Shape& shape : shapes)
+                        if (shape.t < 0.0 ||
+                            std::abs(t - shape.wanted) < std::abs(shape.t - shape.wanted))
+                            shape = {shape.wanted,
+                                     t,
+                                     state.position(),
+                                     {strain.data(), strain.data() + strain.size()}};
+                },
+            .memory =
+                [&shapes](Archive& archive) {
+                    for (Shape& shape : shapes) shape.remember(archive);
+                }};
+}
+
+void draw(Session& session, const Parameters& p, const std::vector<Shape>& shapes,
+          const RunRecord& run) {
+    std::vector<ConfigurationPanel> panels;
+    double last = -1.0;
+    for (const Shape& shape : shapes) {
+        if (!(shape.t > last)) continue;  // a run that ended before its time
+        last = shape.t;
+        panels.push_back({fmt::format("t = {:.3g}", shape.t), shape.position, shape.strain, {}});
+        const double high = shape.position.row(1).maxCoeff() + 2.0,
+                     low = shape.position.row(1).minCoeff() - 2.0, half = p.half_width(shape.t);
+        for (const double side : {-1.0, 1.0}) {
+            Points<2> wall(2, 4);
+            wall << side * half, side * (half + 0.6), side * (half + 0.6), side * half, low, low,
+                high, high;
+            panels.back().outlines.push_back(wall);
+        }
+    }
+    const History& h = run.history;
+    const auto t = h.column("t");
+    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
+                                           "A plastic sheet between two walls", panels, 3,
+                                           "plastic strain"));
+    session.note_drawn(draw_curves(session.plots_folder(), "curves",
+                                   "A plastic sheet between walls",
+                                   {{"",
+                                     "t",
+                                     "energy",
+                                     false,
+                                     {{"work of the walls", t, h.column("work")},
+                                      {"plastic work", t, h.column("plastic_work")},
+                                      {"kinetic", t, h.column("kinetic")},
+                                      {"contact", t, h.column("contact_energy")}}}}));
+}
+
+void add_options(Options& options, Parameters& p) {
+    options.integer("columns", p.columns, "particles along the sheet", between(10, 1000));
+    options.integer("rows", p.rows, "layers of particles", between(2, 100));
+    options.number("speed", p.speed, "speed of each wall", between(1e-4, 1.0));
+    options.number("width", p.width, "distance of the walls where they turn back", positive());
+    options.number("yield-stress", p.yield_stress,
+                   "stress difference at which the sheet yields; its moduli are 0.433", positive());
+    options.number("hardening", p.hardening, "growth of the yield stress with plastic strain",
+                   non_negative());
+    options.number("amplitude", p.amplitude, "speed across the sheet at the start", non_negative());
+    options.number("range", p.range, "distance at which Lucy's weight function vanishes",
+                   between(1.2, 6.0));
+    options.number("penalty", p.penalty, "penalty kappa against zero-energy modes", non_negative());
+    options.number("contact", p.contact.energy, "energy e_c of the contact", positive());
+    options.number("contact-range", p.contact.range,
+                   "distance at which folds of the sheet touch, at most a spacing", positive());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Problem problem("crushed_sheet", "a plastic sheet crushed between two walls");
+    Parameters p;
+    add_options(problem.options(), p);
+    return problem.main(argc, argv, [&](Session& session) {
+        const bool smoke = session.common().smoke;
+        if (smoke && !session.given("columns")) p.columns = 24;
+        if (smoke && !session.given("rows")) p.rows = 2;
+        if (smoke && !session.given("width")) p.width = 5.0;
+        if (smoke && !session.given("speed")) p.speed = 0.08;
+        if (!(p.width < 2.0 * p.start()))
+            throw InputError(fmt::format(
+                "width: the walls begin {:g} apart and cannot come in to {:g}; give a smaller --width",
+                2.0 * p.start(), p.width));
+        const auto model = make_model(p);
+        auto y0 = initial_state<2>(*model, rho, p.yield_stress, slight_bend(p));
+        model->layout().set_scale(Field::velocity, p.speed);
+        Plan<2> plan;
+        plan.t_end = session.common().t_end.value_or(p.t_end());
+        plan.snapshot_every = plan.t_end / 40.0;
+        plan.record(columns(*model->term<Contact<2>>()));
+        std::vector<Shape> shapes{{0.0}};
+        for (const double part : {0.4, 0.7, 0.9, 1.0}) shapes.push_back({part * p.turning_time()});
+        shapes.push_back({p.t_end()});
+        plan.observe(keep_shapes(shapes));
+        const auto run = session.run<2>(*model, std::move(y0), std::move(plan));
+        report(session, p, run);
+        if (session.plots()) draw(session, p, shapes, run);
+    });
+}
