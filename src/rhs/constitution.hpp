@@ -40,6 +40,8 @@ class Constitution {
     virtual bool central(const Scheme& scheme) const = 0;
     /// sigma of all particles, for records; null where density and energy tell it.
     virtual const double* stress(const ConstState<Dim>&) const { return nullptr; }
+    /// The same for a right-hand side, which counts with what trial stresses are returned to.
+    virtual const double* returned_stress(const Now& now) { return stress(now.state); }
 
     /// Once densities are known (N): whatever records need beyond them before the sweep of forces. Returns
     /// why that has no meaning; empty where it has one.

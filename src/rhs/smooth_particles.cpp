@@ -186,6 +186,7 @@ template <int Dim>
 std::string SmoothParticles<Dim>::load(const Now& now) {
     const std::size_t n = this->particles().size();
     PackedFields given = fields_of(now.state);
+    given.sigma = constitution_->returned_stress(now);
     if (!packed_->follow(n, given)) return "a position is not finite";
     if (packed_->invalid_densities() > 0) return complaint({given.rho, n});
     if (sweeps_->density == nullptr) return {};

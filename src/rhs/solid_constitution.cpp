@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constitution.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
 
 #include <algorithm>
 
@@ -17,6 +18,9 @@ class SolidConstitution final : public Constitution<Dim> {
         : Constitution<Dim>(particles),
           materials_(std::move(materials)) {
         if (materials_.empty()) throw InputError("material: none is given; give one at least");
+        if (std::any_of(materials_.begin(), materials_.end(),
+                        [](const auto& material) { return material.returns(); }))
+            returned_.resize(symmetric_size(Dim) * particles.size());
     }
 
     std::size_t materials() const override { return materials_.size(); }
@@ -45,6 +49,17 @@ class SolidConstitution final : public Constitution<Dim> {
     }
     const double* stress(const ConstState<Dim>& state) const override {
         return state.stress().data();
+    }
+    const double* returned_stress(const Now& now) override {
+        if (returned_.empty()) return stress(now.state);
+        parallel_blocks(this->particles_.size(), [&](std::size_t begin, std::size_t number) {
+            for_each_material(this->particles_.material, begin, number,
+                              [&](std::size_t m, std::size_t first, std::size_t count) {
+                                  materials_[m].return_stress(now.t, first, count, now.state,
+                                                              returned_.data());
+                              });
+        });
+        return returned_.data();
     }
 
     void close_forces(const Now& now, SweepOutput<Dim>& out) override {
@@ -75,20 +90,32 @@ class SolidConstitution final : public Constitution<Dim> {
     }
 
     bool settle(double t, const State<Dim>& state) override {
-        bool changed = false;
-        for_each_material(this->particles_.material, 0, this->particles_.size(),
-                          [&](std::size_t m, std::size_t first, std::size_t count) {
-                              changed = materials_[m].settle(t, first, count, state) || changed;
-                          });
-        return changed;
+        const std::size_t n = this->particles_.size();
+        return parallel_count((n + settled_at_once - 1) / settled_at_once,
+                              [&](std::size_t block) {
+                                  const std::size_t begin = block * settled_at_once;
+                                  std::size_t changed = 0;
+                                  for_each_material(
+                                      this->particles_.material, begin,
+                                      std::min(settled_at_once, n - begin),
+                                      [&](std::size_t m, std::size_t first, std::size_t count) {
+                                          if (materials_[m].settle(t, first, count, state))
+                                              ++changed;
+                                      });
+                                  return changed;
+                              },
+                              settled_at_once) > 0;
     }
 
   private:
+    static constexpr std::size_t settled_at_once = 512;
+
     void close(const SweptBlock& block) const {
         const Mat<Dim>* const grad_v = block.sums<Mat<Dim>>(0);
         const auto& material = this->particles_.material;
         const auto run = [&](std::size_t m, std::size_t first, std::size_t count) {
             materials_[m].stress_rates({block.particle + first, count}, {grad_v + first, count},
+                                       returned_.empty() ? stress(now_->state) : returned_.data(),
                                        now_->state, now_->rate);
         };
         if (material.empty()) return run(0, 0, block.count);
@@ -103,7 +130,8 @@ class SolidConstitution final : public Constitution<Dim> {
     }
 
     std::vector<Material<Dim>> materials_;
-    std::optional<Now> now_;  ///< of the right-hand side at work
+    std::optional<Now> now_;        ///< of the right-hand side at work
+    std::vector<double> returned_;  ///< its stresses, where one of the materials returns them
 };
 
 }  // namespace

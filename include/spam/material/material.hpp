@@ -4,6 +4,7 @@
 #include <spam/core/state.hpp>
 #include <spam/material/stress_law.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,15 +22,25 @@ class Material {
     template <StressLaw<Dim> Law>
     Material(const Law& law) : loop_(std::make_shared<LoopOver<Law>>(law)) {}
 
-    /// sigma_dot of the particles with these numbers from their velocity gradients and their stress
-    /// in `state`. As many numbers as gradients.
+    /// sigma_dot of the particles with these numbers from their velocity gradients, as many, and from `stress`,
+    /// D(D+1)/2 numbers for each of all particles: that in `state`, or what it is returned to. Sets the
+    /// rates of further fields of the law as well.
     void stress_rates(std::span<const std::uint32_t> particles, std::span<const Mat<Dim>> grad_v,
-                      const ConstState<Dim>& state, const State<Dim>& rate) const {
-        loop_->run(particles, grad_v, state, rate);
+                      const double* stress, const ConstState<Dim>& state,
+                      const State<Dim>& rate) const {
+        loop_->run(particles, grad_v, stress, state, rate);
+    }
+    /// Whether the stress in y is a trial (ReturningLaw).
+    bool returns() const { return loop_->returns(); }
+    /// Of the particles [first, first + count): what their stress in `state` is returned to, into the same
+    /// places of `stress`, which has those of all.
+    void return_stress(double t, std::size_t first, std::size_t count, const ConstState<Dim>& state,
+                       double* stress) const {
+        loop_->return_stress(t, first, count, state, stress);
     }
     std::string describe() const { return loop_->describe(); }
 
-    /// The history fields of the law, which y holds for it; none where it has no memory.
+    /// The further fields of the law, which y holds for it; none where it has no memory.
     std::vector<Field> history() const { return loop_->history(); }
     /// After an accepted step: the law changes stress and history of the particles [first, first + count)
     /// where it has something to change (a plastic return, damage). Returns whether it did.
@@ -43,8 +54,11 @@ class Material {
   private:
     struct Loop {
         virtual ~Loop() = default;
-        virtual void run(std::span<const std::uint32_t>, std::span<const Mat<Dim>>,
+        virtual void run(std::span<const std::uint32_t>, std::span<const Mat<Dim>>, const double*,
                          const ConstState<Dim>&, const State<Dim>&) const = 0;
+        virtual bool returns() const = 0;
+        virtual void return_stress(double t, std::size_t first, std::size_t count,
+                                   const ConstState<Dim>& state, double* stress) const = 0;
         virtual std::string describe() const = 0;
         virtual std::optional<double> sound_speed(double density) const = 0;
         virtual std::vector<Field> history() const = 0;
@@ -54,23 +68,50 @@ class Material {
 
     template <class Law>
     struct LoopOver final : Loop {
+        static constexpr auto components = static_cast<std::size_t>(symmetric_size(Dim));
         explicit LoopOver(const Law& l) : law(l) {}
+
+        static SymTensor<Dim> stress_at(const double* all, std::size_t i) {
+            SymTensor<Dim> stress;
+            for (std::size_t c = 0; c < components; ++c) stress.c[c] = all[components * i + c];
+            return stress;
+        }
+        static void store(const SymTensor<Dim>& stress, double* all, std::size_t i) {
+            for (std::size_t c = 0; c < components; ++c) all[components * i + c] = stress.c[c];
+        }
 
         // flatten: a law is a small function, a call would cost as much as it does
         [[gnu::flatten]] void run(std::span<const std::uint32_t> particles,
-                                  std::span<const Mat<Dim>> grad_v, const ConstState<Dim>& state,
+                                  std::span<const Mat<Dim>> grad_v, const double* from,
+                                  [[maybe_unused]] const ConstState<Dim>& state,
                                   const State<Dim>& rate) const override {
-            constexpr auto n = static_cast<std::size_t>(symmetric_size(Dim));
-            const double* const from = state.stress().data();
             double* const to = rate.stress().data();
             const Law own = law;  // a copy that the stores below cannot be suspected to change
-            for (std::size_t k = 0; k < particles.size(); ++k) {
-                const std::size_t first = n * particles[k];
-                const Mat<Dim> gradient = grad_v[k];
-                SymTensor<Dim> sigma;
-                for (std::size_t c = 0; c < n; ++c) sigma.c[c] = from[first + c];
-                const SymTensor<Dim> sigma_dot = own.stress_rate(gradient, sigma);
-                for (std::size_t c = 0; c < n; ++c) to[first + c] = sigma_dot.c[c];
+            const auto each = [&](const auto& rate_of) {
+                for (std::size_t k = 0; k < particles.size(); ++k) {
+                    const std::size_t i = particles[k];
+                    store(rate_of(i, Mat<Dim>(grad_v[k]), stress_at(from, i)), to, i);
+                }
+            };
+            if constexpr (LawWithRates<Law, Dim>)
+                each(own.rates(state, rate));
+            else
+                each([&](std::size_t, const Mat<Dim>& gradient, const SymTensor<Dim>& stress) {
+                    return own.stress_rate(gradient, stress);
+                });
+        }
+        bool returns() const override { return ReturningLaw<Law, Dim>; }
+        [[gnu::flatten]] void return_stress([[maybe_unused]] double t, std::size_t first,
+                                            std::size_t count, const ConstState<Dim>& state,
+                                            double* to) const override {
+            const double* const from = state.stress().data();
+            if constexpr (ReturningLaw<Law, Dim>) {
+                const Law own = law;
+                const auto returned = own.return_map(t, state);
+                for (std::size_t i = first; i < first + count; ++i)
+                    store(returned(i, stress_at(from, i)), to, i);
+            } else {
+                std::copy_n(from + components * first, components * count, to + components * first);
             }
         }
         std::string describe() const override { return law.describe(); }

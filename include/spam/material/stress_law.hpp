@@ -20,13 +20,33 @@ concept StressLaw = requires(const Law law, Mat<Dim> grad_v, SymTensor<Dim> stre
     { law.describe() } -> std::convertible_to<std::string>;
 };
 
-/// One with a memory: `history` names the fields that y holds for it (Role::history), and `settle` looks at
-/// particle i after every accepted step and may change its stress and history; it returns whether it did.
+/// One with a memory: `history` names the fields that y holds for it (Role::history, or Role::integrated where
+/// `rates` finds their rates), and `settle` looks at particle i after every accepted step and may change its
+/// stress and history; it returns whether it did.
 template <class Law, int Dim>
 concept LawWithHistory = StressLaw<Law, Dim> &&
     requires(const Law law, double t, std::size_t i, const State<Dim>& state) {
     { law.history() } -> std::convertible_to<std::vector<Field>>;
     { law.settle(t, i, state) } -> std::same_as<bool>;
+};
+
+/// One whose stress is bounded: the stress in y is a trial, and every right-hand side, in forces, work and
+/// rates, counts with what the law returns it to; `settle` makes that the stress in y. So settling changes no
+/// rate, if returning twice is returning once: return_map(t, state)(i, trial) is the stress of particle i.
+template <class Law, int Dim>
+concept ReturningLaw = LawWithHistory<Law, Dim> &&
+    requires(const Law law, double t, std::size_t i, const ConstState<Dim>& state,
+             SymTensor<Dim> trial) {
+    { law.return_map(t, state)(i, trial) } -> std::same_as<SymTensor<Dim>>;
+};
+
+/// One with more rates than those of its stress: rates(state, rate)(i, grad_v, stress) returns sigma_dot of
+/// particle i and sets its further rates; stress_rate() is not called then.
+template <class Law, int Dim>
+concept LawWithRates = LawWithHistory<Law, Dim> &&
+    requires(const Law law, std::size_t i, const ConstState<Dim>& state, const State<Dim>& rate,
+             Mat<Dim> grad_v, SymTensor<Dim> stress) {
+    { law.rates(state, rate)(i, grad_v, stress) } -> std::same_as<SymTensor<Dim>>;
 };
 
 }  // namespace spam
