@@ -52,13 +52,13 @@ struct Known {
 Known known_of(MatterKind kind) {
     switch (kind) {
         case MatterKind::pair_md:
-            return {1.0 / 1500.0, 0.05, 0.01, 0.5, 0.42, 0.03};
+            return {0.005, 0.1, 0.01, 0.5, 0.42, 0.03};
         case MatterKind::embedded_atom:
-            return {1e-6, 0.05, 0.25, 0.022, 0.01725, 0.00225};
+            return {1e-6, 0.1, 0.25, 0.022, 0.01725, 0.00225};
         case MatterKind::spam:
             break;
     }
-    return {1e-5, 0.05, 0.25, 0.01, 0.0073, 0.0012};
+    return {1e-5, 0.1, 0.25, 0.01, 0.0073, 0.0012};
 }
 
 struct PulledBar {

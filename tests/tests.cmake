@@ -29,6 +29,7 @@ spam_test(rhs/pair_friction property)
 spam_test(rhs/shifting property)
 spam_test(rhs/purity property)
 spam_test(rhs/pair_potential property)
+spam_test(rhs/contact property)
 spam_test(rhs/fluid_model property)
 spam_test(rhs/fluid_transport property)
 spam_test(rhs/variable_range property)
@@ -117,7 +118,7 @@ if(NOT SPAM_LEVELS STREQUAL "generic")
     set_tests_properties(core.lanes.${level} PROPERTIES LABELS unit)
     set(tests core.lanes.${level})
     foreach(name rhs.oracle rhs.conservation rhs.purity rhs.pair_potential
-                 rhs.density_potential_model rhs.total_lagrangian
+                 rhs.contact rhs.density_potential_model rhs.total_lagrangian
                  neighbors.cluster_list)
       add_test(NAME ${name}.${level} COMMAND test.${name})
       set_tests_properties(${name}.${level} PROPERTIES LABELS property)

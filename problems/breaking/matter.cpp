@@ -3,6 +3,7 @@
 
 #include "../kernels/lattices.hpp"
 #include <spam/material/embedded_atom.hpp>
+#include <spam/material/yielding_solid.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/setup/drawn.hpp>
@@ -34,6 +35,14 @@ DensityPotentials potentials_of(const Session& session, const Matter& matter) {
     potentials.strength = matter.strength;
     if (matter.core > 0.0) potentials.core = {matter.core, matter.core_range};
     return potentials;
+}
+
+Material<2> yielding_solid(const Matter& matter) {
+    const auto elastic = ElasticSolid::triangular_lattice();
+    Failure failure;
+    if (matter.failure_strain) failure.plastic_strain = *matter.failure_strain;
+    return YieldingSolid(PlaneVonMises{elastic.lambda, elastic.eta},
+                         LinearHardening{matter.yield_stress, matter.hardening}, failure);
 }
 
 void refuse_impossible(const Matter& matter) {
@@ -141,8 +150,7 @@ std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matte
             model->add_term<DensityPotentialTerm<2>>(potentials_of(session, matter));
             break;
         case MatterKind::spam:
-            model->add_term<SmoothParticles<2>>(Material<2>(ElasticSolid::triangular_lattice()),
-                                                session.scheme());
+            model->add_term<SmoothParticles<2>>(yielding_solid(matter), session.scheme());
             if (matter.core > 0.0)
                 model->add_term<Core<2>>(CorePotential{matter.core, matter.core_range});
             break;

@@ -30,7 +30,7 @@ struct Matter {
     double yield_stress = 0.05;  ///< Y of SPAM
     double hardening = 0.0;      ///< H of SPAM
     std::optional<double> failure_strain{};
-    double strength = 0.1;         ///< s_c of embedded atoms
+    double strength = 0.2;         ///< s_c of embedded atoms
     double surface_tension = 0.1;  ///< s_g of embedded atoms
     double core = 1.0;             ///< e_c
     double core_range = 0.8;

@@ -45,6 +45,10 @@ Sweeps<Dim> core_sweeps();
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> cohesive_sweeps();
 
+/// Contact, of ContactRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> contact_sweeps();
+
 /// A total-Lagrangian solid, of StressedRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> lagrangian_sweeps();

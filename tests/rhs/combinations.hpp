@@ -19,6 +19,7 @@
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
+#include <spam/rhs/contact.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
@@ -121,6 +122,8 @@ inline const std::map<std::string, std::function<void(Sample&)>> further{
      [](Sample& s) {
          s.model.add_term<Core<2>>(CorePotential{0.1, 1.1});
      }},
+    {"Contact",
+     [](Sample& s) { s.model.add_term<Contact<2>>(ContactScheme{.folds_beyond = 1.2}); }},
     {"Springs", [](Sample& s) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }},
     {"LucyPairPotential", [](Sample& s) { s.model.add_term<LucyPairPotential<2>>(2.5); }},
     {"DensityPotentialTerm", [](Sample& s) {
