@@ -32,7 +32,7 @@ namespace {
 
 Plan<2> plan_of(const Session& session, const Parameters& p, Impact& impact) {
     Plan<2> plan;
-    plan.t_end = (session.common().smoke ? 0.25 : 1.0) * p.travel / impact.speed;
+    plan.t_end = (session.common().smoke ? 0.25 : 1.0) * p.travelled() / impact.speed;
     plan.output_every = plan.t_end / 200.0;
     plan.snapshot_every = plan.t_end / 10.0;
     plan.record(columns_of(impact));
@@ -67,12 +67,26 @@ void add_options(Problem& problem, Parameters& p) {
     options.integer("columns", p.columns, "particles along the plate", between(4, 5000));
     options.integer("rows", p.rows, "particles across the plate", between(1, 500));
     options.number("gap", p.gap, "distance of ball and plate at the start", between(0.5, 100.0));
-    options.number("travel", p.travel,
-                   "how far the ball would have gone at the end, had it not met the plate",
-                   between(1.0, 1e4));
+    options.number(
+        "travel", p.travel,
+        "how far the ball would have gone at the end, had it not met the plate (default: 75 with "
+        "--model pair_md, else 20)",
+        between(1.0, 1e4));
     options.choice<Ends>("ends", p.ends, {Ends::free, Ends::held},
                          "the outermost particles of the plate move freely, or are held");
-    breaking::add_matter_options(problem, p.matter);
+    options.number(
+        "contact", p.contact.energy,
+        "energy e_c of a contact in place of adhesion; 0 for none, ball and plate are then "
+        "neighbours like any others",
+        non_negative());
+    options
+        .number("contact-range", p.contact.range,
+                "distance at which particles of ball and plate touch, at most a spacing",
+                positive())
+        .only_when(
+            {"contact"}, [&p] { return p.contact.energy > 0.0; },
+            "has no meaning without a contact; give --contact 0.2, or leave it out");
+    breaking::add_matter_options(problem, p.matter, kinds_of(MatterKind::all));
 }
 
 }  // namespace

@@ -12,18 +12,19 @@
 namespace ball_plate {
 namespace {
 
-/// The ball's particles first. Ball and plate are two bodies, however near they are.
-Particles<2> ball_and_plate(const Parameters& p) {
+Particles<2> made(const Points<2>& position) {
+    auto particles = make_particles<2>(position, 1.0);
+    particles.body.assign(particles.size(), 0);
+    return particles;
+}
+
+/// Two bodies, however near they are to each other.
+std::vector<Particles<2>> ball_and_plate(const Parameters& p) {
     Points<2> disk = triangular_disk(p.radius);
     Points<2> block = triangular_block(p.columns, p.rows);
     block.colwise() -= Point<2>(block.rowwise().mean());
     disk.row(1).array() += block.row(1).maxCoeff() + p.gap - disk.row(1).minCoeff();
-    Points<2> all(2, disk.cols() + block.cols());
-    all << disk, block;
-    auto particles = make_particles<2>(all, 1.0);
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        particles.body[i] = particles.id[i] < disk.cols() ? ball : plate;
-    return particles;
+    return {made(disk), made(block)};
 }
 
 /// The outermost column of the plate on either side.
@@ -86,10 +87,12 @@ std::vector<double> speeds_of(MatterKind kind) {
     return {0.25, 0.5, 1.0, 2.0};
 }
 
-double step_of(const Parameters& p) { return p.matter.kind == MatterKind::pair_md ? 0.005 : 0.1; }
+double step_of(const Parameters& p) { return p.matter.kind == MatterKind::pair_md ? 0.0025 : 0.05; }
 
 Impact make_impact(const Session& session, const Parameters& p, double speed) {
-    Impact impact{speed, make_model(session, p.matter, ball_and_plate(p)), {}};
+    std::optional<ContactScheme> contact;
+    if (p.contact.energy > 0.0) contact = p.contact;
+    Impact impact{speed, make_model(session, p.matter, ball_and_plate(p), contact), {}};
     if (p.ends == Ends::held) hold_ends(p, *impact.model);
     const auto& particles = impact.model->particles();
     Points<2> x = particles.reference_position;

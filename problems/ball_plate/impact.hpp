@@ -19,8 +19,13 @@ struct Parameters {
     double radius = 8.0;
     int columns = 80, rows = 8;
     double gap = 1.1;
-    double travel = 20.0;
+    std::optional<double> travel;  ///< by default that of the lecture's numbers
     Ends ends = Ends::free;
+    ContactScheme contact{.energy = 0.0};  ///< without energy they stick together
+
+    double travelled() const {
+        return travel.value_or(matter.kind == MatterKind::pair_md ? 75.0 : 20.0);
+    }
 };
 
 constexpr std::int32_t ball = 0, plate = 1;  ///< bodies

@@ -45,6 +45,26 @@ Material<2> yielding_solid(const Matter& matter) {
                          LinearHardening{matter.yield_stress, matter.hardening}, failure);
 }
 
+void add_terms_among(const Session& session, const Matter& matter, ParticleModel<2>& model,
+                     std::size_t first, std::size_t count) {
+    switch (matter.kind) {
+        case MatterKind::pair_md:
+            model.add_term_among<Cohesion<2>>(first, count);
+            return;
+        case MatterKind::embedded_atom:
+            model.add_term_among<DensityPotentialTerm<2>>(first, count,
+                                                          potentials_of(session, matter));
+            return;
+        case MatterKind::spam:
+        case MatterKind::all:
+            break;
+    }
+    model.add_term_among<SmoothParticles<2>>(first, count, yielding_solid(matter),
+                                             session.scheme());
+    if (matter.core > 0.0)
+        model.add_term_among<Core<2>>(first, count, CorePotential{matter.core, matter.core_range});
+}
+
 void refuse_impossible(const Matter& matter) {
     if (matter.kind != MatterKind::pair_md && matter.core > 0.0 && matter.core_range < 0.01)
         throw InputError(fmt::format(
@@ -56,43 +76,36 @@ void refuse_impossible(const Matter& matter) {
 }  // namespace
 
 std::string_view to_string(MatterKind kind) {
-    switch (kind) {
-        case MatterKind::pair_md:
-            return "pair_md";
-        case MatterKind::embedded_atom:
-            return "embedded_atom";
-        case MatterKind::spam:
-            break;
-    }
-    return "spam";
+    constexpr std::string_view names[] = {"pair_md", "embedded_atom", "spam", "all"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 std::string title_of(MatterKind kind) {
-    switch (kind) {
-        case MatterKind::pair_md:
-            return "pair potential";
-        case MatterKind::embedded_atom:
-            return "embedded atoms";
-        case MatterKind::spam:
-            break;
-    }
-    return "SPAM";
+    return kind == MatterKind::pair_md         ? "pair potential"
+           : kind == MatterKind::embedded_atom ? "embedded atoms"
+                                               : "SPAM";
 }
 
-void add_matter_options(Problem& problem, Matter& matter) {
+std::vector<MatterKind> kinds_of(MatterKind kind) {
+    if (kind != MatterKind::all) return {kind};
+    return {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam};
+}
+
+void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds) {
     Options& options = problem.options();
     const auto only_of = [&options, &matter](const std::vector<std::string>& names,
-                                             const std::vector<MatterKind>& kinds,
+                                             const std::vector<MatterKind>& of,
                                              const std::string& why) {
         options.only_when(
             names, {"model"},
-            [&matter, kinds] {
-                return std::find(kinds.begin(), kinds.end(), matter.kind) != kinds.end();
+            [&matter, of] {
+                return matter.kind == MatterKind::all ||
+                       std::find(of.begin(), of.end(), matter.kind) != of.end();
             },
             "has no meaning with {by}: " + why + "; leave it out");
     };
     options.choice<MatterKind>(
-        "model", matter.kind, {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam},
+        "model", matter.kind, kinds,
         "molecular dynamics with a pair potential, or with potentials of the density; or smooth "
         "particles of a solid that yields");
     options.number("yield-stress", matter.yield_stress, "stress Y at which smooth particles yield",
@@ -139,22 +152,18 @@ void disturb(Points<2>& position, const Matter& matter) {
 }
 
 std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
-                                             Particles<2> particles) {
+                                             const std::vector<Particles<2>>& bodies,
+                                             const std::optional<ContactScheme>& contact) {
     refuse_impossible(matter);
-    auto model = std::make_shared<ParticleModel<2>>(std::move(particles));
-    switch (matter.kind) {
-        case MatterKind::pair_md:
-            model->add_term<Cohesion<2>>();
-            break;
-        case MatterKind::embedded_atom:
-            model->add_term<DensityPotentialTerm<2>>(potentials_of(session, matter));
-            break;
-        case MatterKind::spam:
-            model->add_term<SmoothParticles<2>>(yielding_solid(matter), session.scheme());
-            if (matter.core > 0.0)
-                model->add_term<Core<2>>(CorePotential{matter.core, matter.core_range});
-            break;
+    auto model = std::make_shared<ParticleModel<2>>(joined(bodies));
+    std::size_t first = 0;
+    for (const Particles<2>& body : bodies) {
+        const std::size_t count = contact ? body.size() : model->particles().size();
+        add_terms_among(session, matter, *model, first, count);
+        if (!contact) break;
+        first += count;
     }
+    if (contact) model->add_term<Contact<2>>(*contact);
     return model;
 }
 

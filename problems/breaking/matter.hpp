@@ -3,6 +3,7 @@
 // a plate.
 #pragma once
 
+#include <spam/rhs/contact.hpp>
 #include <spam/spam.hpp>
 
 #include <optional>
@@ -17,7 +18,8 @@ using namespace spam;
 enum class MatterKind {
     pair_md,        ///< molecular dynamics, phi = (2 - r^2)^8 - 2 (2 - r^2)^4
     embedded_atom,  ///< molecular dynamics with potentials of the density, and a core
-    spam            ///< smooth particles of an elastic solid that yields, and a core
+    spam,           ///< smooth particles of an elastic solid that yields, and a core
+    all             ///< one after the other; no matter of its own
 };
 
 std::string_view to_string(MatterKind kind);
@@ -38,16 +40,21 @@ struct Matter {
     int seed = 1;
 };
 
-/// `--model`, the constants above, and those of the scheme of smooth particles, each refused where it means
-/// nothing.
-void add_matter_options(Problem& problem, Matter& matter);
+/// Those that make a body.
+std::vector<MatterKind> kinds_of(MatterKind kind);
+
+/// `--model`, one of `kinds`, the constants above, and those of the scheme of smooth particles, each refused
+/// where it means nothing.
+void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds);
 
 /// A lattice that is not perfect: each coordinate moved by up to `disorder`, the same on every computer.
 void disturb(Points<2>& position, const Matter& matter);
 
-/// A body, or several, at rest. Throws InputError where the constants make no sense.
+/// Bodies one after the other, stored in this order. With `contact` they act on each other by that alone,
+/// else as particles of one body do. Throws InputError where the constants make no sense.
 std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
-                                             Particles<2> particles);
+                                             const std::vector<Particles<2>>& bodies,
+                                             const std::optional<ContactScheme>& contact = {});
 
 /// y of a model that is whole: places of `position`, in the order of the model's particles, at rest, of the density
 /// of the lattice, without stress or energy. `speed`: how fast things will be, for tolerances.

@@ -142,6 +142,14 @@ const std::map<std::string, std::string> another_value{
     {"height", "12"},
     {"roll", "0.1"},
     {"rayleigh", "2000"},
+    {"taper", "0.2"},
+    {"load-rate", "1e-3"},
+    {"yield-stress", "0.04"},
+    {"hardening", "0.02"},
+    {"failure-strain", "0.05"},
+    {"gap", "1.3"},
+    {"travel", "15"},
+    {"ends", "held"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -197,6 +205,12 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"rayleigh_benard", {"--density", "continuity"}},
     {"water_column", {}},
     {"water_column", {"--core", "0"}},
+    {"tension_test", {}},
+    {"tension_test", {"--model", "pair_md"}},
+    {"tension_test", {"--model", "embedded_atom"}},
+    {"ball_plate", {}},
+    {"ball_plate", {"--model", "pair_md"}},
+    {"ball_plate", {"--model", "embedded_atom", "--contact", "0.1"}},
 };
 
 std::vector<std::string> options_of(const std::string& program) {

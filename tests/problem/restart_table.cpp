@@ -23,6 +23,9 @@ using Clock = std::chrono::steady_clock;
 
 /// A second or less each; no interval of checkpoints divides the end.
 const std::map<std::string, Words> runs{
+    {"ball_plate",
+     {"--radius", "3", "--columns", "24", "--rows", "4", "--t-end", "30", "--checkpoint-every",
+      "3.3"}},
     {"cavity", {"--cells", "12", "--t-end", "120", "--checkpoint-every", "17"}},
     {"colliding_rings",
      {"--radius", "6", "--inner-radius", "3.5", "--t-end", "80", "--checkpoint-every", "7"}},
@@ -49,6 +52,9 @@ const std::map<std::string, Words> runs{
     {"string_phase", {"--t-end", "50", "--checkpoint-every", "7"}},
     {"taylor_green", {"--cells", "14", "--t-end", "120", "--checkpoint-every", "17"}},
     {"tensile_instability", {"--cells", "12", "--t-end", "150", "--checkpoint-every", "9"}},
+    {"tension_test",
+     {"--columns", "16", "--rows", "6", "--load-rate", "4e-5", "--t-end", "120",
+      "--checkpoint-every", "17"}},
     {"water_column", {"--width", "8", "--t-end", "20", "--checkpoint-every", "3.3"}},
 };
 /// Analyses, and studies that go on from their table.

@@ -26,6 +26,8 @@ target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DI
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
 spam_problem_test(problem/flows nlohmann_json::nlohmann_json)
 spam_problem_test(problem/water_column nlohmann_json::nlohmann_json)
+spam_problem_test(problem/tension_test nlohmann_json::nlohmann_json)
+spam_problem_test(problem/ball_plate nlohmann_json::nlohmann_json)
 spam_problem_test(problem/stirred_flows nlohmann_json::nlohmann_json)
 spam_problem_test(problem/contacts nlohmann_json::nlohmann_json)
 spam_problem_test(problem/expansion nlohmann_json::nlohmann_json)
