@@ -47,6 +47,15 @@ class StateView {
         return part;
     }
 
+    /// Of elements in place of particles: stress(), energy() and field() are theirs, M of them.
+    StateView elements() const {
+        StateView elements = *this;
+        elements.holder_ = Holder::element;
+        elements.first_ = 0;
+        elements.count_ = layout_->elements();
+        return elements;
+    }
+
     Block<Dim> position() const { return block<Dim>(Field::position); }
     Block<Dim> velocity() const { return block<Dim>(Field::velocity); }
     Block<1> density() const { return block<1>(Field::density); }
@@ -54,10 +63,10 @@ class StateView {
     Block<1> energy() const { return block<1>(Field::energy); }
     /// Any field: components x N, or components x 1 of an account.
     Block<Eigen::Dynamic> field(Field field) const {
-        const auto* b = layout_->find(field);
+        const bool account = field.role() == Role::account;
+        const auto* b = layout_->find(field, account ? Holder::particle : holder_);
         assert(b != nullptr);
         const std::size_t rows = b->components;
-        const bool account = b->size != rows * layout_->particles();
         return {y_.data() + b->offset + (account ? 0 : rows * first_),
                 static_cast<Eigen::Index>(rows),
                 static_cast<Eigen::Index>(account ? b->size / rows : count_)};
@@ -65,17 +74,17 @@ class StateView {
 
     /// Its first number; null where the layout has no such field.
     Scalar* find(Field field) const {
-        const auto* b = layout_->find(field);
+        const auto* b = layout_->find(field, holder_);
         return b == nullptr ? nullptr : y_.data() + b->offset + b->components * first_;
     }
 
-    bool has(Field field) const { return layout_->has(field); }
+    bool has(Field field) const { return layout_->has(field, holder_); }
     const FieldLayout<Dim>& layout() const { return *layout_; }
 
   private:
     template <int Rows>
     Block<Rows> block(Field field) const {
-        const auto* b = layout_->find(field);
+        const auto* b = layout_->find(field, holder_);
         assert(b != nullptr && b->components == Rows);
         return {y_.data() + b->offset + Rows * first_, Rows, static_cast<Eigen::Index>(count_)};
     }
@@ -83,6 +92,7 @@ class StateView {
     const FieldLayout<Dim>* layout_;
     std::span<Scalar> y_;
     std::size_t first_ = 0, count_;
+    Holder holder_ = Holder::particle;
 };
 
 template <int Dim>
