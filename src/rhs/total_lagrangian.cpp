@@ -69,6 +69,7 @@ template <int Dim>
 struct TotalLagrangian<Dim>::Stresses {
     const HyperelasticMaterial<Dim>& material;
     std::vector<double>& records;
+    const ConstState<Dim>& state;
     mutable std::atomic<bool> finite = true;
 
     static void call(const void* context, const SweptBlock& block) {
@@ -76,7 +77,9 @@ struct TotalLagrangian<Dim>::Stresses {
         const std::size_t count = block.count;
         double* const record = self.records.data() + block.first_slot * stride<Dim>;
         double* const B = record + B_at<Dim>;
-        if (!self.material.stresses(count, stride<Dim>, record + F_at<Dim>, B)) self.finite = false;
+        if (!self.material.stresses({block.particle, count}, stride<Dim>, record + F_at<Dim>, B,
+                                    self.state))
+            self.finite = false;
         for (std::size_t k = 0; k < count * stride<Dim>; k += stride<Dim>) {
             SymTensor<Dim> K;
             std::copy_n(record + k + K_at<Dim>, K.c.size(), K.c.begin());
@@ -186,11 +189,12 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.records = records_.data();
     out.v_dot = now.v_dot;
-    const Stresses stresses{material_, records_};
+    const Stresses stresses{material_, records_, now.state};
     out.close = Stresses::call;
     out.context = &stresses;
     sweeps_->gradient(in, out);
     if (!stresses.finite) return complaint();
+    if (material_.has_rates()) memory_rates(now);
     refresh(records_, F_at<Dim>);
     out.close = nullptr;
     if (scheme_.penalty > 0.0)
@@ -200,6 +204,42 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     refresh(records_, B_at<Dim>);
     sweeps_->force(in, out);
     return {};
+}
+
+/// F is linear in the positions: F_dot = F(x + v) - F(x), in periodic boxes too.
+template <int Dim>
+void TotalLagrangian<Dim>::memory_rates(const Now& now) {
+    carried_on_ = records_;
+    const double* const v = now.state.velocity().data();
+    const auto order = list_.order();
+    parallel_for(order.size(), [&](std::size_t slot) {
+        double* const present = &carried_on_[slot * stride<Dim> + present_at<Dim>];
+        for (std::size_t a = 0; a < Dim; ++a) present[a] += v[order[slot] * Dim + a];
+    });
+    refresh(carried_on_, present_at<Dim>);
+    SweepOutput<Dim> out;
+    out.records = carried_on_.data();
+    sweeps_->gradient(input(carried_on_), out);
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t at = slot * stride<Dim> + F_at<Dim>;
+        const Mat<Dim> F = tensor_at<Dim>(&records_[at]);
+        material_.rates(order[slot], F, tensor_at<Dim>(&carried_on_[at]) + (-1.0) * F, now.state,
+                        now.rate);
+    });
+}
+
+/// By the deformation gradients of the state that has been accepted.
+template <int Dim>
+bool TotalLagrangian<Dim>::settle(double, const State<Dim>& state) {
+    if (material_.history().empty() || material_.has_rates()) return false;
+    load(ConstState<Dim>(state), records_);
+    SweepOutput<Dim> out;
+    out.records = records_.data();
+    sweeps_->gradient(input(records_), out);
+    return parallel_count(list_.size(), [&](std::size_t slot) -> std::size_t {
+               const Mat<Dim> F = tensor_at<Dim>(&records_[slot * stride<Dim> + F_at<Dim>]);
+               return material_.settle(list_.order()[slot], F, state) ? 1 : 0;
+           }) > 0;
 }
 
 /// Names the first particle, in the order of the slots, whose stress has no meaning.
@@ -247,6 +287,7 @@ std::vector<double> TotalLagrangian<Dim>::density(std::span<const double> y) con
 
 template <int Dim>
 double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
+    const ConstState<Dim> state = this->state_of(y);
     std::vector<double> records = deformed(y);
     std::vector<double> penalty(list_.size(), 0.0);
     if (scheme_.penalty > 0.0) {
@@ -258,7 +299,8 @@ double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
     CompensatedSum sum;
     for (std::size_t slot = 0; slot < list_.size(); ++slot) {
         const double* const record = &records[slot * stride<Dim>];
-        sum += record[volume_at<Dim>] * material_.energy(tensor_at<Dim>(record + F_at<Dim>));
+        sum += record[volume_at<Dim>] *
+               material_.energy(list_.order()[slot], tensor_at<Dim>(record + F_at<Dim>), state);
         sum += penalty[list_.order()[slot]];
     }
     return sum;

@@ -13,8 +13,10 @@
 #include <spam/external/thermostat.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
+#include <spam/material/hencky_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/own_ranges.hpp>
@@ -72,6 +74,11 @@ inline const std::map<std::string, Build> with_scheme{
      [](Sample& s, const Scheme& scheme) {
          s.model.add_term<SmoothParticles<2>>(ElasticSolid{0.43, 0.43}, scheme);
      }},
+    {"SmoothParticles, solid that yields",
+     [](Sample& s, const Scheme& scheme) {
+         s.model.add_term<SmoothParticles<2>>(
+             YieldingSolid<PlaneStrainVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}), scheme);
+     }},
     {"SmoothParticles, gas",
      [](Sample& s, const Scheme& scheme) { add_fluid(s, {IdealGas{}}, scheme); }},
     {"SmoothParticles, fluid with friction and conduction", [](Sample& s, const Scheme& scheme) {
@@ -96,6 +103,12 @@ inline const std::map<std::string, Build> without_scheme{
      [](Sample& s, const Scheme&) {
          s.model.add_term<TotalLagrangian<2>>(StVenantKirchhoff{0.43, 0.43},
                                               TotalLagrangianScheme{site_density});
+     }},
+    {"TotalLagrangian, solid that yields",
+     [](Sample& s, const Scheme&) {
+         s.model.add_term<TotalLagrangian<2>>(
+             HenckySolid<PlaneVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}),
+             TotalLagrangianScheme{site_density});
      }},
     {"Springs", [](Sample& s, const Scheme&) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }}};
 

@@ -38,6 +38,12 @@ class StateView {
         assert(y.size() == layout.size());
     }
 
+    /// The same to read only.
+    operator StateView<Dim, const double>() const requires(!std::is_const_v<Scalar>) {
+        StateView<Dim, const double> same(*layout_, y_);
+        return same.part(first_, count_);
+    }
+
     /// Of particles first, ..., first + count - 1 alone; accounts are those of all.
     StateView part(std::size_t first, std::size_t count) const {
         assert(first + count <= count_);

@@ -104,4 +104,51 @@ constexpr Vec<Dim, T> operator*(const SymTensor<Dim, T>& s, const Vec<Dim, T>& v
     return r;
 }
 
+template <int Dim>
+constexpr double determinant(const Mat<Dim>& m) {
+    if constexpr (Dim == 1)
+        return m(0, 0);
+    else if constexpr (Dim == 2)
+        return m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+    else
+        return m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) -
+               m(0, 1) * (m(1, 0) * m(2, 2) - m(1, 2) * m(2, 0)) +
+               m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
+}
+
+/// By cofactors; infinite or NaN where there is none.
+template <int Dim>
+constexpr Mat<Dim> inverse(const Mat<Dim>& m) {
+    const double scale = 1.0 / determinant(m);
+    Mat<Dim> r;
+    if constexpr (Dim == 1) {
+        r(0, 0) = scale;
+    } else if constexpr (Dim == 2) {
+        r(0, 0) = scale * m(1, 1);
+        r(0, 1) = -scale * m(0, 1);
+        r(1, 0) = -scale * m(1, 0);
+        r(1, 1) = scale * m(0, 0);
+    } else {
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) {
+                const int i = (b + 1) % 3, j = (b + 2) % 3, k = (a + 1) % 3, l = (a + 2) % 3;
+                r(a, b) = scale * (m(i, k) * m(j, l) - m(i, l) * m(j, k));
+            }
+    }
+    return r;
+}
+
+/// (M S M^t)_ab = M_ac S_cd M_bd
+template <int Dim, class T>
+constexpr SymTensor<Dim, T> transformed(const Mat<Dim, T>& m, const SymTensor<Dim, T>& s) {
+    const Mat<Dim, T> m_s = m * s;
+    SymTensor<Dim, T> r;
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b) {
+            r(a, b) = m_s(a, 0) * m(b, 0);
+            for (int c = 1; c < Dim; ++c) r(a, b) += m_s(a, c) * m(b, c);
+        }
+    return r;
+}
+
 }  // namespace spam

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/state.hpp>
 #include <spam/core/tensor.hpp>
 
 #include <concepts>
 #include <string>
+#include <vector>
 
 namespace spam {
 
@@ -18,6 +20,31 @@ concept HyperelasticLaw = requires(const Law law, Mat<Dim> F) {
     { law.stress(F) } -> std::same_as<Mat<Dim>>;
     { law.stiffness() } -> std::convertible_to<double>;
     { law.describe() } -> std::convertible_to<std::string>;
+};
+
+/// One with a memory, whose `history` fields y holds (Role::history): in_state(state) returns what knows
+/// `stress(i, F)` and `energy(i, F)` of particle i, the second with all that has been spent on it before, so
+/// that the first is its derivative as long as nothing is settled; `settle` looks at particle i after
+/// every accepted step and may change its history, but neither its stress nor its energy. Returns whether it did.
+template <class Law, int Dim>
+concept HyperelasticLawWithMemory = requires(const Law law, std::size_t i, Mat<Dim> F,
+                                             const ConstState<Dim>& state,
+                                             const State<Dim>& settled) {
+    { law.in_state(state).stress(i, F) } -> std::same_as<Mat<Dim>>;
+    { law.in_state(state).energy(i, F) } -> std::same_as<double>;
+    { law.settle(i, F, settled) } -> std::same_as<bool>;
+    { law.history() } -> std::convertible_to<std::vector<Field>>;
+    { law.stiffness() } -> std::convertible_to<double>;
+    { law.describe() } -> std::convertible_to<std::string>;
+};
+
+/// One whose memory has rates (Role::integrated): rates(state, rate)(i, F, F_dot) sets those of particle i. It
+/// returns in_state(state) as above, and settles nothing.
+template <class Law, int Dim>
+concept HyperelasticLawWithRates = HyperelasticLawWithMemory<Law, Dim> &&
+    requires(const Law law, std::size_t i, Mat<Dim> F, const ConstState<Dim>& state,
+             const State<Dim>& rate) {
+    law.rates(state, rate)(i, F, F);
 };
 
 }  // namespace spam

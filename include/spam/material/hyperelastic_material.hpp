@@ -4,8 +4,11 @@
 #include <spam/material/hyperelastic_law.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace spam {
 
@@ -14,49 +17,105 @@ namespace spam {
 template <int Dim>
 class HyperelasticMaterial {
   public:
-    template <HyperelasticLaw<Dim> Law>
-    HyperelasticMaterial(const Law& law) : loop_(std::make_shared<LoopOver<Law>>(law)) {}
+    template <class Law>
+    requires HyperelasticLaw<Law, Dim> || HyperelasticLawWithMemory<Law, Dim> HyperelasticMaterial(
+        const Law& law)
+        : loop_(std::make_shared<LoopOver<Law>>(law)) {}
 
-    /// P of `count` particles, rows of Dim x Dim numbers, `stride` numbers from one particle to the
-    /// next, F given in the same way. False where one of them is not finite.
-    bool stresses(std::size_t count, std::size_t stride, const double* F, double* P) const {
-        return loop_->stresses(count, stride, F, P);
+    /// P of the particles with these numbers, rows of Dim x Dim numbers, `stride` numbers from one particle
+    /// to the next, F given in the same way. False where one of them is not finite.
+    bool stresses(std::span<const std::uint32_t> particles, std::size_t stride, const double* F,
+                  double* P, const ConstState<Dim>& state) const {
+        return loop_->stresses(particles, stride, F, P, state);
     }
-    /// Per reference volume.
-    double energy(const Mat<Dim>& F) const { return loop_->energy(F); }
+    /// Of particle i, per reference volume.
+    double energy(std::size_t i, const Mat<Dim>& F, const ConstState<Dim>& state) const {
+        return loop_->energy(i, F, state);
+    }
+    /// What y holds for the law; none where it has no memory.
+    std::vector<Field> history() const { return loop_->history(); }
+    /// Whether the memory of the law has rates.
+    bool has_rates() const { return loop_->has_rates(); }
+    /// Sets them for particle i.
+    void rates(std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot,
+               const ConstState<Dim>& state, const State<Dim>& rate) const {
+        loop_->rates(i, F, F_dot, state, rate);
+    }
+    /// After an accepted step: whether the law has changed the history of particle i.
+    bool settle(std::size_t i, const Mat<Dim>& F, const State<Dim>& state) const {
+        return loop_->settle(i, F, state);
+    }
     double stiffness() const { return loop_->stiffness(); }
     std::string describe() const { return loop_->describe(); }
 
   private:
     struct Loop {
         virtual ~Loop() = default;
-        virtual bool stresses(std::size_t, std::size_t, const double*, double*) const = 0;
-        virtual double energy(const Mat<Dim>&) const = 0;
+        virtual bool stresses(std::span<const std::uint32_t>, std::size_t, const double*, double*,
+                              const ConstState<Dim>&) const = 0;
+        virtual double energy(std::size_t, const Mat<Dim>&, const ConstState<Dim>&) const = 0;
+        virtual std::vector<Field> history() const = 0;
+        virtual bool has_rates() const = 0;
+        virtual void rates(std::size_t, const Mat<Dim>&, const Mat<Dim>&, const ConstState<Dim>&,
+                           const State<Dim>&) const = 0;
+        virtual bool settle(std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
     };
 
     template <class Law>
     struct LoopOver final : Loop {
+        static constexpr bool remembers = HyperelasticLawWithMemory<Law, Dim>;
         explicit LoopOver(const Law& l) : law(l) {}
 
         // flatten: a law is a small function, a call would cost as much as it does
-        [[gnu::flatten]] bool stresses(std::size_t count, std::size_t stride, const double* F,
-                                       double* P) const override {
+        [[gnu::flatten]] bool stresses(
+            std::span<const std::uint32_t> particles, std::size_t stride, const double* F,
+            double* P, [[maybe_unused]] const ConstState<Dim>& state) const override {
             const Law own = law;  // a copy that the stores below cannot be suspected to change
             double zero = 0.0;    // or NaN
-            for (std::size_t k = 0; k < count; ++k) {
-                Mat<Dim> gradient;
-                for (std::size_t c = 0; c < Dim * Dim; ++c) gradient.c[c] = F[k * stride + c];
-                const Mat<Dim> stress = own.stress(gradient);
-                for (std::size_t c = 0; c < Dim * Dim; ++c) {
-                    P[k * stride + c] = stress.c[c];
-                    zero += 0.0 * stress.c[c];
+            const auto each = [&](const auto& stress_of) {
+                for (std::size_t k = 0; k < particles.size(); ++k) {
+                    Mat<Dim> gradient;
+                    for (std::size_t c = 0; c < Dim * Dim; ++c) gradient.c[c] = F[k * stride + c];
+                    const Mat<Dim> stress = stress_of(particles[k], gradient);
+                    for (std::size_t c = 0; c < Dim * Dim; ++c) {
+                        P[k * stride + c] = stress.c[c];
+                        zero += 0.0 * stress.c[c];
+                    }
                 }
-            }
+            };
+            if constexpr (remembers)
+                each([now = own.in_state(state)](std::size_t i, const Mat<Dim>& gradient) {
+                    return now.stress(i, gradient);
+                });
+            else
+                each([&](std::size_t, const Mat<Dim>& gradient) { return own.stress(gradient); });
             return zero == 0.0;
         }
-        double energy(const Mat<Dim>& F) const override { return law.energy(F); }
+        double energy([[maybe_unused]] std::size_t i, const Mat<Dim>& F,
+                      [[maybe_unused]] const ConstState<Dim>& state) const override {
+            if constexpr (remembers)
+                return law.in_state(state).energy(i, F);
+            else
+                return law.energy(F);
+        }
+        std::vector<Field> history() const override {
+            if constexpr (remembers) return law.history();
+            return {};
+        }
+        bool has_rates() const override { return HyperelasticLawWithRates<Law, Dim>; }
+        void rates([[maybe_unused]] std::size_t i, [[maybe_unused]] const Mat<Dim>& F,
+                   [[maybe_unused]] const Mat<Dim>& F_dot,
+                   [[maybe_unused]] const ConstState<Dim>& state,
+                   [[maybe_unused]] const State<Dim>& rate) const override {
+            if constexpr (HyperelasticLawWithRates<Law, Dim>) law.rates(state, rate)(i, F, F_dot);
+        }
+        bool settle([[maybe_unused]] std::size_t i, [[maybe_unused]] const Mat<Dim>& F,
+                    [[maybe_unused]] const State<Dim>& state) const override {
+            if constexpr (remembers) return law.settle(i, F, state);
+            return false;
+        }
         double stiffness() const override { return law.stiffness(); }
         std::string describe() const override { return law.describe(); }
         Law law;

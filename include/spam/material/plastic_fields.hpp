@@ -32,7 +32,24 @@ inline constexpr FieldKind plastic_metric_zz{"plastic_metric_zz", Rank::scalar, 
 /// Spent on plastic flow, per volume of the reference configuration.
 inline constexpr FieldKind plastic_work{"plastic_work", Rank::scalar, Role::history,
                                         "m l^(2-D)/t^2"};
+// The same where they have rates.
+inline constexpr FieldKind flowing_plastic_metric{"plastic_metric", Rank::symmetric,
+                                                  Role::integrated, "1"};
+inline constexpr FieldKind flowing_plastic_metric_zz{"plastic_metric_zz", Rank::scalar,
+                                                     Role::integrated, "1"};
+inline constexpr FieldKind flowing_plastic_work{"plastic_work", Rank::scalar, Role::integrated,
+                                                "m l^(2-D)/t^2"};
 }  // namespace field_kind
+
+/// The part of the yield stress below it over which smooth flow sets in; throws InputError where it is none.
+inline double valid_yield_width(double width) {
+    if (!(width > 0.0) || !(width <= 1.0))
+        throw InputError(fmt::format(
+            "yield-width: {:g} must be above 0 and at most 1, the part of the yield stress over which "
+            "flow sets in; 0.1 is usual",
+            width));
+    return width;
+}
 
 /// When a solid breaks, for good, after a step; never where nothing is set. What is broken has no deviator
 /// and bears no tension.

@@ -24,13 +24,8 @@ class SmoothYield {
     SmoothYield(const Surface& surface, const LinearHardening& flow, double width = 0.1)
         : surface_(surface),
           flow_(flow),
-          width_(width) {
+          width_(valid_yield_width(width)) {
         flow_.validate();
-        if (!(width > 0.0) || !(width <= 1.0))
-            throw InputError(fmt::format(
-                "yield-width: {:g} must be above 0 and at most 1, the part of the yield stress over "
-                "which flow sets in; 0.1 is usual",
-                width));
     }
 
     /// With nothing but a stress: of a solid that has not yet flowed.

@@ -23,14 +23,14 @@ struct TotalLagrangianScheme {
 };
 
 /// An elastic solid of smooth particles that remembers its reference configuration X: y =
-/// (x, v); neighbours and weights are those of particles().reference_position for good, stresses
+/// (x, v, history of the material); neighbours and weights are those of particles().reference_position for good, stresses
 /// follow from the deformation gradient. All forces derive from one energy that rotations leave
 /// unchanged: p is kept exactly, E and in open space L to integrator error, and there is no tensile
-/// instability. It cannot flow or break: who are neighbours stays so.
+/// instability. It yields where its material does, but does not break: who are neighbours stays so.
 template <int Dim>
 class TotalLagrangian final : public Term<Dim> {
   public:
-    /// `material`: any hyperelastic law (hyperelastic_law.hpp). In a periodic box the lattice closes on
+    /// `material`: any hyperelastic law (hyperelastic_law.hpp), with a memory or without. In a periodic box the lattice closes on
     /// itself as in the reference configuration. Throws InputError for a density, range or penalty
     /// that makes no sense, a periodic box narrower than a fifth of the range, and a particle whose
     /// neighbours do not span space.
@@ -39,8 +39,12 @@ class TotalLagrangian final : public Term<Dim> {
     ~TotalLagrangian() override;
 
     using typename Term<Dim>::Now;
+    /// What the material remembers.
+    std::vector<Field> fields() const override { return material_.history(); }
     std::string rates(const Now& now) override;
-    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair.
+    bool settle(double t, const State<Dim>& state) override;
+    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair. Of a material with a
+    /// memory with what it has spent on plastic flow: that is kept as well, across steps and settling.
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.
     std::vector<double> density(std::span<const double> y) const override;
@@ -64,14 +68,16 @@ class TotalLagrangian final : public Term<Dim> {
     void load(const ConstState<Dim>& state, std::vector<double>& records) const;
     /// Images of particles, from a number of their records on.
     void refresh(std::vector<double>& records, std::size_t from) const;
+    void memory_rates(const Now& now);
     std::vector<double> deformed(std::span<const double> y) const;
     std::string complaint() const;
 
     HyperelasticMaterial<Dim> material_;
     TotalLagrangianScheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
-    ClusterList<Dim> list_;        ///< of the reference positions
-    std::vector<double> records_;  ///< StressedRecord by slot
+    ClusterList<Dim> list_;           ///< of the reference positions
+    std::vector<double> records_;     ///< StressedRecord by slot
+    std::vector<double> carried_on_;  ///< a time 1 later, where the material's memory has rates
 };
 
 extern template class TotalLagrangian<1>;
