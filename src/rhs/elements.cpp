@@ -212,13 +212,12 @@ double Elements::neighbour_forces(std::span<const double> y) const {
     return sum / particles().spacing;
 }
 
-std::size_t Elements::broken(std::span<const double> y) const {
-    const ConstState<2> state = ConstState<2>(layout(), y).elements();
-    const double* const broken = state.find(field_kind::broken);
-    return broken == nullptr
-               ? 0
-               : static_cast<std::size_t>(std::count_if(broken, broken + corners_.size(),
-                                                        [](double b) { return b != 0.0; }));
+std::size_t elements_broken(const Model<2>& model, std::span<const double> y) {
+    const ConstState<2> elements = ConstState<2>(model.layout(), y).elements();
+    const double* const broken = elements.find(field_kind::broken);
+    if (broken == nullptr) return 0;
+    return static_cast<std::size_t>(std::count_if(broken, broken + model.quadrilaterals().size(),
+                                                  [](double b) { return b != 0.0; }));
 }
 
 bool Elements::settle(double t, const State<2>& nodes) {

@@ -7,19 +7,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace spam {
 namespace {
 
-/// A circle of radius r becomes the square of half side r around it, arcs of the circle parts of its sides.
+/// Every point of the square of half side r goes to the circle of radius r, along its ray from the centre.
 Point<2> on_disk(const Point<2>& x) {
-    if (x.isZero(0.0)) return x;
-    const bool steep = std::abs(x.y()) > std::abs(x.x());
-    const double r = steep ? x.y() : x.x();
-    const double angle = std::numbers::pi / 4.0 * (steep ? x.x() / x.y() : x.y() / x.x());
-    return steep ? Point<2>(r * std::sin(angle), r * std::cos(angle))
-                 : Point<2>(r * std::cos(angle), r * std::sin(angle));
+    const double r = x.cwiseAbs().maxCoeff();
+    return r > 0.0 ? Point<2>(r / x.norm() * x) : x;
 }
 
 double area(const Points<2>& x, const Quadrilateral& corners) {

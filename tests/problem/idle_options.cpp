@@ -138,6 +138,9 @@ const std::map<std::string, std::string> another_value{
     {"top", "mirror@0.5"},
     {"height", "12"},
     {"roll", "0.1"},
+    {"elements", "3"},
+    {"hourglass-viscosity", "0.3"},
+    {"hourglass-stiffness", "0.2"},
     {"rayleigh", "2000"},
 };
 
@@ -177,6 +180,7 @@ const std::vector<std::pair<std::string, Words>> cases{
     {"string_phase", {}},
     {"string_phase", {"--core", "0"}},
     {"drop", {}},
+    {"mesh_modes", {}},
     {"drop", {"--core", "0.1", "--disorder", "0.1"}},
     {"lattice_stability", {}},
     {"lattice_stability", {"--potential", "both"}},

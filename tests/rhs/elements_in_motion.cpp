@@ -46,7 +46,7 @@ Drifts drifts_of(ParticleModel<2>& model, double speed, double dt, double t_end,
             elements.has(field_kind::plastic_strain)
                 ? elements.field(field_kind::plastic_strain).maxCoeff()
                 : 0.0,
-            model.term<Elements>()->broken(motion.y()),
+            elements_broken(model, motion.y()),
             {motion.y().begin(), motion.y().end()}};
 }
 
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(elastic_elements_keep_everything_to_the_order_of_the_integr
     const Drifts coarse = drifts_of(*model, 0.05, 0.4, 20.0),
                  fine = drifts_of(*model, 0.05, 0.2, 20.0);
     BOOST_TEST(fine.momentum < 1e-13);
-    BOOST_TEST(coarse.energy < 1e-4);
+    BOOST_TEST(coarse.energy < 2e-4);
     BOOST_TEST(fine.energy < coarse.energy / 12.0);
     BOOST_TEST(fine.angular_momentum < coarse.angular_momentum / 12.0 + 1e-13);
 }
@@ -100,10 +100,10 @@ BOOST_AUTO_TEST_CASE(nodes_of_broken_elements_alone_fly_on) {
     const auto model = model_of({rectangle_mesh(1, 1)}, yielding(0.01, 0.05), both);
     const auto y0 = start_of(*model, [](const Point<2>& x) { return Point<2>(0.3 * x.x(), 0.0); });
     IntegratorOptions options;
-    options.dt = 0.1;
+    options.dt = 0.01;
     Motion<2> motion(*model, y0, options);
     motion.advance_to(5.0);
-    BOOST_TEST(model->term<Elements>()->broken(motion.y()) == 1U);
+    BOOST_TEST(elements_broken(*model, motion.y()) == 1U);
     const auto rates = rates_of(*model, motion.y());
     BOOST_TEST(ConstState<2>(model->layout(), rates).velocity().norm() == 0.0);
     const auto now = measure_invariants<2>(*model, motion.y());

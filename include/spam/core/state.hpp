@@ -41,7 +41,10 @@ class StateView {
     /// The same to read only.
     operator StateView<Dim, const double>() const requires(!std::is_const_v<Scalar>) {
         StateView<Dim, const double> same(*layout_, y_);
-        return same.part(first_, count_);
+        same.first_ = first_;
+        same.count_ = count_;
+        same.holder_ = holder_;
+        return same;
     }
 
     /// Of particles first, ..., first + count - 1 alone; accounts are those of all.
@@ -88,6 +91,9 @@ class StateView {
     const FieldLayout<Dim>& layout() const { return *layout_; }
 
   private:
+    template <int, class>
+    friend class StateView;
+
     template <int Rows>
     Block<Rows> block(Field field) const {
         const auto* b = layout_->find(field, holder_);

@@ -63,8 +63,6 @@ class Elements final : public Term<2> {
 
     /// Density times area at the start.
     const std::vector<double>& mass() const { return mass_; }
-    /// Elements that have broken.
-    std::size_t broken(std::span<const double> y) const;
 
   private:
     using Corners = std::array<Vec<2>, 4>;
@@ -97,5 +95,8 @@ class Elements final : public Term<2> {
     std::vector<Corners> force_;         ///< on the corners
     std::vector<unsigned char> inverted_;
 };
+
+/// How many elements of a model have broken.
+std::size_t elements_broken(const Model<2>& model, std::span<const double> y);
 
 }  // namespace spam

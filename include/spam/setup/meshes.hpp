@@ -17,8 +17,8 @@ struct Mesh {
 /// Throws InputError where there is none.
 Mesh rectangle_mesh(int columns, int rows, double spacing = 1.0);
 
-/// n x n squares, mapped on a disk about the origin so that all areas grow alike (Shirley and Chiu 1997):
-/// squares about the centre become circles. Throws InputError where there is none.
+/// n x n squares, mapped on a disk about the origin: every square about the centre becomes a circle, along rays.
+/// Throws InputError where there is none.
 Mesh disk_mesh(int n, double radius);
 
 /// Particles at the nodes of some bodies, in strip order, `id` the place in the meshes one behind the other.
