@@ -31,7 +31,7 @@ struct Parameters {
 
 constexpr std::int32_t ball = 0, plate = 1;  ///< bodies
 /// Of rk4: contacts ask for it.
-constexpr double step = 0.1;
+constexpr double step = 0.05;
 
 struct Impact {
     std::shared_ptr<ParticleModel<2>> model;
