@@ -3,7 +3,6 @@
 
 #include <spam/external/clamp.hpp>
 #include <spam/material/yielding_solid.hpp>
-#include <spam/rhs/contact.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/meshes.hpp>
 

@@ -2,8 +2,8 @@
 // The finite-element twin of the ball that hits a plate, [HH07] 13.
 #pragma once
 
-#include <spam/physics/core_potential.hpp>
 #include <spam/problem/observer.hpp>
+#include <spam/rhs/contact.hpp>
 #include <spam/rhs/elements.hpp>
 
 #include <memory>
@@ -25,7 +25,7 @@ struct Parameters {
     double yield_stress = 0.05, hardening = 0.0;
     double failure_strain = 1.0;
     HourglassControl hourglass{0.1, 0.0};
-    CorePotential contact{1.0, 1.0};
+    ContactScheme contact{1.0, 1.0};
     bool held = true;  ///< the ends of the plate
 };
 
