@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "term_sweeps.hpp"
+#include <spam/physics/contact_potential.hpp>
 #include <spam/physics/density_passes.hpp>
 #include <spam/physics/density_sum.hpp>
 #include <spam/physics/pair_potential.hpp>
@@ -14,6 +15,12 @@ Sweeps<Dim> core_sweeps() {
 }
 
 template <int Dim, InstructionSet Level>
+Sweeps<Dim> contact_sweeps() {
+    return pair_sweeps<Level, GeneralSweep, Dim, ContactRecord<Dim>, ContactForce<Dim>,
+                       ContactEnergy<Dim>>();
+}
+
+template <int Dim, InstructionSet Level>
 Sweeps<Dim> lucy_potential_sweeps() {
     using R = PointRecord<Dim>;
     auto sweeps =
@@ -25,6 +32,9 @@ Sweeps<Dim> lucy_potential_sweeps() {
 template Sweeps<1> core_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> core_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> core_sweeps<3, InstructionSet::SPAM_LEVEL>();
+template Sweeps<1> contact_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> contact_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> contact_sweeps<3, InstructionSet::SPAM_LEVEL>();
 template Sweeps<1> lucy_potential_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> lucy_potential_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> lucy_potential_sweeps<3, InstructionSet::SPAM_LEVEL>();

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,9 @@ PairLaw<Dim> validated(PairLaw<Dim> law, std::size_t particles) {
         if (column.size() != particles)
             throw InputError(fmt::format("columns: '{}' is given {} numbers for {} particles",
                                          law.description, column.size(), particles));
+    if (!law.kinds.empty() && law.kinds.size() != law.columns.size())
+        throw InputError(fmt::format("columns: '{}' says of {} what they are, and gives {}",
+                                     law.description, law.kinds.size(), law.columns.size()));
     return law;
 }
 
@@ -37,11 +41,18 @@ template <int Dim>
 PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
     : Term<Dim>(among),
       law_(validated(std::move(law), among.particles().size())),
-      scalars_(static_cast<std::size_t>(law_.sweeps.numbers)),
+      kinds_(record_kinds()),
       packed_(packed_with(ListUse::again_and_again)) {}
 
 template <int Dim>
 PairTerm<Dim>::~PairTerm() = default;
+
+template <int Dim>
+std::vector<NumberKind> PairTerm<Dim>::record_kinds() const {
+    std::vector<NumberKind> kinds(static_cast<std::size_t>(law_.sweeps.numbers));
+    std::copy(law_.kinds.begin(), law_.kinds.end(), kinds.begin() + PointRecord<Dim>::numbers);
+    return kinds;
+}
 
 template <int Dim>
 std::unique_ptr<PackedParticles<Dim>> PairTerm<Dim>::packed_with(ListUse use) const {
@@ -64,11 +75,17 @@ bool PairTerm<Dim>::follow(PackedParticles<Dim>& packed, const ConstState<Dim>& 
         return false;
     if (law_.columns.empty()) return true;
     const auto order = packed.list().order();
+    const Home<Dim> home = packed.list().home();
     parallel_for(order.size(), [&](std::size_t slot) {
-        double* number = packed.record(slot) + PointRecord<Dim>::numbers;
-        for (const auto& column : law_.columns) *number++ = column[order[slot]];
+        double* const number = packed.record(slot) + PointRecord<Dim>::numbers;
+        const std::uint32_t i = order[slot];
+        for (std::size_t k = 0; k < law_.columns.size(); ++k) {
+            const double own = law_.columns[k][i];
+            const bool moved = !law_.kinds.empty() && law_.kinds[k].quantity == Quantity::position;
+            number[k] = moved ? home(i, law_.kinds[k].a, own) : own;
+        }
     });
-    packed.refresh(scalars_, PointRecord<Dim>::numbers);
+    packed.refresh(kinds_, PointRecord<Dim>::numbers);
     return true;
 }
 

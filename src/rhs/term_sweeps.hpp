@@ -42,6 +42,10 @@ Sweeps<Dim> lucy_potential_sweeps();
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> core_sweeps();
 
+/// Contact, of ContactRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> contact_sweeps();
+
 /// A total-Lagrangian solid, of StressedRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> lagrangian_sweeps();

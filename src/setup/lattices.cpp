@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -89,6 +90,41 @@ Particles<Dim> make_particles(const Points<Dim>& position, double mass, double s
     return particles;
 }
 
+template <int Dim>
+Particles<Dim> joined(const std::vector<Particles<Dim>>& parts) {
+    Particles<Dim> all;
+    Eigen::Index n = 0;
+    for (const auto& part : parts) n += part.reference_position.cols();
+    all.reference_position.resize(Dim, n);
+    const auto append = [](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    for (const auto& part : parts) {
+        if (part.spacing != parts.front().spacing)
+            throw InputError(fmt::format(
+                "spacing: {} and {} of two bodies differ, and a model has one; give both "
+                "the same",
+                parts.front().spacing, part.spacing));
+        if (part.material.empty() != parts.front().material.empty())
+            throw InputError(
+                "material: one body names its materials and another does not; name those of both");
+        std::int64_t next_id = 0;
+        for (const auto id : all.id) next_id = std::max(next_id, id + 1);
+        const std::int32_t next_body = all.bodies();
+        all.reference_position.middleCols(static_cast<Eigen::Index>(all.size()),
+                                          part.reference_position.cols()) = part.reference_position;
+        for (const auto id : part.id) all.id.push_back(id + next_id);
+        for (const auto body : part.body) all.body.push_back(body + next_body);
+        append(all.mass, part.mass);
+        append(all.material, part.material);
+        all.spacing = part.spacing;
+    }
+    return all;
+}
+
+template Particles<1> joined<1>(const std::vector<Particles<1>>&);
+template Particles<2> joined<2>(const std::vector<Particles<2>>&);
+template Particles<3> joined<3>(const std::vector<Particles<3>>&);
 template Points<1> square_lattice<1>(const std::array<int, 1>&, double);
 template Points<2> square_lattice<2>(const std::array<int, 2>&, double);
 template Points<3> square_lattice<3>(const std::array<int, 3>&, double);

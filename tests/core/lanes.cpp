@@ -65,6 +65,10 @@ void check() {
     T a(1.0), b(2.0);
     set_lane(a, W - 1, 3.0);
     BOOST_TEST(lanes_below(a, b) == (1U << (W - 1)) - 1);
+    BOOST_TEST(lane(where_below(a, b, T(5.0)), W - 1) == 0.0);
+    BOOST_TEST(lane(where_below(b, a, T(5.0)), W - 1) == 5.0);
+    BOOST_TEST(lane(where_below(a, b, T(5.0)), 0) == (W == 1 ? 0.0 : 5.0));
+    BOOST_TEST(lane(where_below(b, b, T(5.0)), 0) == 0.0);
     a += b * a - T(1.0);
     BOOST_TEST(lane(a, W - 1) == 8.0);
     BOOST_TEST(lane(-a, W - 1) == -8.0);

@@ -24,6 +24,8 @@ using Clock = std::chrono::steady_clock;
 /// A second or less each; no interval of checkpoints divides the end.
 const std::map<std::string, Words> runs{
     {"cavity", {"--cells", "12", "--t-end", "120", "--checkpoint-every", "17"}},
+    {"colliding_rings",
+     {"--radius", "6", "--inner-radius", "3.5", "--t-end", "80", "--checkpoint-every", "7"}},
     {"couette", {"--cells", "16", "--t-end", "120", "--checkpoint-every", "17"}},
     {"counter_rotating", {"--size", "4", "--turns", "0.5", "--checkpoint-every", "9"}},
     {"diffusion_waves", {"--cells", "16", "--t-end", "20", "--checkpoint-every", "3"}},

@@ -37,21 +37,7 @@ Particles<2> block(double at) {
 }
 
 /// A solid, a fluid on top of it that does not feel it, and springs at the end.
-Particles<2> all_three() {
-    Particles<2> all;
-    for (const double at : {0.0, 0.3, 0.7}) {
-        const Particles<2> one = block(at);
-        const auto n = static_cast<std::int64_t>(all.size());
-        all.mass.insert(all.mass.end(), one.mass.begin(), one.mass.end());
-        for (const auto id : one.id) all.id.push_back(id + n);
-        all.body.insert(all.body.end(), one.body.begin(), one.body.end());
-        Points<2> x(2, static_cast<Eigen::Index>(all.mass.size()));
-        x << all.reference_position, one.reference_position;
-        all.reference_position = x;
-        all.spacing = one.spacing;
-    }
-    return all;
-}
+Particles<2> all_three() { return joined<2>({block(0.0), block(0.3), block(0.7)}); }
 
 constexpr std::size_t n = side * side;
 const auto solid = Material<2>(ElasticSolid::triangular_lattice());

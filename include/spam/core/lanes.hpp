@@ -105,6 +105,16 @@ struct Lanes {
     }
     SPAM_INLINE friend Lanes positive_part(const Lanes& x) { return max(x, Lanes(0.0)); }
 
+    /// x in the lanes where a is below b, 0 in the others.
+    SPAM_INLINE friend Lanes where_below(const Lanes& a, const Lanes& b, const Lanes& x) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8)
+            return Vector(_mm512_maskz_mov_pd(
+                _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ), (__m512d)x.v));
+#endif
+        return a.v < b.v ? x.v : Vector{};
+    }
+
     SPAM_INLINE friend Lanes sqrt(const Lanes& x) {
 #if defined(__AVX512F__)
         if constexpr (W == 8) return Vector(_mm512_maskz_sqrt_pd(0xff, (__m512d)x.v));
@@ -250,6 +260,7 @@ SPAM_INLINE T rounded(const T& x) {
 
 SPAM_INLINE double sqrt_by_products(double x) { return std::sqrt(x); }
 SPAM_INLINE unsigned lanes_below(double a, double b) { return a < b ? 1U : 0U; }
+SPAM_INLINE double where_below(double a, double b, double x) { return a < b ? x : 0.0; }
 SPAM_INLINE double lane(double x, int) { return x; }
 template <int W>
 SPAM_INLINE double lane(const Lanes<W>& x, int l) {

@@ -23,6 +23,9 @@ struct PairLaw {
     PassConstants constants{};
     /// What the law needs of every particle besides position and mass, N numbers each (charges, sizes).
     std::vector<std::vector<double>> columns{};
+    /// What each column is, in images of a particle and across the border of a periodic box; empty: plain
+    /// numbers, which all images share. Those of a position are moved by the periods of the particle.
+    std::vector<NumberKind> kinds{};
 };
 
 /// Forces between pairs by a potential of their distance.
@@ -45,12 +48,13 @@ class PairTerm : public Term<Dim> {
     void remember(Archive& archive) override;
 
   private:
+    std::vector<NumberKind> record_kinds() const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     bool follow(PackedParticles<Dim>& packed, const ConstState<Dim>& state) const;
     SweepInput<Dim> input(const PackedParticles<Dim>& packed) const;
 
     PairLaw<Dim> law_;
-    std::vector<NumberKind> scalars_;  ///< what columns are in images of a particle
+    std::vector<NumberKind> kinds_;  ///< of a record, as its images need them
     std::unique_ptr<PackedParticles<Dim>> packed_;
 };
 

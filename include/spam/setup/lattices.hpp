@@ -33,4 +33,11 @@ template <int Dim>
 Particles<Dim> make_particles(const Points<Dim>& position, double mass, double spacing = 1.0,
                               const Box<Dim>& box = {}, double reach = 0.0);
 
+/// Several bodies one after the other: ids and numbers of bodies of each go on behind those of the one
+/// before, so that the particles of part k are those from the sum of the sizes before it on, and a term of
+/// its own can be added among them. Throws InputError where spacings differ or some parts name materials
+/// and others do not.
+template <int Dim>
+Particles<Dim> joined(const std::vector<Particles<Dim>>& parts);
+
 }  // namespace spam

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies that touch and part, as a user runs them.
+#include "problem/found.hpp"
+
+#include <cmath>
+
+using namespace spam::test;
+
+namespace {
+
+const Words small{"--radius", "8", "--inner-radius", "5", "--t-end", "200"};
+
+Words with(const Words& more) {
+    Words all = small;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(rings_part_as_in_another_program) {
+    const Results found("colliding_rings", {}, "parting_speed");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(std::abs(found.value.at("parting_speed") - 0.0394) < 0.002);
+    BOOST_TEST(found.value.at("contact_energy_at_end") == 0.0);
+    BOOST_TEST(found.value.at("closest_contact") > 0.5);
+    BOOST_TEST(found.value.at("largest_contact_energy") > 0.01);
+    BOOST_TEST(found.value.at("smallest_separation") < 22.0);  // of 34: they are bent
+}
+
+BOOST_AUTO_TEST_CASE(rings_of_either_formulation_part_again) {
+    for (const char* formulation : {"total_lagrangian", "updated"}) {
+        const Results found("colliding_rings", with({"--formulation", formulation}), "restitution");
+        BOOST_TEST(found.claims == 0U);
+        BOOST_TEST(found.value.at("parted_at") > 20.0);
+        BOOST_TEST(found.value.at("restitution") > 0.5);
+        BOOST_TEST(found.value.at("restitution") < 1.0);
+        BOOST_TEST(found.value.at("energy_drift") < 1e-6);
+    }
+}
+
+// Off the line of centres they begin to turn: all of it stays in the sum.
+BOOST_AUTO_TEST_CASE(rings_that_meet_off_their_line_keep_the_angular_momentum) {
+    const Results found("colliding_rings", with({"--offset", "6"}), "restitution");
+    BOOST_TEST(found.value.at("angular_momentum_drift") < 1e-9);
+    BOOST_TEST(found.value.at("momentum_drift") < 1e-13);
+    BOOST_TEST(found.value.at("parted_at") > 20.0);
+}
+
+BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
+    struct Bad {
+        Words arguments, says;
+    };
+    const std::vector<Bad> all{
+        {{"--contact-range", "1.2"}, {"contact-range: 1.2", "not above the spacing"}},
+        {{"--contact", "0"}, {"contact", "above 0"}},
+        {{"--inner-radius", "15.9"}, {"inner-radius", "no ring"}},
+        {{"--inner-radius", "17"}, {"inner-radius", "no ring"}},
+        {{"--range", "1"}, {"range: 1"}},
+        {{"--viscosity", "1"}, {"viscosity", "total_lagrangian"}},
+        {{"--penalty", "1", "--formulation", "updated"}, {"penalty", "updated"}},
+    };
+    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, "colliding_rings", bad.arguments);
+            BOOST_TEST(outcome.status == 2);
+            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+            for (const auto& word : bad.says)
+                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
+            BOOST_TEST(folder.listing().empty());
+        }
+}
