@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mesh_modes {
 namespace {
@@ -104,33 +105,33 @@ void report(Session& session, const Parameters& p, const Moving& one, const RunR
                        "no stress resists it"},
                       one.mode != Mode::butterfly || turned < 1e-8);
     else
-        session.claim({prefix + "kinetic_left", h.last("kinetic") / start, 0.0,
-                       one.mode == Mode::butterfly ? 1e-3 : 1e-9,
-                       "what resists the hourglass brakes it"},
-                      session.when_default({"elements", "speed", "hourglass-viscosity",
-                                            "hourglass-stiffness", "t-end"}));
+        session.claim(
+            {prefix + "kinetic_left", h.last("kinetic") / start, 0.0,
+             one.mode == Mode::butterfly ? 1e-3 : 1e-9, "what resists the hourglass brakes it"},
+            session.when_default(
+                {"elements", "speed", "hourglass-viscosity", "hourglass-stiffness", "t-end"}));
     session.check_promises(run, prefix);
 }
 
-/// Every element as a line around it, its nodes moved so that the fastest go a quarter of a side.
-PathPanel panel_of(const Moving& one, const std::string& title) {
+/// The nodes moved so that the fastest go a quarter of a side; elements coloured by how far they have turned, in
+/// degrees.
+ConfigurationPanel panel_of(const Moving& one, const std::string& title) {
     const Points<2>& X = one.model->particles().reference_position;
-    const Points<2> x = X + 0.25 * velocities(*one.model, one.mode);
-    PathPanel panel{title, {}, Points<2>(2, 4)};
-    for (const Quadrilateral& corners : one.model->quadrilaterals()) {
-        Points<2> around(2, 5);
-        for (Eigen::Index c = 0; c < 5; ++c)
-            around.col(c) = x.col(corners[static_cast<std::size_t>(c % 4)]);
-        panel.paths.push_back(around);
-    }
+    const auto elements = one.model->quadrilaterals();
+    const Points<2> moved = 0.25 * velocities(*one.model, one.mode);
+    ConfigurationPanel panel{title, X + moved, turns(*one.model, moved), {}, {}};
+    for (double& turn : panel.colour) turn *= 180.0 / std::numbers::pi;
+    panel.elements.assign(elements.begin(), elements.end());
     const double low = X.minCoeff(), high = X.maxCoeff();
-    panel.frame << low, high, high, low, low, low, high, high;
+    Points<2> square(2, 4);
+    square << low, high, high, low, low, low, high, high;
+    panel.outlines.push_back(square);
     return panel;
 }
 
 void draw(Session& session, const Parameters& p, const std::vector<Moving>& all,
           const std::vector<RunRecord>& runs) {
-    std::vector<PathPanel> panels;
+    std::vector<ConfigurationPanel> panels;
     CurvePanel kinetic{"resisted: kinetic energy, in parts of the first", "t", "K/K₀", true, {}};
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const std::string name = all[k].mode == Mode::butterfly     ? "butterfly, s (x, -y)"
@@ -147,7 +148,9 @@ void draw(Session& session, const Parameters& p, const std::vector<Moving>& all,
     }
     const auto title =
         fmt::format("Motions that no stress resists, {0} x {0} elements", p.elements);
-    session.note_drawn(draw_paths(session.plots_folder(), "modes", title, panels, panels.size()));
+    session.note_drawn(draw_configurations(session.plots_folder(), "modes", title, panels,
+                                           panels.size(), "turned, degrees",
+                                           ColourScale::about_zero));
     session.note_drawn(draw_curves(session.plots_folder(), "kinetic", title, {kinetic}));
 }
 

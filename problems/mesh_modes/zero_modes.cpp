@@ -2,6 +2,7 @@
 #include "zero_modes.hpp"
 
 #include <spam/material/elastic_solid.hpp>
+#include <spam/physics/quadrilateral.hpp>
 #include <spam/setup/meshes.hpp>
 
 #include <Eigen/SVD>
@@ -63,6 +64,21 @@ Eigen::MatrixXd stress_rates(ParticleModel<2>& mesh, const Points<2>& v) {
 
 double stress_rate(ParticleModel<2>& mesh, const Points<2>& v) {
     return stress_rates(mesh, v).cwiseAbs().maxCoeff();
+}
+
+std::vector<double> turns(const ParticleModel<2>& mesh, const Points<2>& displacement) {
+    const Points<2>& X = mesh.particles().reference_position;
+    std::vector<double> all;
+    for (const Quadrilateral& corners : mesh.quadrilaterals()) {
+        std::array<Vec<2>, 4> x, u;
+        for (std::size_t c = 0; c < 4; ++c) {
+            x[c] = {{X(0, corners[c]), X(1, corners[c])}};
+            u[c] = {{displacement(0, corners[c]), displacement(1, corners[c])}};
+        }
+        const Mat<2> grad = QuadrilateralShape<>(x).gradient(u);
+        all.push_back(0.5 * (grad(0, 1) - grad(1, 0)));
+    }
+    return all;
 }
 
 ZeroModes zero_modes(ParticleModel<2>& mesh) {

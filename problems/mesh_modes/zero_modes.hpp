@@ -27,6 +27,9 @@ Points<2> velocities(const ParticleModel<2>& mesh, Mode mode);
 /// The largest rate of stress of the mesh at rest under these velocities.
 double stress_rate(ParticleModel<2>& mesh, const Points<2>& v);
 
+/// By how much each element turns under small displacements of the nodes.
+std::vector<double> turns(const ParticleModel<2>& mesh, const Points<2>& displacement);
+
 /// Directions of the velocities of all nodes under which no stress changes, rigid motions left out: the dimension
 /// of the null space of what the right-hand side makes of velocities, whose singular values fall from about 1
 /// to rounding errors. Returns 0 <= modes; `gap`: the least of the former over the largest of the latter.

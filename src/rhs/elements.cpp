@@ -123,22 +123,31 @@ std::vector<Field> Elements::element_fields() const {
     return fields;
 }
 
+/// Of the right-hand side at work: nodes, and where fields of the elements begin (null for those not there).
+struct Elements::Held {
+    ConstState<2> nodes;
+    const double *broken, *Q;
+    double *e_dot, *Q_dot;
+    explicit Held(const Now& now)
+        : nodes(now.state),
+          broken(now.state.elements().find(field_kind::broken)),
+          Q(now.state.elements().find(field_kind::hourglass_force)),
+          e_dot(now.rate.elements().find(Field::energy)),
+          Q_dot(now.rate.elements().find(field_kind::hourglass_force)) {}
+};
+
 /// Gradient, forces and the rate of the energy of one element.
-void Elements::load(const Now& now, std::size_t element, const double* broken) {
-    double* const e_dot = now.rate.elements().energy().data() + element;
-    double* const Q_dot = elastic_hourglass_
-                              ? now.rate.elements().find(field_kind::hourglass_force) + 2 * element
-                              : nullptr;
+void Elements::load(const Held& held, std::size_t element) {
     inverted_[element] = 0;
-    if (broken != nullptr && broken[element] != 0.0) {
+    if (held.broken != nullptr && held.broken[element] != 0.0) {
         grad_v_[element] = {};
         force_[element] = {};
-        *e_dot = 0.0;
-        if (elastic_hourglass_) Q_dot[0] = Q_dot[1] = 0.0;
+        held.e_dot[element] = 0.0;
+        if (elastic_hourglass_) held.Q_dot[2 * element] = held.Q_dot[2 * element + 1] = 0.0;
         return;
     }
-    const QuadrilateralShape<> shape(corners_of(now.state.position(), element));
-    const Corners v = corners_of(now.state.velocity(), element);
+    const QuadrilateralShape<> shape(corners_of(held.nodes.position(), element));
+    const Corners v = corners_of(held.nodes.velocity(), element);
     inverted_[element] = shape.area > 0.0 ? 0 : 1;
     grad_v_[element] = shape.gradient(v);
     SymTensor<2> stress;
@@ -147,18 +156,17 @@ void Elements::load(const Now& now, std::size_t element, const double* broken) {
     const Vec<2> q_dot = shape.hourglass(v);
     Vec<2> Q = viscosity_[m] * std::sqrt(std::max(shape.area, 0.0)) * q_dot;
     if (elastic_hourglass_) {
-        const double* const held =
-            now.state.elements().find(field_kind::hourglass_force) + 2 * element;
+        const Vec<2> Q_e{{held.Q[2 * element], held.Q[2 * element + 1]}};
         const Mat<2>& grad = grad_v_[element];
         const double omega = 0.5 * (grad(0, 1) - grad(1, 0));
-        Q_dot[0] = stiffness_[m] * q_dot[0] - omega * held[1];
-        Q_dot[1] = stiffness_[m] * q_dot[1] + omega * held[0];
-        Q += Vec<2>{{held[0], held[1]}};
+        held.Q_dot[2 * element] = stiffness_[m] * q_dot[0] - omega * Q_e[1];
+        held.Q_dot[2 * element + 1] = stiffness_[m] * q_dot[1] + omega * Q_e[0];
+        Q += Q_e;
     }
     force_[element] = shape.forces(stress, Q);
     double power = 0.0;
     for (std::size_t c = 0; c < 4; ++c) power += dot(force_[element][c], v[c]);
-    *e_dot = -power / mass_[element];
+    held.e_dot[element] = -power / mass_[element];
 }
 
 /// Each node sums what its elements do to it, in their order.
@@ -174,12 +182,12 @@ void Elements::gather(const Now& now) const {
 std::string Elements::rates(const Now& now) {
     const ConstState<2> state = now.state.elements();
     const State<2> rate = now.rate.elements();
-    const double* const broken = state.find(field_kind::broken);
+    const Held held(now);
     parallel_blocks(corners_.size(), [&](std::size_t begin, std::size_t size) {
         for_each_material(
             begin, size, [&](const Material& m, std::size_t first, std::size_t count) {
                 m.law.return_stress(now.t, first, count, state, returned_.data());
-                for (std::size_t k = first; k < first + count; ++k) load(now, k, broken);
+                for (std::size_t k = first; k < first + count; ++k) load(held, k);
                 m.law.stress_rates({number_.data() + first, count}, {grad_v_.data() + first, count},
                                    returned_.data(), state, rate);
             });

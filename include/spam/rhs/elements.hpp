@@ -66,6 +66,7 @@ class Elements final : public Term<2> {
 
   private:
     using Corners = std::array<Vec<2>, 4>;
+    struct Held;
     template <class View>
     Corners corners_of(const View& nodes, std::size_t element) const;
     const Material& material_of(std::size_t element) const {
@@ -74,7 +75,7 @@ class Elements final : public Term<2> {
     /// f(material, first, count) for runs of elements of one material among first, ..., first + count - 1.
     template <class F>
     void for_each_material(std::size_t first, std::size_t count, const F& f) const;
-    void load(const Now& now, std::size_t element, const double* broken);
+    void load(const Held& held, std::size_t element);
     void gather(const Now& now) const;
 
     std::vector<Quadrilateral> corners_;
