@@ -158,6 +158,12 @@ void Session::describe(const Case<Dim>& one) {
                     fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", block.field.name(),
                                 integrator_.absolute_tolerance(block.field.name(), block.scale));
         terminal_.say(fmt::format("atol        {}", tolerances));
+        const auto& blocks = one.model->layout().blocks();
+        if (std::any_of(blocks.begin(), blocks.end(),
+                        [](const auto& block) { return block.field.role() == Role::history; }))
+            terminal_.say(
+                "note        what is settled after each step (plastic flow) has an error of first "
+                "order in the step, which tolerances do not control");
     }
 }
 

@@ -64,6 +64,10 @@ class SolidConstitution final : public Constitution<Dim> {
 
     void close_forces(const Now& now, SweepOutput<Dim>& out) override {
         now_.emplace(now);
+        if (materials_.size() > 1)  // what one finds the rates of, another may know nothing of
+            for (const Field field : fields())
+                if (field != Field::stress && field != Field::energy)
+                    now.rate.field(field).setZero();
         out.context = this;
         out.close = [](const void* context, const SweptBlock& block) {
             static_cast<const SolidConstitution*>(context)->close(block);

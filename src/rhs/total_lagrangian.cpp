@@ -220,6 +220,7 @@ void TotalLagrangian<Dim>::memory_rates(const Now& now) {
     SweepOutput<Dim> out;
     out.records = carried_on_.data();
     sweeps_->gradient(input(carried_on_), out);
+    for (const Field field : material_.history()) now.rate.field(field).setZero();
     parallel_for(order.size(), [&](std::size_t slot) {
         const std::size_t at = slot * stride<Dim> + F_at<Dim>;
         const Mat<Dim> F = tensor_at<Dim>(&records_[at]);

@@ -46,19 +46,20 @@ BOOST_AUTO_TEST_CASE(uniaxial_tension_follows_young_and_then_the_hardening) {
     const double first = Y / E / rate;
     const YieldingSolid<PlaneStressVonMises> solid(stress, LinearHardening{Y, H});
     const auto drawn = [&](double t) {
-        const double part = t <= first ? nu : (nu * H + 0.5 * E) / (E + H);  // of the yielding bar
+        const double part = t < first ? nu : (nu * H + 0.5 * E) / (E + H);  // of the yielding bar
         return gradient<2>({rate, 0.0, 0.0, -part * rate});
     };
-    const double dt = first / 64.0;  // the change of rate on the grid
+    const double dt =
+        first / 4096.0;  // at the change of rate one stage of a step has the wrong one
     MaterialPoint<2> point(solid, drawn, rk4(dt));
     point.advance_to(first);
-    BOOST_TEST(std::abs(point.stress()(0, 0) - Y) < 1e-12);
-    BOOST_TEST(std::abs(point.stress()(1, 1)) < 1e-12);
+    BOOST_TEST(std::abs(point.stress()(0, 0) - Y) < 2e-7);
+    BOOST_TEST(std::abs(point.stress()(1, 1)) < 2e-7);
     point.advance_to(10.0 * first);
     // E H/(E + H) is the slope beyond first yield; of the strain E/(E + H) is plastic.
     const double more = 9.0 * first * rate;
-    BOOST_TEST(std::abs(point.stress()(0, 0) - Y - more * E * H / (E + H)) < 1e-10);
-    BOOST_TEST(std::abs(point.stress()(1, 1)) < 1e-10);
+    BOOST_TEST(std::abs(point.stress()(0, 0) - Y - more * E * H / (E + H)) < 2e-9);
+    BOOST_TEST(std::abs(point.stress()(1, 1)) < 2e-9);
     BOOST_TEST(std::abs(point.value(field_kind::plastic_strain) - more * E / (E + H)) < 1e-8);
 }
 
@@ -229,7 +230,8 @@ BOOST_AUTO_TEST_CASE(solids_break_where_they_are_told_to) {
     };
     BOOST_TEST(broken_at({}) == 0.0);
     const double by_strain = broken_at({.plastic_strain = 0.01});
-    BOOST_TEST((by_strain > 0.2 && by_strain < 0.5));
+    // q = 4 eta 0.04 t up to Y, then eps_p = 0.04 (t - t_Y).
+    BOOST_TEST(std::abs(by_strain - Y / (0.16 * eta) - 0.25) < 2.0 / 256.0);
     const double by_tension = broken_at({.tension = 0.04});  // (lambda + eta) 0.12 t
     BOOST_TEST(std::abs(by_tension - 0.04 / (0.12 * (lambda + eta))) < 2.0 / 256.0);
     const double by_stress = broken_at({.largest_stress = 0.05});  // the mean and Y/2

@@ -41,6 +41,7 @@ const std::map<std::string, Words> runs{
     {"lattice_stability",
      {"--cells", "8", "--block", "8", "--range", "2.5", "--t-end", "60", "--checkpoint-every",
       "7"}},
+    {"mesh_modes", {"--elements", "6", "--t-end", "30", "--checkpoint-every", "7"}},
     {"plane_wave", {"--cells", "14", "--t-end", "80", "--checkpoint-every", "7"}},
     {"poiseuille", {"--cells", "16", "--t-end", "120", "--checkpoint-every", "17"}},
     {"rayleigh_benard", {"--height", "10", "--t-end", "120", "--checkpoint-every", "17"}},

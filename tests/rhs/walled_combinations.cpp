@@ -98,6 +98,6 @@ BOOST_AUTO_TEST_CASE(shifted_fluids_with_every_external) {
                 }
             });
     // Continuity or summed, with artificial viscosity where friction is not by pairs.
-    BOOST_TEST(ran == 7 * 2 * (2 + 2 + 1));
-    BOOST_TEST(refused == 7 * 3 * 3 * 4 * 2 * 2 - ran);
+    BOOST_TEST(ran == 8 * 2 * (2 + 2 + 1));
+    BOOST_TEST(refused == 8 * 3 * 3 * 4 * 2 * 2 - ran);
 }

@@ -22,7 +22,7 @@ inline bool jacobi_rotation(SymTensor<Dim>& A, Mat<Dim>& V, int p, int q) {
     const double b = A(p, q);
     if (std::abs(b) <= 1e-17 * (std::abs(A(p, p)) + std::abs(A(q, q)))) return false;
     const double half = 0.5 * (A(q, q) - A(p, p));
-    const double t = b / (half + std::copysign(std::hypot(half, b), half));
+    const double t = b / (half + std::copysign(std::sqrt(half * half + b * b), half));
     const double c = 1.0 / std::sqrt(1.0 + t * t), s = t * c;
     A(p, p) -= t * b;
     A(q, q) += t * b;

@@ -11,65 +11,94 @@
 
 namespace spam {
 
-/// Logarithmic strain of what is elastic in F: with the plastic metric Cp^-1, b = F Cp^-1 F^t =
-/// sum b_a n_a n_a, e_a = ln(b_a)/2.
+/// ln(b)/2 of a positive symmetric tensor.
+template <int Dim>
+SymTensor<Dim> half_logarithm(const SymTensor<Dim>& b) {
+    if constexpr (Dim == 2) {
+        // With m the mean of the two values and r half their difference: ln(det b)/4, and atanh(r/m)/(2 r)
+        // times the deviator, by a series where r is small.
+        const double m = 0.5 * (b(0, 0) + b(1, 1)), d = 0.5 * (b(0, 0) - b(1, 1)), o = b(0, 1);
+        const double r2 = d * d + o * o, x2 = r2 / (m * m);
+        double ratio = 0.0;  // atanh(x)/x
+        if (x2 < 0.01) {
+            const double x4 = x2 * x2;
+            ratio = (1.0 + x2 * (1.0 / 3.0)) + x4 * ((1.0 / 5.0 + x2 * (1.0 / 7.0)) +
+                                                     x4 * ((1.0 / 9.0 + x2 * (1.0 / 11.0)) +
+                                                           x4 * (1.0 / 13.0 + x2 * (1.0 / 15.0))));
+        } else {
+            const double x = std::sqrt(x2);
+            ratio = std::atanh(x) / x;
+        }
+        const double mean = 0.25 * std::log(m * m - r2), f = 0.5 * ratio / m;
+        SymTensor<2> e;
+        e(0, 0) = mean + f * d;
+        e(1, 1) = mean - f * d;
+        e(0, 1) = f * o;
+        return e;
+    } else {
+        auto values = symmetric_eigen(b);
+        for (double& value : values.value.c) value = 0.5 * std::log(value);
+        return from_eigen(values.value, values.vectors);
+    }
+}
+
+/// exp(2 e)
+template <int Dim>
+SymTensor<Dim> exponential_of_twice(const SymTensor<Dim>& e) {
+    auto values = symmetric_eigen(e);
+    for (double& value : values.value.c) value = std::exp(2.0 * value);
+    return from_eigen(values.value, values.vectors);
+}
+
+/// Logarithmic strain of what is elastic in F: with the plastic metric Cp^-1, b = F Cp^-1 F^t, e = ln(b)/2.
 template <int Dim>
 struct LogarithmicStrain {
-    Vec<Dim> strain;
+    SymTensor<Dim> strain;
     double zz = 0.0;
-    Mat<Dim> vectors;  ///< n_a in column a
 
     /// `metric`: Cp^-1 - 1, as y holds it; metric_zz likewise, 0 where there is none. NaN where F is turned
     /// inside out.
     static LogarithmicStrain of(const Mat<Dim>& F, const double* metric, double metric_zz) {
         LogarithmicStrain e;
         if (!(determinant(F) > 0.0)) {
-            e.strain[0] = std::numeric_limits<double>::quiet_NaN();
+            e.strain(0, 0) = std::numeric_limits<double>::quiet_NaN();
             return e;
         }
         SymTensor<Dim> inverse_Cp;
         std::copy_n(metric, inverse_Cp.c.size(), inverse_Cp.c.begin());
         for (int a = 0; a < Dim; ++a) inverse_Cp(a, a) += 1.0;
-        const auto b = symmetric_eigen(transformed(F, inverse_Cp));
-        e.vectors = b.vectors;
-        for (int a = 0; a < Dim; ++a) e.strain[a] = 0.5 * std::log(b.value[a]);
-        e.zz = 0.5 * std::log1p(metric_zz);
+        e.strain = half_logarithm(transformed(F, inverse_Cp));
+        if (metric_zz != 0.0) e.zz = 0.5 * std::log1p(metric_zz);
         return e;
     }
     double trace() const {
         double sum = zz;
-        for (int a = 0; a < Dim; ++a) sum += strain[a];
+        for (int a = 0; a < Dim; ++a) sum += strain(a, a);
         return sum;
     }
     /// lambda (tr e)^2/2 + eta e:e
     double energy(double lambda, double eta) const {
         double square = zz * zz;
-        for (int a = 0; a < Dim; ++a) square += strain[a] * strain[a];
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b) square += strain(a, b) * strain(a, b);
         return 0.5 * lambda * trace() * trace() + eta * square;
     }
     /// P = tau F^-t, tau = lambda tr e + 2 eta e.
     Mat<Dim> stress(double lambda, double eta, const Mat<Dim>& F) const {
-        Vec<Dim> tau;
-        for (int a = 0; a < Dim; ++a) tau[a] = lambda * trace() + 2.0 * eta * strain[a];
-        const SymTensor<Dim> kirchhoff = from_eigen(tau, vectors);
+        SymTensor<Dim> tau = (2.0 * eta) * strain;
+        for (int a = 0; a < Dim; ++a) tau(a, a) += lambda * trace();
         const Mat<Dim> back = inverse(F);
         Mat<Dim> P;
         for (int a = 0; a < Dim; ++a)
             for (int b = 0; b < Dim; ++b)
-                for (int c = 0; c < Dim; ++c) P(a, b) += kirchhoff(a, c) * back(b, c);
+                for (int c = 0; c < Dim; ++c) P(a, b) += tau(a, c) * back(b, c);
         return P;
-    }
-    /// 2 eta e along its own axes: as a stress it has the deviator of tau.
-    SymTensor<Dim> as_stress(double eta) const {
-        SymTensor<Dim> s;
-        for (int a = 0; a < Dim; ++a) s(a, a) = 2.0 * eta * strain[a];
-        return s;
     }
 };
 
 /// Hooke's law between the logarithmic strain and Kirchhoff's stress, with von Mises' surface: yielding at
-/// any deformation (Simo 1992). With b = F Cp^-1 F^t = sum b_a n_a n_a, Cp^-1 the plastic metric,
-///     e_a = ln(b_a)/2,   tau_a = lambda tr e + 2 eta e_a,   P = tau F^-t,   W = lambda (tr e)^2/2 + eta e:e,
+/// any deformation (Simo 1992). With b = F Cp^-1 F^t, Cp^-1 the plastic metric,
+///     e = ln(b)/2,   tau = lambda tr e + 2 eta e,   P = tau F^-t,   W = lambda (tr e)^2/2 + eta e:e,
 /// the deviator of e returned to the surface q = Y as a stress is (von_mises.hpp). P is the derivative by F of
 ///     min over plastic flow of W + int Y d eps_p,
 /// so that kinetic energy, W and plastic work together are kept to integrator error, and settling changes
@@ -130,10 +159,7 @@ class HenckySolid {
         double& strain = state.find(field_kind::plastic_strain)[i];
         state.find(field_kind::plastic_work)[i] += flow_.work(strain, e.flow);
         strain += e.flow;
-        // Cp^-1 - 1 = F^-1 b' F^-t - 1, b' = 1 + sum (exp(2 e_a) - 1) n_a n_a
-        Vec<dim> b;
-        for (int a = 0; a < dim; ++a) b[a] = std::exp(2.0 * e.strain[a]);
-        SymTensor<dim> metric = transformed(inverse(F), from_eigen(b, e.vectors));
+        SymTensor<dim> metric = transformed(inverse(F), exponential_of_twice(e.strain));
         for (int a = 0; a < dim; ++a) metric(a, a) -= 1.0;
         std::copy(metric.c.begin(), metric.c.end(),
                   state.find(field_kind::plastic_metric) + metric.c.size() * i);
@@ -150,12 +176,13 @@ class HenckySolid {
     Elastic elastic(const InState& now, std::size_t i, const Mat<dim>& F) const {
         Elastic e{LogarithmicStrain<dim>::of(F, now.metric + SymTensor<dim>().c.size() * i,
                                              Surface::across ? now.metric_zz[i] : 0.0)};
-        const auto parts = Surface::parts(e.as_stress(surface_.eta), 2.0 * surface_.eta * e.zz);
+        const auto parts =
+            Surface::parts((2.0 * surface_.eta) * e.strain, 2.0 * surface_.eta * e.zz);
         const double excess = parts.q - flow_.yield_stress({now.strain[i]});
         if (!(excess > 0.0)) return e;
         e.flow = flow_at(parts.q, excess, now.strain[i]);
         const double less = surface_.modulus() * e.flow / parts.q / (2.0 * surface_.eta);
-        for (int a = 0; a < dim; ++a) e.strain[a] -= less * parts.deviator(a, a);
+        e.strain = e.strain + (-less) * parts.deviator;
         e.zz -= less * parts.zz;
         return e;
     }

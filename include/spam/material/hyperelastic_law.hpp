@@ -38,7 +38,8 @@ concept HyperelasticLawWithMemory = requires(const Law law, std::size_t i, Mat<D
     { law.describe() } -> std::convertible_to<std::string>;
 };
 
-/// One whose memory has rates (Role::integrated): rates(state, rate)(i, F, F_dot) sets those of particle i. It
+/// One whose memory has rates (Role::integrated): rates(state, rate)(i, F, F_dot) sets those of particle i, which
+/// are 0 before. It
 /// returns in_state(state) as above, and settles nothing.
 template <class Law, int Dim>
 concept HyperelasticLawWithRates = HyperelasticLawWithMemory<Law, Dim> &&

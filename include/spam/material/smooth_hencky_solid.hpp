@@ -65,25 +65,27 @@ class SmoothHenckySolid {
                                                     const Mat<dim>& F_dot) {
             const LogarithmicStrain<dim> e = now.elastic(i, F);
             const double two_eta = 2.0 * surface_.eta;
-            const auto parts = Surface::parts(e.as_stress(surface_.eta), two_eta * e.zz);
+            const auto parts = Surface::parts(two_eta * e.strain, two_eta * e.zz);
             const double Y = flow_.yield_stress({now.strain[i]});
             const double near = (parts.q / Y - 1.0 + width_) / width_;
             if (!(near > 0.0)) return;  // rates are 0 before
-            // n along the axes of b, and n:D with D of F_dot F^-1.
+            // n, which has the axes of b, and n:D with D of F_dot F^-1.
             const double to_n = std::sqrt(Surface::k) / parts.q;
-            Vec<dim> n;
-            for (int a = 0; a < dim; ++a) n[a] = to_n * parts.deviator(a, a);
-            const SymTensor<dim> direction = from_eigen(n, e.vectors);
+            const SymTensor<dim> n = to_n * parts.deviator;
             const Mat<dim> back = inverse(F);
             double n_D = 0.0;
             for (int a = 0; a < dim; ++a)
                 for (int b = 0; b < dim; ++b)
-                    for (int c = 0; c < dim; ++c) n_D += direction(a, b) * F_dot(a, c) * back(c, b);
+                    for (int c = 0; c < dim; ++c) n_D += n(a, b) * F_dot(a, c) * back(c, b);
             if (!(n_D > 0.0)) return;
             const double l = n_D * near;
-            Vec<dim> n_b;
-            for (int a = 0; a < dim; ++a) n_b[a] = -2.0 * l * n[a] * std::exp(2.0 * e.strain[a]);
-            const SymTensor<dim> metric = transformed(back, from_eigen(n_b, e.vectors));
+            // n b is symmetric.
+            const SymTensor<dim> b = exponential_of_twice(e.strain);
+            SymTensor<dim> flow;
+            for (int a = 0; a < dim; ++a)
+                for (int c = a; c < dim; ++c)
+                    for (int d = 0; d < dim; ++d) flow(a, c) += -2.0 * l * n(a, d) * b(d, c);
+            const SymTensor<dim> metric = transformed(back, flow);
             std::copy(metric.c.begin(), metric.c.end(),
                       rate.find(field_kind::flowing_plastic_metric) + metric.c.size() * i);
             if (Surface::across)

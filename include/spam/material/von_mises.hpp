@@ -90,7 +90,7 @@ struct RadialVonMises {
     }
     /// The deviator times `factor`.
     static ReturnedStress<dim> with_deviator(const Parts& p, double factor, double strain) {
-        ReturnedStress<dim> r{factor * p.deviator, p.mean + factor * p.zz, strain};
+        ReturnedStress<dim> r{factor * p.deviator, Across ? p.mean + factor * p.zz : 0.0, strain};
         for (int a = 0; a < dim; ++a) r.stress(a, a) += p.mean;
         return r;
     }
@@ -137,39 +137,48 @@ struct PlaneStressVonMises {
     double modulus() const { return 3.0 * eta; }
     static const char* name() { return "plane stress"; }
 
-    static double q(double p, double d, double xy) {
-        return std::sqrt(p * p + 3.0 * (d * d + xy * xy));
-    }
-
     template <class YieldStress>
-    ReturnedStress<dim> returned(const SymTensor<dim>& trial, double, double,
+    ReturnedStress<dim> returned(const SymTensor<dim>& trial, double, double slope,
                                  const YieldStress& Y) const {
         const double p = 0.5 * (trial(0, 0) + trial(1, 1)), d = 0.5 * (trial(0, 0) - trial(1, 1));
-        const double xy = trial(0, 1);
-        const auto elastic_energy = [&](double mean, double square) {
-            return 0.5 * (mean * mean / (elastic().lambda + eta) + square / eta);
+        const double xy = trial(0, 1), p2 = p * p, s2 = 3.0 * (d * d + xy * xy);
+        const auto elastic_energy = [&](double f, double h) {
+            return 0.5 * (f * f * p2 / (elastic().lambda + eta) + h * h * s2 / (3.0 * eta));
         };
-        if (!(q(p, d, xy) > Y(0.0, elastic_energy(p, d * d + xy * xy)))) return {trial, 0.0, 0.0};
+        const double first = Y(0.0, elastic_energy(1.0, 1.0));
+        if (!(p2 + s2 > first * first)) return {trial, 0.0, 0.0};
         // E/(3 (1 - nu)), with E = eta (3 lambda + 2 eta)/(lambda + eta), nu = lambda/(2 (lambda + eta)).
-        const double spherical =
-            2.0 * eta * (3.0 * lambda + 2.0 * eta) / (3.0 * (lambda + 2.0 * eta));
-        struct Point {
-            double p, d, xy, q;
+        const double a = 2.0 * eta * (3.0 * lambda + 2.0 * eta) / (3.0 * (lambda + 2.0 * eta));
+        const double b = 2.0 * eta;
+        double g = 0.0, f = 1.0, h = 1.0, q = 0.0;
+        const auto go_to = [&](double to) {
+            g = to;
+            f = 1.0 / (1.0 + a * g);
+            h = 1.0 / (1.0 + b * g);
+            q = std::sqrt(f * f * p2 + h * h * s2);
         };
-        const auto at = [&](double g) {
-            const double f = 1.0 / (1.0 + spherical * g), h = 1.0 / (1.0 + 2.0 * eta * g);
-            return Point{f * p, h * d, h * xy, q(f * p, h * d, h * xy)};
-        };
-        const double g = falling_root(1.0 / eta, [&](double x) {
-            const Point s = at(x);
-            return s.q - Y(2.0 / 3.0 * x * s.q, elastic_energy(s.p, s.d * s.d + s.xy * s.xy));
-        });
-        const Point s = at(g);
+        if (std::isnan(slope)) {
+            go_to(falling_root(1.0 / eta, [&](double x) {
+                go_to(x);
+                return q - Y(2.0 / 3.0 * x * q, elastic_energy(f, h));
+            }));
+        } else {
+            // Newton's method for 1/q = (1 - 2 H g/3)/Y: without a mean stress both sides are linear in g.
+            const double right = 2.0 / 3.0 * slope / first;
+            go_to(0.0);
+            for (int k = 0; k < 50; ++k) {
+                const double fall = a * f * f * f * p2 + b * h * h * h * s2;  // -q dq/dg
+                const double step =
+                    (1.0 / first - right * g - 1.0 / q) / (fall / (q * q * q) + right);
+                go_to(g + step);
+                if (!(std::abs(step) > 1e-9 * g)) break;  // its square is left
+            }
+        }
         ReturnedStress<dim> r;
-        r.stress(0, 0) = s.p + s.d;
-        r.stress(1, 1) = s.p - s.d;
-        r.stress(0, 1) = s.xy;
-        r.strain = 2.0 / 3.0 * g * s.q;
+        r.stress(0, 0) = f * p + h * d;
+        r.stress(1, 1) = f * p - h * d;
+        r.stress(0, 1) = h * xy;
+        r.strain = 2.0 / 3.0 * g * q;
         return r;
     }
 };
