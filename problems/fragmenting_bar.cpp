@@ -15,9 +15,9 @@
 // They are found anew at every row of invariants.csv; projectile and bar become one when they meet,
 // and pieces that part have their own torque balance from then on. bodies.csv accounts for mass,
 // momentum, energy and every body's angular momentum through every change.
+#include "breaking/pieces.hpp"
 #include "fragmenting_bar/body_ledger.hpp"
 #include <spam/io/csv.hpp>
-#include <spam/neighbors/connected_parts.hpp>
 #include <spam/problem/nearest_state.hpp>
 #include <spam/spam.hpp>
 
@@ -46,20 +46,6 @@ Points<2> bar_and_projectile(const Parameters& p, double range) {
     Points<2> all(2, bar.cols() + ball.cols());
     all << bar, ball;
     return all;
-}
-
-/// Pieces worth the name: connected within 1.5 spacings, of at least `least` particles, by size.
-std::vector<std::size_t> pieces(const Model<2>& model, std::span<const double> y,
-                                std::size_t least) {
-    const Points<2> x = ConstState<2>(model.layout(), y).position();
-    std::vector<std::size_t> sizes;
-    for (const auto body : connected_parts<2>(x, 1.5 * model.particles().spacing, model.box())) {
-        sizes.resize(std::max(sizes.size(), static_cast<std::size_t>(body) + 1), 0);
-        ++sizes[static_cast<std::size_t>(body)];
-    }
-    std::erase_if(sizes, [least](std::size_t n) { return n < least; });
-    std::sort(sizes.rbegin(), sizes.rend());
-    return sizes;
 }
 
 void write_ledger(const RunFolder& folder, const BodyLedger& ledger) {
@@ -172,7 +158,7 @@ int main(int argc, char** argv) {
                           return static_cast<double>(m.particles().bodies());
                       }},
                      {"pieces", [](const Model<2>& m, std::span<const double> y) {
-                          return static_cast<double>(pieces(m, y, 5).size());
+                          return static_cast<double>(breaking::piece_sizes(m, y, 5).size());
                       }}});
         plan.observe({.revise =
                           [&ledger, row_interval](double t, Model<2>& m, std::span<double> y) {

@@ -65,7 +65,7 @@ Plan<3> plan_of(const Session& session, const Bar& bar, std::vector<Drawn>& draw
 void report(Session& session, const Parameters& p, const Bar& bar, const RunRecord& run) {
     const std::string prefix = p.compare ? bar.label + "_" : "";
     const bool known =
-        session.when_default({"length", "radius", "speed", "young", "yield-stress", "hardening",
+        session.when_default({"aspect", "radius", "speed", "young", "yield-stress", "hardening",
                               "poisson", "density", "range", "penalty"}) &&
         run.complete && run.statistics.t_end >= 79.0 && bar.spacing <= 0.65;
     session.claim({prefix + "length", run.history.last("length"), known_length, 0.02 * known_length,
@@ -139,8 +139,8 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("particles-per-radius", p.particles_per_radius,
                     "particles from the axis to the rim", between(2, 40));
-    options.number("length", p.length, "of the bar, mm", positive());
     options.number("radius", p.radius, "of the bar, mm", positive());
+    options.number("aspect", p.aspect, "length of the bar by its radius", between(2.0, 100.0));
     options.number("speed", p.speed, "of the bar, m/s", between(0.0, 1000.0));
     options.number("young", p.young, "Young's modulus, GPa", positive());
     options.number("poisson", p.poisson, "Poisson's ratio", between(0.0, 0.49));

@@ -35,8 +35,8 @@ Points<3> sites_of(const Parameters& p, double spacing, int layers) {
 
 Bar make_bar(const Parameters& p, int particles_per_radius) {
     const double nominal = p.radius / particles_per_radius;
-    const int layers = static_cast<int>(std::lround(p.length / nominal));
-    const double spacing = p.length / layers, rho = p.density * to_g_per_mm3;
+    const int layers = static_cast<int>(std::lround(p.length() / nominal));
+    const double spacing = p.length() / layers, rho = p.density * to_g_per_mm3;
     const double E = p.young * to_TPa;
     const double eta = 0.5 * E / (1.0 + p.poisson);
     const double lambda = E * p.poisson / ((1.0 + p.poisson) * (1.0 - 2.0 * p.poisson));

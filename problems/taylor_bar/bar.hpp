@@ -19,6 +19,8 @@ struct Parameters {
     double range = 2.6;  // spacings
     double penalty = 0.01;
     bool compare = false;
+
+    double length() const { return aspect * radius; }
 };
 
 /// A bar of cubic lattice along z, its face at z = 0 against a rigid wall without friction.

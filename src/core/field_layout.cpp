@@ -2,6 +2,7 @@
 #include <spam/core/field_layout.hpp>
 
 #include <algorithm>
+#include <tuple>
 
 namespace spam {
 
@@ -12,14 +13,25 @@ FieldLayout<Dim>::FieldLayout(std::size_t particles, const std::vector<Field>& f
 }
 
 template <int Dim>
-void FieldLayout<Dim>::add(Field field) {
+std::string FieldLayout<Dim>::Block::name() const {
+    const std::string name(field.name());
+    return holder == Holder::element ? "element_" + name : name;
+}
+
+template <int Dim>
+void FieldLayout<Dim>::add(Field field, Holder holder) {
     const std::size_t components = field.components<Dim>();
-    if (has(field) || components == 0) return;
-    const std::size_t size = field.role() == Role::account ? components : components * particles_;
-    const auto behind =
-        std::upper_bound(blocks_.begin(), blocks_.end(), field.place(),
-                         [](int place, const Block& block) { return place < block.field.place(); });
-    blocks_.insert(behind, {field, components, 0, size, 1.0});
+    if (has(field, holder) || components == 0) return;
+    const bool account = field.role() == Role::account;
+    const std::size_t holders = holder == Holder::element ? elements_ : particles_;
+    const auto place = [](const Field& f, Holder h) {
+        return std::tuple(f.role() == Role::account, h, f.place());
+    };
+    const auto behind = std::upper_bound(
+        blocks_.begin(), blocks_.end(), place(field, holder),
+        [&](const auto& at, const Block& block) { return at < place(block.field, block.holder); });
+    blocks_.insert(
+        behind, {field, components, 0, account ? components : components * holders, 1.0, holder});
     size_ = 0;
     for (Block& block : blocks_) {
         block.offset = size_;
@@ -28,9 +40,10 @@ void FieldLayout<Dim>::add(Field field) {
 }
 
 template <int Dim>
-const typename FieldLayout<Dim>::Block* FieldLayout<Dim>::find_by_name(Field field) const {
+const typename FieldLayout<Dim>::Block* FieldLayout<Dim>::find_by_name(Field field,
+                                                                       Holder holder) const {
     for (const Block& block : blocks_)
-        if (block.field == field) return &block;
+        if (block.field == field && block.holder == holder) return &block;
     return nullptr;
 }
 
@@ -46,7 +59,7 @@ typename FieldLayout<Dim>::Entry FieldLayout<Dim>::entry(std::size_t k) const {
     for (const Block& b : blocks_)
         if (b.offset <= k) block = &b;
     const std::size_t local = k - block->offset;
-    return {block->field, local / block->components, local % block->components};
+    return {block->field, block->holder, local / block->components, local % block->components};
 }
 
 template <int Dim>

@@ -11,6 +11,7 @@ std::string why_no_energy(const Model<Dim>& model) {
     if (model.promises().energy == Promise::not_kept) return "the scheme does not keep it";
     const auto& layout = model.layout();
     if (layout.has(Field::work)) return "externals change it";
+    if (layout.elements() > 0) return "elements hold a part of it";
     const bool potential = layout.blocks().size() == 2 && layout.has(Field::position);
     if (!layout.has(Field::velocity) || !(layout.has(Field::energy) || potential))
         return "y holds neither energies nor positions and velocities alone";

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace spam {
 namespace {
 
@@ -13,6 +15,51 @@ std::string snapshot_name(std::size_t number) { return fmt::format("snapshot_{:0
 template <class View>
 double in_space(const View& field, std::size_t i, int c) {
     return c < field.rows() ? field(c, static_cast<Eigen::Index>(i)) : 0.0;
+}
+
+/// A symmetric tensor of the plane (line), row by row in space.
+template <class View>
+double tensor_in_space(const View& field, std::size_t i, int c) {
+    const int a = c / 3, b = c % 3;
+    const int dim = field.rows() == 1 ? 1 : field.rows() == 3 ? 2 : 3;
+    return a < dim && b < dim ? field(symmetric_index(dim, std::min(a, b), std::max(a, b)),
+                                      static_cast<Eigen::Index>(i))
+                              : 0.0;
+}
+
+/// Particles that are shown as points: with elements those that no element has as its corner.
+template <int Dim>
+std::vector<std::uint32_t> vertices(const Model<Dim>& model) {
+    std::vector<bool> corner(model.particles().size(), false);
+    for (const Quadrilateral& one : model.quadrilaterals())
+        for (const std::uint32_t i : one) corner[i] = true;
+    std::vector<std::uint32_t> alone;
+    for (std::uint32_t i = 0; i < corner.size(); ++i)
+        if (!corner[i]) alone.push_back(i);
+    return alone;
+}
+
+/// Every field of the elements, by the names of the fields. VTK counts the points that are cells first.
+template <int Dim>
+void add_element_arrays(VtkAppended& file, const Model<Dim>& model, const ConstState<Dim>& state,
+                        std::size_t points) {
+    const std::size_t cells = points + model.quadrilaterals().size();
+    file.open("CellData");
+    file.integers("element", cells, [&](std::size_t k, int) {
+        return static_cast<std::int64_t>(k) - static_cast<std::int64_t>(points);
+    });
+    for (const auto& block : model.layout().blocks()) {
+        if (block.holder != Holder::element) continue;
+        const auto field = state.elements().field(block.field);
+        const Rank rank = block.field.rank();
+        const int components = rank == Rank::symmetric ? 9 : rank == Rank::vector ? 3 : 1;
+        file.reals(block.field.name(), components, cells, [&](std::size_t k, int c) {
+            return k < points                ? 0.0
+                   : rank == Rank::symmetric ? tensor_in_space(field, k - points, c)
+                                             : in_space(field, k - points, c);
+        });
+    }
+    file.close("CellData");
 }
 
 template <int Dim>
@@ -32,25 +79,30 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
         file.reals("density", 1, n, [&](std::size_t i, int) { return density[i]; });
     if (state.has(Field::stress)) {
         const auto stress = state.stress();
-        file.reals("stress", 9, n, [&](std::size_t i, int c) {
-            const int a = c / 3, b = c % 3;
-            return a < Dim && b < Dim ? stress(symmetric_index(Dim, std::min(a, b), std::max(a, b)),
-                                               static_cast<Eigen::Index>(i))
-                                      : 0.0;
-        });
+        file.reals("stress", 9, n,
+                   [&](std::size_t i, int c) { return tensor_in_space(stress, i, c); });
     }
     if (state.has(Field::energy))
         file.reals("energy", 1, n, [e = state.energy()](std::size_t i, int) {
             return e(0, static_cast<Eigen::Index>(i));
         });
     file.close("PointData");
+    const std::vector<std::uint32_t> alone = vertices(model);
+    if (!model.quadrilaterals().empty()) add_element_arrays(file, model, state, alone.size());
     file.open("Points");
     file.reals("Points", 3, n, [&](std::size_t i, int c) { return in_space(x, i, c); });
     file.close("Points");
     file.open("Verts");
-    file.integers("connectivity", n, [](std::size_t i, int) { return i; });
-    file.integers("offsets", n, [](std::size_t i, int) { return i + 1; });
+    file.integers("connectivity", alone.size(), [&](std::size_t k, int) { return alone[k]; });
+    file.integers("offsets", alone.size(), [](std::size_t k, int) { return k + 1; });
     file.close("Verts");
+    const auto elements = model.quadrilaterals();
+    if (elements.empty()) return;
+    file.open("Polys");
+    file.integers("connectivity", 4 * elements.size(),
+                  [&](std::size_t k, int) { return elements[k / 4][k % 4]; });
+    file.integers("offsets", elements.size(), [](std::size_t k, int) { return 4 * (k + 1); });
+    file.close("Polys");
 }
 
 template <int Dim>
@@ -58,14 +110,14 @@ void write_snapshot(std::ostream& out, const Model<Dim>& model, double t,
                     std::span<const double> y) {
     const auto density = model.density(y);
     const Points<Dim> x = model.box().wrapped(ConstState<Dim>(model.layout(), y).position());
-    VtkAppended::write(
-        out, "PolyData", "",
-        VtkAppended::field_data<Dim>(t, model.box(), x.rowwise().minCoeff(),
-                                     x.rowwise().maxCoeff()),
-        fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
-                    "NumberOfStrips=\"0\" NumberOfPolys=\"0\"",
-                    model.particles().size()),
-        [&](VtkAppended& file) { add_arrays(file, model, y, x, density); });
+    VtkAppended::write(out, "PolyData", "",
+                       VtkAppended::field_data<Dim>(t, model.box(), x.rowwise().minCoeff(),
+                                                    x.rowwise().maxCoeff()),
+                       fmt::format("NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" "
+                                   "NumberOfStrips=\"0\" NumberOfPolys=\"{}\"",
+                                   model.particles().size(), vertices(model).size(),
+                                   model.quadrilaterals().size()),
+                       [&](VtkAppended& file) { add_arrays(file, model, y, x, density); });
 }
 
 }  // namespace

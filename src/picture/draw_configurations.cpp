@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace spam {
 namespace {
@@ -92,6 +93,33 @@ std::string particle_block(const ConfigurationPanel& panel) {
     return block + "\n\n";
 }
 
+/// Elements, those of about the same colour in one block each, which gnuplot fills at once; then the lines around
+/// all of them. `block`: the number of the next one. Returns what to plot.
+std::string element_blocks(const ConfigurationPanel& panel, const Extent& e, std::string_view name,
+                           std::string& data, int& block) {
+    constexpr int tones = 64;
+    std::map<int, std::string> of_tone;
+    std::string lines, plot;
+    for (std::size_t k = 0; k < panel.elements.size(); ++k) {
+        std::string corners;
+        for (std::size_t c = 0; c < 5; ++c) {
+            const auto i = static_cast<Eigen::Index>(panel.elements[k][c % 4]);
+            corners += fmt::format("{:.8g} {:.8g}\n", panel.position(0, i), panel.position(1, i));
+        }
+        const double part = (panel.colour[k] - e.low) / (e.high - e.low);
+        of_tone[static_cast<int>(std::lround(part * tones))] += corners + "\n";
+        lines += corners + "\n";
+    }
+    for (const auto& [tone, elements] : of_tone) {
+        data += elements + "\n";
+        plot += fmt::format("'{}.dat' index {} with filledcurves closed fc palette cb {:.6g}, ",
+                            name, block++, e.low + tone * (e.high - e.low) / tones);
+    }
+    data += lines + "\n";
+    return plot +
+           fmt::format("'{}.dat' index {} with lines lw 0.4 lc rgb '#333333'", name, block++);
+}
+
 std::string outline_block(const Points<2>& outline) {
     std::string block;
     for (Eigen::Index i = 0; i <= outline.cols(); ++i)
@@ -127,9 +155,14 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
     int block = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const auto& panel = panels[k];
-        data += particle_block(panel);
-        const int points = block++;
         std::string lines;
+        if (panel.elements.empty()) {
+            data += particle_block(panel);
+            lines = fmt::format("'{}.dat' index {} using 1:2:({:.5g}):3 with circles fc palette",
+                                name, block++, 0.46 * e.spacing);
+        } else {
+            lines = element_blocks(panel, e, name, data, block);
+        }
         for (const auto& outline : panel.outlines) {
             data += outline_block(outline);
             lines += fmt::format(", '{}.dat' index {} with lines lw 1.2 lc rgb '#333333'", name,
@@ -153,9 +186,7 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
                             "tc rgb 'black'\n",
                             1.0 - (bar - 12) / width, 0.25, 16 / width, 0.5, escaped(colour_label))
                       : std::string("unset colorbox\n");
-        script += fmt::format(
-            "plot '{0}.dat' index {1} using 1:2:({2:.5g}):3 with circles fc palette{3}\n", name,
-            points, 0.46 * e.spacing, lines);
+        script += fmt::format("plot {}\n", lines);
     }
     script += "unset multiplot\n";
     return gnuplot::draw(folder, name, script, data);

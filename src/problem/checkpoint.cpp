@@ -45,12 +45,8 @@ CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     one.body.assign(body.begin(), body.end());
     const auto read = [&](const std::string& group, const std::string& name,
                           std::vector<CaseMemory::Values>& into) {
-        auto values = file.numbers(path + group + name);
-        // Of an account, which has one row, all numbers.
-        const std::size_t rows = one.id.kept.size();
-        const bool by_particle = rows > 0 && values.size() % rows == 0;
-        const std::size_t columns = by_particle ? values.size() / rows : values.size();
-        into.push_back({name, columns, {{}, std::move(values)}});
+        into.push_back(
+            {name, file.columns(path + group + name), {{}, file.numbers(path + group + name)}});
     };
     std::istringstream fields(file.text(path + "/fields"));
     for (std::string name; std::getline(fields, name);) read("/state/", name, one.state);
@@ -103,7 +99,7 @@ CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, doubl
     one.model = model.describe();
     for (const auto& block : model.layout().blocks()) {
         const auto values = y.subspan(block.offset, block.size);
-        one.state.push_back({std::string(block.field.name()), block.components, {values}});
+        one.state.push_back({block.name(), block.components, {values}});
         one.state.back().values.keep();
     }
     return one;
@@ -125,7 +121,7 @@ std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model) 
         refuse("masses or reference positions");
     const auto& blocks = model.layout().blocks();
     const auto alike = [&](const auto& a, const auto& b) {
-        return a.name == b.field.name() && a.values.all().size() == b.size;
+        return a.name == b.name() && a.values.all().size() == b.size;
     };
     if (!std::equal(memory.state.begin(), memory.state.end(), blocks.begin(), blocks.end(), alike))
         refuse("fields");

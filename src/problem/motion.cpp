@@ -36,7 +36,9 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
         const auto entry = model.layout().entry(k);
         std::string name = model.layout().entry_name(k);
         if (entry.field.role() == Role::account) return name;
-        return fmt::format("{} of particle {}", name, model.particles().id[entry.particle]);
+        if (entry.holder == Holder::element)
+            return fmt::format("{} of element {}", name, entry.number);
+        return fmt::format("{} of particle {}", name, model.particles().id[entry.number]);
     };
     ode.events = model.events();
     if (model.settles())

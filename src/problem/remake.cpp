@@ -68,6 +68,8 @@ Remade<Dim> remake(const Model<Dim>& model, std::span<const double> y,
     if (next.particles().size() != population.parts.size())
         throw InputError(fmt::format("population: the next model has {} particles, and {} are made",
                                      next.particles().size(), population.parts.size()));
+    if (!model.quadrilaterals().empty())
+        throw InputError("population: nodes of elements cannot be split, merged or removed");
     Remade<Dim> remade{
         std::vector<double>(next.layout().size(), 0.0), measure_invariants<Dim>(model, y), {}};
     const ConstState<Dim> from(model.layout(), y);
@@ -101,11 +103,14 @@ std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
     if (!std::ranges::equal(model.particles().id, next.particles().id))
         throw InputError("start: the next model has other particles than the one before");
     std::vector<double> started(next.layout().size(), 0.0);
-    const ConstState<Dim> from(model.layout(), y);
-    const State<Dim> to(next.layout(), started);
-    for (const auto& block : next.layout().blocks())
-        if (block.field.role() != Role::account && model.layout().has(block.field))
-            to.field(block.field) = from.field(block.field);
+    if (!std::ranges::equal(model.quadrilaterals(), next.quadrilaterals()))
+        throw InputError("start: the next model has other elements than the one before");
+    for (const auto& to : next.layout().blocks()) {
+        const auto* from = model.layout().find(to.field, to.holder);
+        if (to.field.role() != Role::account && from != nullptr)
+            std::ranges::copy(y.subspan(from->offset, to.size),
+                              started.begin() + static_cast<std::ptrdiff_t>(to.offset));
+    }
     return started;
 }
 

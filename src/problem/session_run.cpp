@@ -81,7 +81,7 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
                             interval, given(name) ? "" : ", which this case chooses,",
                             plan.t_end / interval, what, plan.t_end));
     };
-    refuse_endless(integrator_, plan.t_end);
+    refuse_endless(integrator_of(plan), plan.t_end);
     plan.output_every = settled(common.output_every, &PlanMemory::output_every, plan.output_every,
                                 plan.t_end / 240.0);
     plan.snapshot_every = settled(common.snapshot_every, &PlanMemory::snapshot_every,
@@ -116,18 +116,20 @@ template <int Dim>
 void Session::refuse_unstable(const Case<Dim>& one) const {
     constexpr double limit = 2.785;
     const double rate = one.model->fastest_damping();
-    if (integrator_.method != "rk4" || *integrator_.dt * rate < limit) return;
+    const IntegratorOptions own = integrator_of(one.plan);
+    if (own.method != "rk4" || *own.dt * rate < limit) return;
     const auto name = problem_.options_.first_given({"damping", "viscosity", "conductivity"});
     throw InputError(fmt::format(
         "dt: damping ({}) acts on fast motion at a rate of about {:.3g}, for which rk4 is stable "
         "with steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
-        name.empty() ? "of the model" : "--" + name, rate, limit / rate, *integrator_.dt));
+        name.empty() ? "of the model" : "--" + name, rate, limit / rate, *own.dt));
 }
 
 template <int Dim>
 void Session::describe(const Case<Dim>& one) {
     const auto& particles = one.model->particles();
     const Promises p = one.model->promises();
+    const IntegratorOptions own = integrator_of(one.plan);
     terminal_.say("");
     if (!one.label.empty()) terminal_.say(fmt::format("case        {}", one.label));
     terminal_.say(fmt::format("particles   {} in {} bod{}, {} numbers in y", particles.size(),
@@ -137,13 +139,11 @@ void Session::describe(const Case<Dim>& one) {
     terminal_.say(fmt::format("promise     mass {}, momentum {}, angular momentum {}, energy {}",
                               to_string(p.mass), to_string(p.momentum),
                               to_string(p.angular_momentum), to_string(p.energy)));
-    terminal_.say(
-        fmt::format("integrator  {}, to t = {:.6g}", integrator_.describe(), one.plan.t_end));
+    terminal_.say(fmt::format("integrator  {}, to t = {:.6g}", own.describe(), one.plan.t_end));
     terminal_.say(
         fmt::format("checkpoints every {:.6g}, and at the end", one.plan.checkpoint_every));
-    terminal_.say(fmt::format(
-        "guard       {}",
-        one.plan.guard.describe(drifts_at_start(p, Dim, promise_limit(integrator_, *one.model)))));
+    terminal_.say(fmt::format("guard       {}", one.plan.guard.describe(drifts_at_start(
+                                                    p, Dim, promise_limit(own, *one.model)))));
     for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
                                          std::pair{"snapshot-every", one.plan.snapshot_every}})
         if (given(name) && interval > one.plan.t_end)
@@ -186,9 +186,11 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         const SundialsContext context;
         Vector y(numbers, context);
         std::size_t unused = 0;
-        Ode ode = as_ode(*one.model, integrator_, unused);
+        const IntegratorOptions own = integrator_of(one.plan);
+        if (own.dt != integrator_.dt) leave_out_of_case({"dt"});
+        Ode ode = as_ode(*one.model, own, unused);
         ode.absolute_tolerance.resize(std::min(numbers, ode.absolute_tolerance.size()));
-        make_integrator(integrator_, ode, y, 0.0, context);
+        make_integrator(own, ode, y, 0.0, context);
     }
     check_restart(cases);
     if (problem_.common_.dry_run) {
@@ -304,7 +306,7 @@ template <int Dim>
 RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     CaseMemory* earlier = earlier_case(memory_->cases.size());
     memory_->cases.emplace_back().label = one.label;
-    Run<Dim> run(one, integrator_, &folder);
+    Run<Dim> run(one, integrator_of(one.plan), &folder);
     run.record().statistics.problem = problem_.name_;
     SnapshotSeries<Dim> snapshots(folder, *one.model);
     if (earlier != nullptr)

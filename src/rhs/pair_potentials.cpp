@@ -27,6 +27,24 @@ PairLaw<Dim> law_of(const CorePotential& core) {
 }
 
 template <int Dim>
+PairLaw<Dim> law_of(const CohesivePotential& potential) {
+    if (!(potential.e_b > 0.0) || !(potential.a > 0.0) ||
+        !std::isfinite(potential.e_b * potential.a))
+        throw InputError(
+            fmt::format("cohesion: energy {:g} and spacing {:g} must be above 0; 1 and 1 "
+                        "are those of the lectures",
+                        potential.e_b, potential.a));
+    PairLaw<Dim> law{
+        best_sweeps([](auto level) { return cohesive_sweeps<Dim, level>(); }), potential.range(),
+        fmt::format("molecular dynamics, (2 - r^2)^8 - 2 (2 - r^2)^4 by the energy {:g} "
+                    "and the spacing {:g}",
+                    potential.e_b, potential.a)};
+    law.constants.core_energy = potential.e_b;
+    law.constants.core_range = potential.a;
+    return law;
+}
+
+template <int Dim>
 PairLaw<Dim> lucys_law(const Particles<Dim>& particles, double range) {
     return {
         best_sweeps([](auto level) { return lucy_potential_sweeps<Dim, level>(); }),
@@ -42,12 +60,19 @@ Core<Dim>::Core(const Selection<Dim>& among, const CorePotential& core)
     : PairTerm<Dim>(among, law_of<Dim>(core)) {}
 
 template <int Dim>
+Cohesion<Dim>::Cohesion(const Selection<Dim>& among, const CohesivePotential& potential)
+    : PairTerm<Dim>(among, law_of<Dim>(potential)) {}
+
+template <int Dim>
 LucyPairPotential<Dim>::LucyPairPotential(const Selection<Dim>& among, double range)
     : PairTerm<Dim>(among, lucys_law<Dim>(among.particles(), range)) {}
 
 template class Core<1>;
 template class Core<2>;
 template class Core<3>;
+template class Cohesion<1>;
+template class Cohesion<2>;
+template class Cohesion<3>;
 template class LucyPairPotential<1>;
 template class LucyPairPotential<2>;
 template class LucyPairPotential<3>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "term_sweeps.hpp"
+#include <spam/physics/cohesive_potential.hpp>
 #include <spam/physics/contact_potential.hpp>
 #include <spam/physics/density_passes.hpp>
 #include <spam/physics/density_sum.hpp>
@@ -12,6 +13,13 @@ template <int Dim, InstructionSet Level>
 Sweeps<Dim> core_sweeps() {
     return pair_sweeps<Level, GeneralSweep, Dim, PointRecord<Dim>, CoreForce<Dim>,
                        CoreEnergy<Dim>>();
+}
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> cohesive_sweeps() {
+    return pair_sweeps<Level, GeneralSweep, Dim, PointRecord<Dim>,
+                       DistanceForce<Dim, CohesivePotential>,
+                       DistanceEnergy<Dim, CohesivePotential>>();
 }
 
 template <int Dim, InstructionSet Level>
@@ -32,6 +40,9 @@ Sweeps<Dim> lucy_potential_sweeps() {
 template Sweeps<1> core_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> core_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> core_sweeps<3, InstructionSet::SPAM_LEVEL>();
+template Sweeps<1> cohesive_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> cohesive_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> cohesive_sweeps<3, InstructionSet::SPAM_LEVEL>();
 template Sweeps<1> contact_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> contact_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> contact_sweeps<3, InstructionSet::SPAM_LEVEL>();

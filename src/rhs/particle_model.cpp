@@ -41,6 +41,10 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
         if (auto why = term->no_walls(); !why.empty())
             throw InputError(fmt::format("wall: {} ({})", why, term->describe()));
     for (const auto& other : terms_) {
+        if (!other->quadrilaterals().empty() && !term->quadrilaterals().empty())
+            throw InputError(fmt::format(
+                "model: '{}' and '{}' both have elements; make one term of them, with a list of materials",
+                other->describe(), term->describe()));
         if (!other->among().overlaps(term->among())) continue;
         for (const Field field : term->fields())
             for (const Field taken : other->fields())
@@ -59,6 +63,10 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 fixed.describe()));
     }
     for (const Field field : term->fields()) this->layout().add(field);
+    if (!term->quadrilaterals().empty()) {
+        this->layout().set_elements(term->quadrilaterals().size());
+        for (const Field field : term->element_fields()) this->layout().add(field, Holder::element);
+    }
     for (int a = 0; a < Dim; ++a)
         for (const bool upper : {false, true})
             if (term->wall_rates(a, upper) != nullptr)
@@ -118,7 +126,8 @@ void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<do
     if (!term_rates(t, y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
     for (const auto& b : this->layout().blocks())
-        if (b.field.role() != Role::integrated) rate.field(b.field).setZero();
+        if (b.field.role() != Role::integrated)
+            std::fill_n(y_dot.begin() + static_cast<std::ptrdiff_t>(b.offset), b.size, 0.0);
     const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
     if (walled_) book_walls(now);
     for (const auto& external : externals_) {
@@ -135,6 +144,13 @@ double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
         if (has_energy(*external))
             energy += external->energy(this->particles(), {this->layout(), y});
     return energy;
+}
+
+template <int Dim>
+std::span<const Quadrilateral> ParticleModel<Dim>::quadrilaterals() const {
+    for (const auto& term : terms_)
+        if (!term->quadrilaterals().empty()) return term->quadrilaterals();
+    return {};
 }
 
 template <int Dim>

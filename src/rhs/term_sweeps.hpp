@@ -41,6 +41,9 @@ Sweeps<Dim> lucy_potential_sweeps();
 /// A core, of PointRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> core_sweeps();
+/// The cohesive potential, of PointRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> cohesive_sweeps();
 
 /// Contact, of ContactRecord.
 template <int Dim, InstructionSet Level>

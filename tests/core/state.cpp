@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(blocks_follow_each_other) {
     BOOST_TEST(layout.find(Field::energy)->offset == 35U);
     const auto entry = layout.entry(20 + 3 * 2 + 1);
     BOOST_TEST((entry.field == Field::stress));
-    BOOST_TEST(entry.particle == 2U);
+    BOOST_TEST(entry.number == 2U);
     BOOST_TEST(entry.component == 1U);
     BOOST_TEST(FieldLayout<3>(7, {Field::stress}).size() == 42U);
     BOOST_TEST(FieldLayout<1>(7, {Field::stress, Field::position}).size() == 14U);

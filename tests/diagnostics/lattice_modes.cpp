@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(a_wave_stays_a_wave) {
                     }
                     const auto& x = sample.model->particles().reference_position;
                     const auto phase =
-                        std::polar(1.0, k.dot(x.col(static_cast<Eigen::Index>(at.particle))));
+                        std::polar(1.0, k.dot(x.col(static_cast<Eigen::Index>(at.number))));
                     wave[r] = z[c] * phase;
                     expected[r] = z_dot[c] * phase;
                 }

@@ -9,6 +9,7 @@
 #include <spam/kernel/wn.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/lucy_gas.hpp>
+#include <spam/physics/cohesive_potential.hpp>
 #include <spam/physics/core_potential.hpp>
 #include <spam/physics/curvature_strength.hpp>
 #include <spam/physics/embedded_energy.hpp>
@@ -119,8 +120,8 @@ auto of(const Term& term, const Weight& weight) {
         [=](const Neighbourhood<Dim>& near) { return energy_and_forces<Dim>(term, weight, near); };
 }
 template <int Dim>
-auto of(const CorePotential& core) {
-    return [=](const Neighbourhood<Dim>& near) { return energy_and_forces<Dim>(core, near); };
+auto of(const DistancePotential auto& potential) {
+    return [=](const Neighbourhood<Dim>& near) { return energy_and_forces<Dim>(potential, near); };
 }
 
 template <int Dim>
@@ -130,6 +131,7 @@ void check_all() {
     check<Dim>("gradient", of<Dim>(SurfaceTension{0.3}, Lucy<Dim>(range)));
     check<Dim>("gradient", of<Dim>(SurfaceTension{0.3}, MonaghanCubic<Dim>(range)));
     check<Dim>("core", of<Dim>(CorePotential{0.7, 1.3}));
+    check<Dim>("cohesion", of<Dim>(CohesivePotential{0.1, 0.9}));
     if constexpr (Dim > 1) {
         check<Dim>("curvature", of<Dim>(CurvatureStrength{0.2}, Wn<Dim, 4>(range)));
         check<Dim>("curvature", of<Dim>(CurvatureStrength{0.2}, Wn<Dim, 5>(range)));

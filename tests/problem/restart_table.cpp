@@ -23,6 +23,9 @@ using Clock = std::chrono::steady_clock;
 
 /// A second or less each; no interval of checkpoints divides the end.
 const std::map<std::string, Words> runs{
+    {"ball_plate",
+     {"--radius", "3", "--columns", "24", "--rows", "4", "--t-end", "30", "--checkpoint-every",
+      "3.3"}},
     {"cantilever", {"--layers", "4", "--t-end", "0.2", "--checkpoint-every", "0.017"}},
     {"cavity", {"--cells", "12", "--t-end", "120", "--checkpoint-every", "17"}},
     {"colliding_rings",
@@ -41,17 +44,23 @@ const std::map<std::string, Words> runs{
     {"lattice_stability",
      {"--cells", "8", "--block", "8", "--range", "2.5", "--t-end", "60", "--checkpoint-every",
       "7"}},
+    {"mesh_modes", {"--elements", "6", "--t-end", "30", "--checkpoint-every", "7"}},
     {"plane_wave", {"--cells", "14", "--t-end", "80", "--checkpoint-every", "7"}},
     {"poiseuille", {"--cells", "16", "--t-end", "120", "--checkpoint-every", "17"}},
     {"rayleigh_benard", {"--height", "10", "--t-end", "120", "--checkpoint-every", "17"}},
     {"relaxation", {"--particles", "120", "--t-end", "80", "--checkpoint-every", "7"}},
     {"rotating_disk", {"--radius", "9", "--t-end", "60", "--checkpoint-every", "7"}},
     {"rotating_hexagon", {"--size", "5", "--t-end", "250", "--checkpoint-every", "23"}},
+    {"plastic_block", {"--checkpoint-every", "1.7"}},
     {"sheared_square", {"--cells", "12", "--checkpoint-every", "7"}},
     {"shock_tube", {"--cells", "200", "--t-end", "0.1", "--single", "--checkpoint-every", "0.007"}},
     {"string_phase", {"--t-end", "50", "--checkpoint-every", "7"}},
     {"taylor_green", {"--cells", "14", "--t-end", "120", "--checkpoint-every", "17"}},
+    {"taylor_bar", {"--particles-per-radius", "2", "--t-end", "20", "--checkpoint-every", "1.7"}},
     {"tensile_instability", {"--cells", "12", "--t-end", "150", "--checkpoint-every", "9"}},
+    {"tension_test",
+     {"--columns", "16", "--rows", "6", "--load-rate", "4e-5", "--t-end", "120",
+      "--checkpoint-every", "17"}},
     {"water_column", {"--width", "8", "--t-end", "20", "--checkpoint-every", "3.3"}},
 };
 /// Analyses, and studies that go on from their table.

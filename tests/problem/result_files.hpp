@@ -96,9 +96,10 @@ inline std::vector<std::pair<double, std::string>> collection(const std::filesys
     return all;
 }
 
-/// A VTK PolyData file with raw appended data: its arrays by name, as doubles.
+/// A VTK PolyData file with raw appended data: its arrays by name, as doubles; those of cells with "element_"
+/// before it, those of the polygons themselves with "polygon_".
 struct Vtp {
-    std::size_t points = 0, vertices = 0;
+    std::size_t points = 0, vertices = 0, polygons = 0;
     std::map<std::string, std::vector<double>> arrays;
     std::map<std::string, int> components;
     std::map<std::string, std::string> about;  ///< field data
@@ -116,20 +117,31 @@ struct Vtp {
         const auto& piece = tree.get_child("VTKFile.PolyData.Piece");
         points = piece.get<std::size_t>("<xmlattr>.NumberOfPoints");
         vertices = piece.get<std::size_t>("<xmlattr>.NumberOfVerts");
+        polygons = piece.get<std::size_t>("<xmlattr>.NumberOfPolys");
         const std::string data = text.substr(cut + opening.size());
         std::size_t end = 0;  // arrays follow each other without gaps
-        for (const char* part : {"PointData", "Points", "Verts"})
-            for (const auto& [tag, array] : piece.get_child(part))
-                if (tag == "DataArray")
-                    end = read(array, data, end, part == std::string("Verts") ? vertices : points);
+        const auto read_part = [&](const char* part, const std::string& prefix,
+                                   std::size_t tuples) {
+            for (const auto& [tag, array] : piece.get_child(part)) {
+                if (tag != "DataArray") continue;
+                const bool corners = part == std::string("Polys") &&
+                                     array.get<std::string>("<xmlattr>.Name") == "connectivity";
+                end = read(array, data, end, corners ? 4 * tuples : tuples, prefix);
+            }
+        };
+        read_part("PointData", "", points);
+        if (polygons > 0) read_part("CellData", "element_", vertices + polygons);
+        read_part("Points", "", points);
+        read_part("Verts", "", vertices);
+        if (polygons > 0) read_part("Polys", "polygon_", polygons);
         const auto rest = xml_of("<VTKFile><AppendedData>" + data.substr(end));
         require(rest.get_child("VTKFile").size() == 1, "something follows the data");
     }
 
   private:
     std::size_t read(const boost::property_tree::ptree& array, const std::string& data,
-                     std::size_t offset, std::size_t tuples) {
-        const auto name = array.get<std::string>("<xmlattr>.Name");
+                     std::size_t offset, std::size_t tuples, const std::string& prefix) {
+        const auto name = prefix + array.get<std::string>("<xmlattr>.Name");
         const auto type = array.get<std::string>("<xmlattr>.type");
         const int width = components[name] = array.get<int>("<xmlattr>.NumberOfComponents");
         require(array.get<std::string>("<xmlattr>.format") == "appended", name + " not appended");

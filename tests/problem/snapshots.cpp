@@ -144,6 +144,52 @@ BOOST_AUTO_TEST_CASE(smooth_particles) {
     }
 }
 
+/// 2 x 2 elements, each a polygon of four of nine points, with its fields as cell arrays.
+BOOST_AUTO_TEST_CASE(elements_are_polygons) {
+    const Scratch folder;
+    const Outcome outcome =
+        run(problem("mesh_modes", {"--elements", "2", "--t-end", "2", "--speed", "1e-3",
+                                   "--hourglass-stiffness", "0.1", "--out", "out", "--no-plots"}),
+            {folder.path()});
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.out << outcome.err);
+    const auto listed = collection(folder / "out/butterfly_resisted/snapshots.pvd");
+    const Vtp vtp(folder / ("out/butterfly_resisted/" + listed.back().second));
+    BOOST_TEST(vtp.points == 9u);
+    BOOST_TEST(vtp.vertices == 0u);  // every point is a corner
+    BOOST_TEST(vtp.polygons == 4u);
+    const std::map<std::string, int> components{{"id", 1},
+                                                {"body", 1},
+                                                {"mass", 1},
+                                                {"velocity", 3},
+                                                {"Points", 3},
+                                                {"particle_spacing", 1},
+                                                {"connectivity", 1},
+                                                {"offsets", 1},
+                                                {"element_element", 1},
+                                                {"element_stress", 9},
+                                                {"element_energy", 1},
+                                                {"element_hourglass_force", 3},
+                                                {"polygon_connectivity", 1},
+                                                {"polygon_offsets", 1}};
+    BOOST_TEST((vtp.components == components));
+    BOOST_TEST((vtp.arrays.at("polygon_offsets") == std::vector<double>{4, 8, 12, 16}));
+    BOOST_TEST((vtp.arrays.at("element_element") == std::vector<double>{0, 1, 2, 3}));
+    const auto& corners = vtp.arrays.at("polygon_connectivity");
+    const auto& x = vtp.arrays.at("Points");
+    double area = 0.0;
+    for (std::size_t k = 0; k < 16; ++k) {
+        const auto i = static_cast<std::size_t>(corners[k]),
+                   j = static_cast<std::size_t>(corners[k - k % 4 + (k + 1) % 4]);
+        area += 0.5 * (x[3 * i] * x[3 * j + 1] - x[3 * j] * x[3 * i + 1]);
+    }
+    BOOST_TEST(std::abs(area - 4.0) < 0.1);  // counterclockwise
+    const Csv csv(folder / "out/butterfly_resisted/invariants.csv");
+    double internal = 0.0;
+    for (const double e : vtp.arrays.at("element_energy")) internal += std::sqrt(4.0 / 3.0) * e;
+    BOOST_TEST(internal > 0.0);
+    BOOST_TEST(std::abs(internal / csv.column("internal").back() - 1.0) < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(molecular_dynamics_has_no_density_and_no_stress) {
     const Run run({"--model", "md"});
     for (std::size_t k = 0; k < 3; ++k) {

@@ -25,8 +25,12 @@ spam_test(problem/lattice_sums property)  # a part of the problem kernels
 target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
 spam_problem_test(problem/flows nlohmann_json::nlohmann_json)
+spam_problem_test(problem/plastic nlohmann_json::nlohmann_json)
 spam_problem_test(problem/water_column nlohmann_json::nlohmann_json)
+spam_problem_test(problem/tension_test nlohmann_json::nlohmann_json)
+spam_problem_test(problem/ball_plate nlohmann_json::nlohmann_json)
 spam_problem_test(problem/stirred_flows nlohmann_json::nlohmann_json)
+spam_problem_test(problem/mesh_modes nlohmann_json::nlohmann_json)
 spam_problem_test(problem/contacts nlohmann_json::nlohmann_json)
 spam_problem_test(problem/cantilever nlohmann_json::nlohmann_json)
 target_sources(test.problem.cantilever PRIVATE ${PROJECT_SOURCE_DIR}/problems/cantilever/beam.cpp)
@@ -53,6 +57,11 @@ target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxat
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/wall.cpp
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/quality.cpp)
 target_include_directories(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems)
+spam_test(problem/element_twins property)  # parts of the problems tension_test and ball_plate
+target_sources(test.problem.element_twins PRIVATE
+  ${PROJECT_SOURCE_DIR}/problems/tension_test/elements.cpp
+  ${PROJECT_SOURCE_DIR}/problems/ball_plate/elements.cpp)
+target_include_directories(test.problem.element_twins PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 
 # What ParaView would read, read by VTK itself where it is installed.
 find_program(SPAM_PYTHON NAMES python3 HINTS /usr/bin)  # whose packages the system's are

@@ -14,8 +14,10 @@
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/elements.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -23,6 +25,7 @@
 #include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
+#include <spam/setup/meshes.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -73,6 +76,19 @@ const std::vector<std::pair<std::string, std::function<std::unique_ptr<ParticleM
          return std::make_unique<TotalLagrangianModel<2>>(strip(), StVenantKirchhoff{0.43, 0.43},
                                                           TotalLagrangianScheme{site_density});
      }},
+    {"elements",
+     [] {
+         MeshedBodies bodies = make_nodes({rectangle_mesh(columns - 1, rows - 1)}, site_density);
+         bodies.nodes.reference_position.colwise() += Point<2>(0.5 * (columns - 1), 0.0);
+         auto model = std::make_unique<ParticleModel<2>>(std::move(bodies.nodes));
+         model->add_term<Elements>(
+             std::move(bodies.element),
+             std::vector<Elements::Material>{
+                 {YieldingSolid(PlaneVonMises{0.43, 0.43}, LinearHardening{0.01}),
+                  site_density,
+                  {0.1, 0.1}}});
+         return model;
+     }},
     {"springs", [] { return std::make_unique<BondedModel<2>>(strip(), HarmonicSpring{}); }}};
 
 std::vector<double> start_of(ParticleModel<2>& model) {
@@ -111,6 +127,14 @@ const std::vector<std::pair<std::string, Add>> externals{
      [](auto& m) {
          m.add(std::make_unique<Gravity<2>>(Point<2>(0.0, -0.01)));
          m.add(std::make_unique<Clamp<2>>(end_of(m)));
+     }},
+    {"end driven along an axis",
+     [](auto& m) {
+         auto clamp = std::make_unique<Clamp<2>>(
+             end_of(m), [](double t) { return Point<2>(0.01 * t, 0.02 * std::sin(t)); },
+             [](double t) { return Point<2>(0.01, 0.02 * std::cos(t)); });
+         clamp->only_along(0);
+         m.add(std::move(clamp));
      }},
     {"driven end", [](auto& m) {
          m.add(std::make_unique<Clamp<2>>(

@@ -5,6 +5,7 @@
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/clamp.hpp>
+#include <spam/external/distributed_load.hpp>
 #include <spam/external/drag.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/external/gravity.hpp>
@@ -99,6 +100,7 @@ inline const std::map<std::string, Build> without_scheme{
          s.model.add_term<DensityPotentialTerm<2>>(
              DensityPotentials{.state = EmbeddedAtom{1.0, site_density}});
      }},
+    {"Cohesion", [](Sample& s, const Scheme&) { s.model.add_term<Cohesion<2>>(); }},
     {"LucyPairPotential",
      [](Sample& s, const Scheme&) { s.model.add_term<LucyPairPotential<2>>(3.0); }},
     {"TotalLagrangian",
@@ -139,6 +141,11 @@ inline const std::map<std::string, std::function<void(ParticleModel<2>&)>> exter
     {"Load",
      [](auto& m) {
          m.add(std::make_unique<Load<2>>([](double t) { return Point<2>(0.01 * t, 0.02); }));
+     }},
+    {"DistributedLoad",
+     [](auto& m) {
+         m.add(std::make_unique<DistributedLoad<2>>([](double t) { return 0.01 + 0.02 * t; },
+                                                    m.particles().reference_position));
      }},
     {"RigidWall",
      [](auto& m) {

@@ -22,9 +22,34 @@ Box<Dim> periodic(double length) {
     return Box<Dim>(lengths);
 }
 
+/// A law of pairs by its definition: energy and -(d phi/dr)/r by r, of a pair of these masses.
+struct ByDefinition {
+    std::function<double(double m_i, double m_j, double r)> energy, force_over_r;
+};
+
+/// The weight function as potential.
 template <int Dim>
-void every_pair(int cells, const Box<Dim>& box) {
-    PairPotentialModel<Dim> model(jittered_particles<Dim>(cells, 81, 0.15, box), 2.6, box);
+ByDefinition lucys() {
+    const Lucy<Dim> weight(2.6);
+    return {
+        [=](double m_i, double m_j, double r) { return m_i * m_j * weight.value(r); },
+        [=](double m_i, double m_j, double r) { return m_i * m_j * weight.minus_slope_over_r(r); }};
+}
+/// (2 - r^2)^8 - 2 (2 - r^2)^4 in units of its energy and of its spacing.
+ByDefinition cohesive(double e_b, double a) {
+    const auto inside = [=](double r) { return std::max(0.0, 2.0 - r * r / (a * a)); };
+    return {[=](double, double, double r) {
+                return e_b * (std::pow(inside(r), 8) - 2.0 * std::pow(inside(r), 4));
+            },
+            [=](double, double, double r) {
+                return e_b * 2.0 / (a * a) *
+                       (8.0 * std::pow(inside(r), 7) - 8.0 * std::pow(inside(r), 3));
+            }};
+}
+
+template <int Dim>
+void every_pair(ParticleModel<Dim>& model, const ByDefinition& law) {
+    const Box<Dim>& box = model.box();
     auto y = random_state(model, 82);
     const State<Dim> state(model.layout(), y);
     // Wherever the images are, on a grid on which a box's borders leave positions as they are.
@@ -35,7 +60,6 @@ void every_pair(int cells, const Box<Dim>& box) {
     const auto rate = ConstState<Dim>(model.layout(), y_dot);
     BOOST_TEST((rate.position() == state.velocity()));
 
-    const Lucy<Dim> weight(2.6);
     Points<Dim> v_dot = Points<Dim>::Zero(Dim, x.cols());
     Point<Dim> total = Point<Dim>::Zero();
     double energy = 0.0;
@@ -45,9 +69,9 @@ void every_pair(int cells, const Box<Dim>& box) {
             Point<Dim> r = x.col(j) - x.col(i);
             for (int a = 0; a < Dim; ++a)
                 if (box.periodic(a)) r[a] -= box.length(a) * std::round(r[a] / box.length(a));
-            const double m_j = m[static_cast<std::size_t>(j)];
-            v_dot.col(i) -= m_j * weight.minus_slope_over_r(r.norm()) * r;
-            energy += 0.5 * m[static_cast<std::size_t>(i)] * m_j * weight.value(r.norm());
+            const double m_i = m[static_cast<std::size_t>(i)], m_j = m[static_cast<std::size_t>(j)];
+            v_dot.col(i) -= law.force_over_r(m_i, m_j, r.norm()) / m_i * r;
+            energy += 0.5 * law.energy(m_i, m_j, r.norm());
         }
     BOOST_TEST((rate.velocity() - v_dot).norm() < 1e-13 * v_dot.norm());
     BOOST_TEST(std::abs(model.internal_energy(y) - energy) < 1e-13 * energy);
@@ -69,6 +93,17 @@ void every_pair(int cells, const Box<Dim>& box) {
     BOOST_TEST(std::abs(change + power) < 1e-7 * (1.0 + std::abs(power)));
 }
 
+/// Both laws, of particles that are not on a lattice.
+template <int Dim>
+void every_pair(int cells, const Box<Dim>& box) {
+    const auto particles = jittered_particles<Dim>(cells, 81, 0.15, box);
+    PairPotentialModel<Dim> lucy(particles, 2.6, box);
+    every_pair<Dim>(lucy, lucys<Dim>());
+    ParticleModel<Dim> cohesion(particles, box);
+    cohesion.template add_term<Cohesion<Dim>>(CohesivePotential{0.7, 1.1});
+    every_pair<Dim>(cohesion, cohesive(0.7, 1.1));
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(on_the_line) {
@@ -88,6 +123,25 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto particles = jittered_particles<2>(8, 83);
     BOOST_CHECK_THROW(PairPotentialModel<2>(particles, 0.9), InputError);
     BOOST_CHECK_THROW(PairPotentialModel<2>(particles, 4.1, Box<2>({0.8, 8.0})), InputError);
+    ParticleModel<2> model(particles);
+    for (const auto& wrong : {CohesivePotential{0.0, 1.0}, CohesivePotential{1.0, -1.0}})
+        BOOST_CHECK_THROW(model.add_term<Cohesion<2>>(wrong), InputError);
+}
+
+// What [HH07] 13 says of it, and what its comment does.
+BOOST_AUTO_TEST_CASE(the_cohesive_potential) {
+    const CohesivePotential phi;
+    BOOST_TEST(phi.energy(1.0) == -1.0);
+    BOOST_TEST(phi.force_over_r(1.0) == 0.0);
+    BOOST_TEST(phi.energy(2.0) == 0.0);
+    BOOST_TEST(phi.energy(3.0) == 0.0);
+    const auto force = [&](double r) { return r * phi.force_over_r(r * r); };
+    BOOST_TEST((force(0.999) - force(1.001)) / 0.002 == 128.0, boost::test_tools::tolerance(1e-3));
+    double largest = 0.0, at = 0.0;
+    for (double r = 1.0; r < phi.range(); r += 1e-4)
+        if (-force(r) > largest) largest = -force(r), at = r;
+    BOOST_TEST(largest == 5.30, boost::test_tools::tolerance(1e-3));
+    BOOST_TEST(at == 1.098, boost::test_tools::tolerance(1e-3));
 }
 
 // Twice the masses in a law of twice the density: the same energies, pressures and forces.

@@ -19,11 +19,17 @@ enum class Rank {
     tensor      ///< D^2, row by row
 };
 
-/// How a field of y changes, and who holds it.
+/// How a field of y changes.
 enum class Role {
-    integrated,  ///< of every particle, with a rate
-    history,  ///< of every particle, rate zero: changed between steps only (a plastic strain, damage)
+    integrated,  ///< of every particle or element, with a rate
+    history,     ///< of every one, rate zero: changed between steps only (a plastic strain, damage)
     account  ///< of the whole system, with a rate: what externals have given (work, heat, impulse)
+};
+
+/// Who holds a field that is no account. Particles and elements may each have one of the same name.
+enum class Holder {
+    particle,
+    element  ///< between particles, which are its corners: a finite element
 };
 
 /// A field that y may hold, as its author declares it, once and for good:

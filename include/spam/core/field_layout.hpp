@@ -9,8 +9,9 @@
 
 namespace spam {
 
-/// Where each field lies in y. y holds one block per field, each block `components x particles`,
-/// column-major (the components of one particle are adjacent), accounts of the whole system last:
+/// Where each field lies in y. y holds one block per field, each block `components x particles` (or elements),
+/// column-major (the components of one particle are adjacent); fields of elements come after those of particles,
+/// accounts of the whole system last:
 ///     y = [ x_0 y_0 x_1 y_1 ... | vx_0 vy_0 ... | rho_0 ... | sxx_0 syy_0 sxy_0 ... | e_0 ... | work ]
 /// Which blocks exist follows from scheme, material and externals (the model decides).
 template <int Dim>
@@ -18,36 +19,46 @@ class FieldLayout {
   public:
     struct Block {
         Field field;
-        std::size_t components;  ///< per particle, or of the account
+        std::size_t components;  ///< per particle or element, or of the account
         std::size_t offset;      ///< first entry of the block in y
         std::size_t size;        ///< entries
         double scale;            ///< typical magnitude; the absolute tolerance is atol * scale
+        Holder holder;           ///< `particle` for accounts
+
+        /// "stress", and of elements "element_stress": no two blocks have the same.
+        std::string name() const;
     };
 
     FieldLayout(std::size_t particles, const std::vector<Field>& fields);
 
     /// One more field, at its place; nothing where y holds it already. Blocks behind it move: no y may
     /// have been made yet.
-    void add(Field field);
+    void add(Field field, Holder holder = Holder::particle);
+    /// How many elements there are; before fields of theirs are added.
+    void set_elements(std::size_t elements) { elements_ = elements; }
 
     std::size_t particles() const { return particles_; }
+    std::size_t elements() const { return elements_; }
     std::size_t size() const { return size_; }  ///< entries of y
     const std::vector<Block>& blocks() const { return blocks_; }
     /// nullptr where y does not carry the field.
-    const Block* find(Field field) const {
-        for (const Block& block : blocks_)
-            if (block.field.same_kind(field)) return &block;  // most often, and quicker than names
-        return find_by_name(field);
+    const Block* find(Field field, Holder holder = Holder::particle) const {
+        for (const Block& block : blocks_)  // most often, and quicker than names
+            if (block.field.same_kind(field) && block.holder == holder) return &block;
+        return find_by_name(field, holder);
     }
-    bool has(Field field) const { return find(field) != nullptr; }
+    bool has(Field field, Holder holder = Holder::particle) const {
+        return find(field, holder) != nullptr;
+    }
 
-    /// Typical magnitude of a field, in the units of the run. Precondition: the field is present.
+    /// Typical magnitude of a field, in the units of the run, whoever holds it.
     void set_scale(Field field, double scale);
 
     /// Which number entry k of y is.
     struct Entry {
         Field field;
-        std::size_t particle;  ///< 0 for accounts
+        Holder holder;
+        std::size_t number;  ///< of the particle or element; 0 for accounts
         std::size_t component;
     };
     Entry entry(std::size_t k) const;
@@ -55,9 +66,10 @@ class FieldLayout {
     std::string entry_name(std::size_t k) const;
 
   private:
-    const Block* find_by_name(Field field) const;
+    const Block* find_by_name(Field field, Holder holder) const;
 
     std::size_t particles_;
+    std::size_t elements_ = 0;
     std::size_t size_ = 0;
     std::vector<Block> blocks_;
 };

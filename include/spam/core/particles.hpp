@@ -3,10 +3,14 @@
 
 #include <spam/core/state.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace spam {
+
+/// The particles at the corners of a plane element, counterclockwise.
+using Quadrilateral = std::array<std::uint32_t, 4>;
 
 /// What a particle keeps for the whole run. Particles are stored in spatial (strip) order; `id` is
 /// the number the problem gave them and never changes.

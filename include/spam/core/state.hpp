@@ -41,7 +41,10 @@ class StateView {
     /// The same to read only.
     operator StateView<Dim, const double>() const requires(!std::is_const_v<Scalar>) {
         StateView<Dim, const double> same(*layout_, y_);
-        return same.part(first_, count_);
+        same.first_ = first_;
+        same.count_ = count_;
+        same.holder_ = holder_;
+        return same;
     }
 
     /// Of particles first, ..., first + count - 1 alone; accounts are those of all.
@@ -53,6 +56,15 @@ class StateView {
         return part;
     }
 
+    /// Of elements in place of particles: stress(), energy() and field() are theirs, M of them.
+    StateView elements() const {
+        StateView elements = *this;
+        elements.holder_ = Holder::element;
+        elements.first_ = 0;
+        elements.count_ = layout_->elements();
+        return elements;
+    }
+
     Block<Dim> position() const { return block<Dim>(Field::position); }
     Block<Dim> velocity() const { return block<Dim>(Field::velocity); }
     Block<1> density() const { return block<1>(Field::density); }
@@ -60,10 +72,10 @@ class StateView {
     Block<1> energy() const { return block<1>(Field::energy); }
     /// Any field: components x N, or components x 1 of an account.
     Block<Eigen::Dynamic> field(Field field) const {
-        const auto* b = layout_->find(field);
+        const bool account = field.role() == Role::account;
+        const auto* b = layout_->find(field, account ? Holder::particle : holder_);
         assert(b != nullptr);
         const std::size_t rows = b->components;
-        const bool account = b->size != rows * layout_->particles();
         return {y_.data() + b->offset + (account ? 0 : rows * first_),
                 static_cast<Eigen::Index>(rows),
                 static_cast<Eigen::Index>(account ? b->size / rows : count_)};
@@ -71,17 +83,20 @@ class StateView {
 
     /// Its first number; null where the layout has no such field.
     Scalar* find(Field field) const {
-        const auto* b = layout_->find(field);
+        const auto* b = layout_->find(field, holder_);
         return b == nullptr ? nullptr : y_.data() + b->offset + b->components * first_;
     }
 
-    bool has(Field field) const { return layout_->has(field); }
+    bool has(Field field) const { return layout_->has(field, holder_); }
     const FieldLayout<Dim>& layout() const { return *layout_; }
 
   private:
+    template <int, class>
+    friend class StateView;
+
     template <int Rows>
     Block<Rows> block(Field field) const {
-        const auto* b = layout_->find(field);
+        const auto* b = layout_->find(field, holder_);
         assert(b != nullptr && b->components == Rows);
         return {y_.data() + b->offset + Rows * first_, Rows, static_cast<Eigen::Index>(count_)};
     }
@@ -89,6 +104,7 @@ class StateView {
     const FieldLayout<Dim>* layout_;
     std::span<Scalar> y_;
     std::size_t first_ = 0, count_;
+    Holder holder_ = Holder::particle;
 };
 
 template <int Dim>

@@ -3,13 +3,16 @@
 
 #include <spam/external/external.hpp>
 
+#include <array>
+
 namespace spam {
 
 /// Particles that are held or driven: they move with a prescribed velocity V(t), zero by default, whatever
 /// acts on them,
 ///     x_dot_i = V(t),   v_dot_i = dV/dt.
 /// In y0 their velocities must be V(0). The force that this takes is booked, and its work where they are
-/// driven. Comes last in the list of externals.
+/// driven. Of particles that are guided along some axes the other directions stay free. Comes last in the list
+/// of externals.
 template <int Dim>
 class Clamp final : public External<Dim> {
   public:
@@ -22,6 +25,12 @@ class Clamp final : public External<Dim> {
           velocity_(std::move(velocity)),
           acceleration_(std::move(acceleration)) {}
 
+    /// Only along this axis, 0 for x; what acts across it moves the particles.
+    Clamp& only_along(int axis) {
+        for (int a = 0; a < Dim; ++a) along_[static_cast<std::size_t>(a)] = a == axis;
+        return *this;
+    }
+
     void prepare(const typename External<Dim>::Now& now) override {
         if (velocity_) V_ = velocity_(now.t), V_dot_ = acceleration_(now.t);
     }
@@ -29,13 +38,19 @@ class Clamp final : public External<Dim> {
              Eigen::Index last) const override {
         auto x_dot = now.rate.position(), v_dot = now.rate.velocity();
         for (Eigen::Index i = first; i < last; ++i)
-            if (is_in(group_, i)) {
-                x_dot.col(i) = V_;
-                v_dot.col(i) = V_dot_;
-            }
+            if (is_in(group_, i))
+                for (int a = 0; a < Dim; ++a)
+                    if (along_[static_cast<std::size_t>(a)]) {
+                        x_dot(a, i) = V_[a];
+                        v_dot(a, i) = V_dot_[a];
+                    }
     }
     bool holds(std::size_t i) const override { return is_in(group_, static_cast<Eigen::Index>(i)); }
     std::string describe() const override {
+        for (std::size_t a = 0; a < Dim; ++a)
+            if (!along_[a])
+                return velocity_ ? "particles driven along an axis"
+                                 : "particles held along an axis";
         return velocity_        ? "driven particles"
                : group_.empty() ? "all particles held"
                                 : "held particles";
@@ -48,6 +63,11 @@ class Clamp final : public External<Dim> {
   private:
     Group group_;
     Motion velocity_, acceleration_;
+    std::array<bool, Dim> along_ = [] {
+        std::array<bool, Dim> all{};
+        all.fill(true);
+        return all;
+    }();
     Point<Dim> V_ = Point<Dim>::Zero(), V_dot_ = Point<Dim>::Zero();
 };
 

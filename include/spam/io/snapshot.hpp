@@ -19,7 +19,8 @@ void write_file_series(const RunFolder& folder, std::string_view name,
 /// data, little endian) and snapshots.pvd, the list of them with their times, complete after every
 /// snapshot. Points are inside the box where it is periodic (those of y are not). Point arrays: id (no two
 /// alike), body, mass, particle_spacing, velocity (3), and where the model has them density, stress
-/// (3 x 3 tensor) and energy. Field data: TimeValue, box_low, box_high, periodic (3 each); where space
+/// (3 x 3 tensor) and energy. Elements are polygons between the points, with all their fields as cell arrays and
+/// `element`, their number (below 0 for a particle that is no corner of any). Field data: TimeValue, box_low, box_high, periodic (3 each); where space
 /// is free the box is as large as the particles take.
 template <int Dim>
 class SnapshotSeries {

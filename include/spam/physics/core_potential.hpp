@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/physics/density_potential.hpp>
+#include <spam/physics/distance_potential.hpp>
 
 namespace spam {
 
@@ -24,25 +24,5 @@ struct CorePotential {
         return T(8.0 * e_c / (s * s)) * (q * q * q);
     }
 };
-
-/// The list's reach must not be below s.
-template <int Dim>
-EnergyAndForces<Dim> energy_and_forces(const CorePotential& core, const Neighbourhood<Dim>& near) {
-    EnergyAndForces<Dim> result{0.0, Points<Dim>(Dim, near.position.cols())};
-    CompensatedSum energy;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-        Vec<Dim> F;
-        for (const std::uint32_t j : near.pairs.neighbours(i)) {
-            if (j == i) continue;
-            const Vec<Dim> r_ij = near.separation(i, j);
-            const double r2 = dot(r_ij, r_ij);
-            energy += 0.5 * core.energy(r2);
-            F += core.force_over_r(r2) * r_ij;
-        }
-        for (int a = 0; a < Dim; ++a) result.force(a, static_cast<Eigen::Index>(i)) = F[a];
-    }
-    result.energy = energy;
-    return result;
-}
 
 }  // namespace spam

@@ -105,12 +105,12 @@ struct DensityForces {
     }
 };
 
-/// The force of a core alone, and half of its pairs' energy.
-template <int Dim>
-struct CoreForce {
+/// The force of a potential of the distance of two particles, a core for instance: no force by mass.
+template <int Dim, DistancePotential Potential>
+struct DistanceForce {
     static constexpr bool light = true;  // sweep.hpp
-    CorePotential core;
-    static CoreForce with(const PassConstants& c) { return {{c.core_energy, c.core_range}}; }
+    Potential potential;
+    static DistanceForce with(const PassConstants& c) { return {{c.core_energy, c.core_range}}; }
 
     template <class T>
     struct Sums {
@@ -118,7 +118,7 @@ struct CoreForce {
     };
     template <class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) const {
-        sums.force -= core.force_over_r(pair.r2) * pair.r_ji;
+        sums.force -= potential.force_over_r(pair.r2) * pair.r_ji;
     }
     template <class T, class Record>
     static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
@@ -130,13 +130,13 @@ struct CoreForce {
     }
 };
 
-/// sum_j of half of the core's energy of the pair: each pair is found from both ends. A particle itself
-/// is counted once, and taken off.
-template <int Dim>
-struct CoreEnergy {
+/// sum_j of half of the pair's energy: each pair is found from both ends. A particle itself is counted
+/// once, and taken off.
+template <int Dim, DistancePotential Potential>
+struct DistanceEnergy {
     static constexpr bool light = true;  // sweep.hpp
-    CorePotential core;
-    static CoreEnergy with(const PassConstants& c) { return {{c.core_energy, c.core_range}}; }
+    Potential potential;
+    static DistanceEnergy with(const PassConstants& c) { return {{c.core_energy, c.core_range}}; }
 
     template <class T>
     struct Sums {
@@ -144,16 +144,21 @@ struct CoreEnergy {
     };
     template <class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record&, const Record&, Sums<T>& sums) const {
-        sums.energy += core.energy(pair.r2);
+        sums.energy += potential.energy(pair.r2);
     }
     template <class T, class Record>
     T result(const Record&, const Sums<T>& sums) const {
-        return T(0.5) * (sums.energy - T(core.e_c));
+        return T(0.5) * (sums.energy - T(potential.energy(0.0)));
     }
     template <class To, class T>
     static void store(const To& to, const T& energy) {
         to.set(to.out.energy, energy);
     }
 };
+
+template <int Dim>
+using CoreForce = DistanceForce<Dim, CorePotential>;
+template <int Dim>
+using CoreEnergy = DistanceEnergy<Dim, CorePotential>;
 
 }  // namespace spam

@@ -23,8 +23,8 @@ struct PassConstants {
     double penalty = 0.0;          ///< its penalty times its stiffness, kappa lambda
     /// Of friction and conduction by pairs: eta, lambda and kappa.
     double shear = 0.0, second_viscosity = 0.0, conductivity = 0.0;
-    double core_energy = 0.0;  ///< of CorePotential, a core's or that of a contact
-    double core_range = 1.0;
+    double core_energy = 0.0;     ///< of CorePotential (a core's, a contact's) or CohesivePotential
+    double core_range = 1.0;      ///< likewise: their length
     double apart = 0.0;           ///< how far apart particles that touch are by ContactRecord
     std::array<double, 8> own{};  ///< of a law outside the library
 };

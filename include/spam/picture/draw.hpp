@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/state.hpp>
+#include <spam/core/particles.hpp>
 #include <spam/diagnostics/field_grid.hpp>
 #include <spam/io/run_folder.hpp>
 
@@ -76,12 +76,14 @@ struct LogLogPicture {
 
 bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPicture& picture);
 
-/// One frame of a grid of configurations: particles coloured by a value, and outlines.
+/// One frame of a grid of configurations: particles coloured by a value, and outlines. Or elements, in place of
+/// particles: `colour` then belongs to them, and `position` to their nodes.
 struct ConfigurationPanel {
     std::string title;
     Points<2> position;
     std::vector<double> colour;
-    std::vector<Points<2>> outlines;  ///< closed polygons
+    std::vector<Points<2>> outlines;        ///< closed polygons
+    std::vector<Quadrilateral> elements{};  ///< by places in `position`
 };
 
 enum class ColourScale {

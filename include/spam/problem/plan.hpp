@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace spam {
 
@@ -21,6 +22,9 @@ struct Plan {
     double output_every = 0.0;
     double snapshot_every = 0.0;
     double checkpoint_every = 0.0;
+    /// Of rk4, where --dt is not given, for a case among others that needs a step of its own; else
+    /// Session::prefer_step(), which case.toml tells of.
+    std::optional<double> step{};
     /// t_end stays what it is: --t-end is meant for other cases of the session.
     bool own_end = false;
     std::vector<Observer<Dim>> observers{};

@@ -130,6 +130,12 @@ class Session {
     template <int Dim>
     void settle_plan(Plan<Dim>& plan, std::size_t number);
     template <int Dim>
+    IntegratorOptions integrator_of(const Plan<Dim>& plan) const {
+        IntegratorOptions own = integrator_;
+        if (plan.step && own.method == "rk4" && !given("dt")) own.dt = plan.step;
+        return own;
+    }
+    template <int Dim>
     void refuse_idle_balance(const std::vector<Case<Dim>>& cases);
     template <int Dim>
     void refuse_unstable(const Case<Dim>& one) const;

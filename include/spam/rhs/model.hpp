@@ -44,6 +44,9 @@ class Model {
     /// Sum of the energy that is not kinetic: internal (m e) or potential.
     virtual double internal_energy(std::span<const double> y) const = 0;
 
+    /// Elements between the particles, which hold fields of their own; empty for particles alone.
+    virtual std::span<const Quadrilateral> quadrilaterals() const { return {}; }
+
     /// Densities of all particles; empty for a model without density.
     virtual std::vector<double> density(std::span<const double> y) const;
 

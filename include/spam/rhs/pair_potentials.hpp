@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/physics/cohesive_potential.hpp>
 #include <spam/physics/core_potential.hpp>
 #include <spam/rhs/pair_term.hpp>
 #include <spam/rhs/particle_model.hpp>
@@ -15,6 +16,15 @@ class Core final : public PairTerm<Dim> {
     /// Throws InputError for an energy or a range that is not above 0, and for a periodic box narrower than
     /// a fifth of the range.
     Core(const Selection<Dim>& among, const CorePotential& core);
+};
+
+/// Molecular dynamics of particles that hold together, [HH07] 13 (physics/cohesive_potential.hpp).
+template <int Dim>
+class Cohesion final : public PairTerm<Dim> {
+  public:
+    /// Throws InputError for an energy or a spacing that is not above 0, and for a periodic box narrower than
+    /// a fifth of the range.
+    explicit Cohesion(const Selection<Dim>& among, const CohesivePotential& potential = {});
 };
 
 /// Molecular dynamics with Lucy's weight function as pair potential, phi = m_i m_j w(r), [HHM04] III.

@@ -61,6 +61,7 @@ class ParticleModel : public Model<Dim> {
     void rates(double t, std::span<const double> y, std::span<double> y_dot) final;
     /// With the potentials of externals.
     double internal_energy(std::span<const double> y) const final;
+    std::span<const Quadrilateral> quadrilaterals() const final;
     /// Of the first term that has its own, else what is in y; empty unless those of all are known.
     std::vector<double> density(std::span<const double> y) const final;
     /// Throws InputError where some particles are held and others are reflected: a reflection would move

@@ -33,6 +33,11 @@ class Term {
     /// (history). No two terms of a model may find the rate of the same one.
     virtual std::vector<Field> fields() const { return {}; }
 
+    /// Elements between particles of the model, by their numbers there; no two terms of a model may have some.
+    virtual std::span<const Quadrilateral> quadrilaterals() const { return {}; }
+    /// Fields of the elements, as fields() are those of the particles.
+    virtual std::vector<Field> element_fields() const { return {}; }
+
     /// v_dot, and the rates of fields(). Pure, no allocation after warm-up except for new lists.
     /// Returns why the state has no meaning; empty where it has one.
     virtual std::string rates(const Now& now) = 0;

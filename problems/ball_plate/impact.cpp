@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "impact.hpp"
+
+#include "../breaking/pieces.hpp"
+#include <spam/external/clamp.hpp>
+#include <spam/picture/draw.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace ball_plate {
+namespace {
+
+Particles<2> made(const Points<2>& position) {
+    auto particles = make_particles<2>(position, 1.0);
+    particles.body.assign(particles.size(), 0);
+    return particles;
+}
+
+/// Two bodies, however near they are to each other.
+std::vector<Particles<2>> ball_and_plate(const Parameters& p) {
+    Points<2> disk = triangular_disk(p.radius);
+    Points<2> block = triangular_block(p.columns, p.rows);
+    block.colwise() -= Point<2>(block.rowwise().mean());
+    disk.row(1).array() += block.row(1).maxCoeff() + p.gap - disk.row(1).minCoeff();
+    return {made(disk), made(block)};
+}
+
+/// The outermost column of the plate on either side.
+void hold_ends(const Parameters& p, ParticleModel<2>& model) {
+    const auto& particles = model.particles();
+    Group ends(particles.size());
+    for (std::size_t i = 0; i < ends.size(); ++i)
+        ends[i] = particles.body[i] == plate &&
+                  std::abs(particles.reference_position(0, static_cast<Eigen::Index>(i))) >
+                      0.5 * p.columns - 1.0;
+    model.add(std::make_unique<Clamp<2>>(std::move(ends)));
+}
+
+struct Known {
+    MatterKind kind;
+    double speed, ball_speed, tolerance;
+};
+/// Of 241 and 640 particles when the ball would have gone 20, from another program.
+constexpr Known known_speeds[] = {{MatterKind::embedded_atom, 0.25, 0.148, 0.01},
+                                  {MatterKind::embedded_atom, 0.5, 0.325, 0.015},
+                                  {MatterKind::embedded_atom, 1.0, 0.606, 0.02},
+                                  {MatterKind::spam, 0.25, 0.108, 0.0033},
+                                  {MatterKind::spam, 0.5, 0.314, 0.0095},
+                                  {MatterKind::spam, 1.0, 0.585, 0.0176},
+                                  {MatterKind::spam, 2.0, 1.16, 0.035}};
+/// Clusters of molecules.
+constexpr Known known_pieces[] = {{MatterKind::pair_md, 1.0, 1.0, 0.0},
+                                  {MatterKind::pair_md, 2.0, 3.0, 0.0},
+                                  {MatterKind::pair_md, 4.0, 35.0, 5.0},
+                                  {MatterKind::pair_md, 8.0, 140.0, 10.0}};
+
+/// Everything but the speed and the seed.
+bool is_known(const Session& session, const RunRecord& run) {
+    auto options = Problem::scheme_option_names();
+    options.insert(options.end(),
+                   {"radius", "columns", "rows", "gap", "travel", "ends", "yield-stress",
+                    "hardening", "failure-strain", "strength", "surface-tension", "core",
+                    "core-range", "disorder", "kernel", "range", "t-end"});
+    return session.when_default(options) && run.complete;
+}
+
+template <std::size_t N>
+void claim(Session& session, const std::string& name, double value, const Known (&table)[N],
+           const Parameters& p, double speed, bool known) {
+    for (const Known& one : table)
+        if (one.kind == p.matter.kind && one.speed == speed) {
+            session.claim({name, value, one.ball_speed, one.tolerance, "[HH07] 13; recorded value"},
+                          known);
+            return;
+        }
+    session.measure(name, value);
+}
+
+}  // namespace
+
+std::string_view to_string(Ends ends) { return ends == Ends::free ? "free" : "held"; }
+
+std::vector<double> speeds_of(MatterKind kind) {
+    if (kind == MatterKind::pair_md) return {1.0, 2.0, 4.0, 8.0};
+    return {0.25, 0.5, 1.0, 2.0};
+}
+
+double step_of(const Parameters& p) { return p.matter.kind == MatterKind::pair_md ? 0.0025 : 0.05; }
+
+Impact make_impact(const Session& session, const Parameters& p, double speed) {
+    std::optional<ContactScheme> contact;
+    if (p.contact.energy > 0.0) contact = p.contact;
+    Impact impact{speed, make_model(session, p.matter, ball_and_plate(p), contact), {}};
+    if (p.ends == Ends::held) hold_ends(p, *impact.model);
+    const auto& particles = impact.model->particles();
+    Points<2> x = particles.reference_position;
+    disturb(x, p.matter);
+    impact.y0 = start(*impact.model, x, speed);
+    const State<2> state(impact.model->layout(), impact.y0);
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (particles.body[i] == ball) state.velocity()(1, static_cast<Eigen::Index>(i)) = -speed;
+    return impact;
+}
+
+std::vector<Column<2>> columns_of(const Impact&) {
+    return {{"ball_speed",
+             [](const Model<2>& model, std::span<const double> y) {
+                 const auto v = ConstState<2>(model.layout(), y).velocity();
+                 double sum = 0.0, n = 0.0;
+                 for (std::size_t i = 0; i < model.particles().size(); ++i)
+                     if (model.particles().body[i] == ball) {
+                         sum -= v(1, static_cast<Eigen::Index>(i));
+                         n += 1.0;
+                     }
+                 return sum / n;
+             }},
+            {"pieces",
+             [](const Model<2>& model, std::span<const double> y) {
+                 return static_cast<double>(piece_sizes(model, y).size());
+             }},
+            {"largest_piece",
+             [](const Model<2>& model, std::span<const double> y) {
+                 return static_cast<double>(piece_sizes(model, y).front());
+             }},
+            closest_pair_column<2>()};
+}
+
+void report(Session& session, const Parameters& p, const Impact& impact, const RunRecord& run) {
+    const History& h = run.history;
+    const bool known = is_known(session, run);
+    claim(session, impact.prefix + "ball_speed", h.last("ball_speed"), known_speeds, p,
+          impact.speed, known);
+    claim(session, impact.prefix + "pieces", h.last("pieces"), known_pieces, p, impact.speed,
+          known);
+    session.measure(impact.prefix + "largest_piece", h.last("largest_piece"));
+    session.measure(impact.prefix + "closest_pair", h.smallest("closest_pair"));
+    session.check_promises(run, impact.prefix);
+}
+
+void draw(Session& session, const Parameters& p, const std::vector<Impact>& impacts,
+          const std::vector<RunRecord>& runs) {
+    std::vector<ConfigurationPanel> panels;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const FirstNeighbours neighbours(impacts[k].model->particles());
+        const auto add = [&](const std::string& title, const Points<2>& x) {
+            panels.push_back({title, x, neighbours.lost(x), {}});
+        };
+        if (p.compare) {
+            add(fmt::format("v = {:g}, t = {:g}", impacts[k].speed, runs[k].statistics.t_end),
+                ConstState<2>(impacts[k].model->layout(), runs[k].y).position());
+            continue;
+        }
+        for (const auto& state : impacts[k].drawn)
+            if (state.there()) add(fmt::format("t = {:.3g}", state.t), state.position);
+    }
+    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
+                                           "A ball and a plate: " + title_of(p.matter.kind), panels,
+                                           2, "first neighbours lost"));
+}
+
+}  // namespace ball_plate

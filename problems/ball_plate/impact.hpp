@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ball on its way into a plate: how both are made, what is watched, and what is known of it.
+#pragma once
+
+#include "../breaking/matter.hpp"
+#include <spam/problem/nearest_state.hpp>
+
+namespace ball_plate {
+
+using namespace breaking;
+
+enum class Ends { free, held };
+std::string_view to_string(Ends ends);
+
+struct Parameters {
+    Matter matter;
+    double speed = 1.0;
+    bool compare = false;
+    double radius = 8.0;
+    int columns = 80, rows = 8;
+    double gap = 1.1;
+    std::optional<double> travel;  ///< by default that of the lecture's numbers
+    Ends ends = Ends::free;
+    ContactScheme contact{.energy = 0.0};  ///< without energy they stick together
+
+    double travelled() const {
+        return travel.value_or(matter.kind == MatterKind::pair_md ? 75.0 : 20.0);
+    }
+};
+
+constexpr std::int32_t ball = 0, plate = 1;  ///< bodies
+
+struct Impact {
+    double speed;
+    std::shared_ptr<ParticleModel<2>> model;
+    std::vector<double> y0;
+    std::vector<NearestState<2>> drawn{};
+    std::string prefix{};  ///< of results where there are several
+};
+
+/// Of the lecture.
+std::vector<double> speeds_of(MatterKind kind);
+/// Of classical Runge-Kutta.
+double step_of(const Parameters& p);
+
+/// The ball moves downwards.
+Impact make_impact(const Session& session, const Parameters& p, double speed);
+
+/// `ball_speed`, `pieces`, `largest_piece`, `closest_pair`.
+std::vector<Column<2>> columns_of(const Impact& impact);
+
+void report(Session& session, const Parameters& p, const Impact& impact, const RunRecord& run);
+/// The states kept of one impact, or how several have ended.
+void draw(Session& session, const Parameters& p, const std::vector<Impact>& impacts,
+          const std::vector<RunRecord>& runs);
+
+}  // namespace ball_plate

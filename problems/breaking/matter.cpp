@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "matter.hpp"
+
+#include "../kernels/lattices.hpp"
+#include <spam/material/embedded_atom.hpp>
+#include <spam/material/yielding_solid.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/pair_potentials.hpp>
+#include <spam/setup/drawn.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+
+namespace breaking {
+namespace {
+
+constexpr Kernel kernel_of_atoms = Kernel::w5;  // a curvature needs a smoother one than Lucy's
+constexpr double range_of_atoms = 2.5;
+
+/// Of the lattice: what there is at a site, by the weight function.
+double site_density(Kernel kernel, double range) {
+    const auto weight = weight_function<2>(spam::to_string(kernel), range);
+    return kernels::relative_density<2>(kernels::triangular(), weight, Point<2>::Zero()) /
+           kernels::triangular().volume();
+}
+
+DensityPotentials potentials_of(const Session& session, const Matter& matter) {
+    DensityPotentials potentials;
+    potentials.kernel = session.given("kernel") ? session.scheme().kernel : kernel_of_atoms;
+    potentials.range = session.given("range") ? session.scheme().range : range_of_atoms;
+    potentials.state = EmbeddedAtom{1.0, site_density(potentials.kernel, potentials.range)};
+    potentials.surface_tension = matter.surface_tension;
+    potentials.strength = matter.strength;
+    if (matter.core > 0.0) potentials.core = {matter.core, matter.core_range};
+    return potentials;
+}
+
+Material<2> yielding_solid(const Matter& matter) {
+    const auto elastic = ElasticSolid::triangular_lattice();
+    Failure failure;
+    if (matter.failure_strain) failure.plastic_strain = *matter.failure_strain;
+    return YieldingSolid(PlaneVonMises{elastic.lambda, elastic.eta},
+                         LinearHardening{matter.yield_stress, matter.hardening}, failure);
+}
+
+void add_terms_among(const Session& session, const Matter& matter, ParticleModel<2>& model,
+                     std::size_t first, std::size_t count) {
+    switch (matter.kind) {
+        case MatterKind::pair_md:
+            model.add_term_among<Cohesion<2>>(first, count);
+            return;
+        case MatterKind::embedded_atom:
+            model.add_term_among<DensityPotentialTerm<2>>(first, count,
+                                                          potentials_of(session, matter));
+            return;
+        case MatterKind::spam:
+        case MatterKind::all:
+            break;
+    }
+    model.add_term_among<SmoothParticles<2>>(first, count, yielding_solid(matter),
+                                             session.scheme());
+    if (matter.core > 0.0)
+        model.add_term_among<Core<2>>(first, count, CorePotential{matter.core, matter.core_range});
+}
+
+void refuse_impossible(const Matter& matter) {
+    if (matter.kind != MatterKind::pair_md && matter.core > 0.0 && matter.core_range < 0.01)
+        throw InputError(fmt::format(
+            "core-range: {:g} is below a hundredth of the spacing, 1: no step resolves such "
+            "a core; give 0.01 or more, or --core 0",
+            matter.core_range));
+}
+
+}  // namespace
+
+std::string_view to_string(MatterKind kind) {
+    constexpr std::string_view names[] = {"pair_md", "embedded_atom", "spam", "all"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+std::string title_of(MatterKind kind) {
+    return kind == MatterKind::pair_md         ? "pair potential"
+           : kind == MatterKind::embedded_atom ? "embedded atoms"
+                                               : "SPAM";
+}
+
+std::vector<MatterKind> kinds_of(MatterKind kind) {
+    if (kind != MatterKind::all) return {kind};
+    return {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam};
+}
+
+void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds) {
+    Options& options = problem.options();
+    const auto only_of = [&options, &matter](const std::vector<std::string>& names,
+                                             const std::vector<MatterKind>& of,
+                                             const std::string& why) {
+        options.only_when(
+            names, {"model"},
+            [&matter, of] {
+                return matter.kind == MatterKind::all ||
+                       std::find(of.begin(), of.end(), matter.kind) != of.end();
+            },
+            "has no meaning with {by}: " + why + "; leave it out");
+    };
+    options.choice<MatterKind>(
+        "model", matter.kind, kinds,
+        "molecular dynamics with a pair potential, or with potentials of the density; or smooth "
+        "particles of a solid that yields");
+    options.number("yield-stress", matter.yield_stress, "stress Y at which smooth particles yield",
+                   positive());
+    options.number("hardening", matter.hardening,
+                   "how fast Y grows with the plastic strain, H; 0 for not at all", non_negative());
+    options.number("failure-strain", matter.failure_strain,
+                   "plastic strain at which smooth particles break (default: they do not)",
+                   positive());
+    only_of({"yield-stress", "hardening", "failure-strain"}, {MatterKind::spam},
+            "only smooth particles yield");
+    options.number("strength", matter.strength,
+                   "strength s_c of the curvature, which makes embedded atoms a solid", positive());
+    options.number("surface-tension", matter.surface_tension,
+                   "strength s_g of the surface tension of embedded atoms; 0 for none",
+                   non_negative());
+    only_of({"strength", "surface-tension"}, {MatterKind::embedded_atom},
+            "it is of embedded atoms");
+    options.number("core", matter.core,
+                   "energy of the core that keeps two particles apart; 0 for none", non_negative());
+    options.number("core-range", matter.core_range, "distance at which cores touch", positive())
+        .only_when(
+            {"core"}, [&matter] { return matter.core > 0.0; },
+            "has no meaning without a core; give --core 1, or leave it out");
+    options.number("disorder", matter.disorder,
+                   "largest random displacement from the lattice at the start", between(0.0, 0.2));
+    options.integer("seed", matter.seed, "seed of the random displacements", between(0, 1000000000))
+        .only_when(
+            {"disorder"}, [&matter] { return matter.disorder > 0.0; },
+            "has no meaning without disorder; give --disorder 0.01, or leave it out");
+    problem.use_scheme();
+    only_of({"core", "core-range", "kernel", "range"},
+            {MatterKind::embedded_atom, MatterKind::spam},
+            "the pair potential has a core and a range of its own");
+    only_of(Problem::scheme_option_names(), {MatterKind::spam}, "it is of smooth particles");
+    // The model's own where they are not given.
+    for (const char* name : {"kernel", "range"})
+        options.only_when({name}, {}, [&options, name] { return options.given(name); }, {});
+}
+
+void disturb(Points<2>& position, const Matter& matter) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(matter.seed));
+    for (double& x : position.reshaped()) x += matter.disorder * (2.0 * drawn(random) - 1.0);
+}
+
+std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
+                                             const std::vector<Particles<2>>& bodies,
+                                             const std::optional<ContactScheme>& contact) {
+    refuse_impossible(matter);
+    auto model = std::make_shared<ParticleModel<2>>(joined(bodies));
+    std::size_t first = 0;
+    for (const Particles<2>& body : bodies) {
+        const std::size_t count = contact ? body.size() : model->particles().size();
+        add_terms_among(session, matter, *model, first, count);
+        if (!contact) break;
+        first += count;
+    }
+    if (contact) model->add_term<Contact<2>>(*contact);
+    return model;
+}
+
+std::vector<double> start(ParticleModel<2>& model, const Points<2>& position, double speed) {
+    auto y = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0), at_rest<2>());
+    State<2>(model.layout(), y).position() = position;
+    model.layout().set_scale(Field::velocity, speed);
+    return y;
+}
+
+}  // namespace breaking

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a body that is to break is made of, [HH07] 13: the models of the tension test and of the ball that hits
+// a plate.
+#pragma once
+
+#include <spam/rhs/contact.hpp>
+#include <spam/spam.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace breaking {
+
+using namespace spam;
+
+enum class MatterKind {
+    pair_md,        ///< molecular dynamics, phi = (2 - r^2)^8 - 2 (2 - r^2)^4
+    embedded_atom,  ///< molecular dynamics with potentials of the density, and a core
+    spam,           ///< smooth particles of an elastic solid that yields, and a core
+    all             ///< one after the other; no matter of its own
+};
+
+std::string_view to_string(MatterKind kind);
+/// For pictures: "pair potential", "embedded atoms", "SPAM".
+std::string title_of(MatterKind kind);
+
+/// As options give it. What is not set is chosen for the model.
+struct Matter {
+    MatterKind kind = MatterKind::spam;
+    double yield_stress = 0.05;  ///< Y of SPAM
+    double hardening = 0.0;      ///< H of SPAM
+    std::optional<double> failure_strain{};
+    double strength = 0.2;         ///< s_c of embedded atoms
+    double surface_tension = 0.1;  ///< s_g of embedded atoms
+    double core = 1.0;             ///< e_c
+    double core_range = 0.8;
+    double disorder = 0.01;  ///< largest random displacement at the start
+    int seed = 1;
+};
+
+/// Those that make a body.
+std::vector<MatterKind> kinds_of(MatterKind kind);
+
+/// `--model`, one of `kinds`, the constants above, and those of the scheme of smooth particles, each refused
+/// where it means nothing.
+void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds);
+
+/// A lattice that is not perfect: each coordinate moved by up to `disorder`, the same on every computer.
+void disturb(Points<2>& position, const Matter& matter);
+
+/// Bodies one after the other, stored in this order. With `contact` they act on each other by that alone,
+/// else as particles of one body do. Throws InputError where the constants make no sense.
+std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
+                                             const std::vector<Particles<2>>& bodies,
+                                             const std::optional<ContactScheme>& contact = {});
+
+/// y of a model that is whole: places of `position`, in the order of the model's particles, at rest, of the density
+/// of the lattice, without stress or energy. `speed`: how fast things will be, for tolerances.
+std::vector<double> start(ParticleModel<2>& model, const Points<2>& position, double speed);
+
+}  // namespace breaking

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a body has broken into, for problems in which bodies break.
+#pragma once
+
+#include <spam/spam.hpp>
+
+#include <span>
+#include <vector>
+
+namespace breaking {
+
+using namespace spam;
+
+/// Particles of one piece are linked by pairs that are nearer than this, in spacings of the lattice: between
+/// first and second neighbours of a triangular lattice.
+constexpr double piece_reach = 1.5;
+
+/// How many particles each piece has, the largest first; pieces of fewer than `least` are left out.
+std::vector<std::size_t> piece_sizes(const Model<2>& model, std::span<const double> y,
+                                     std::size_t least = 1);
+
+/// Pairs of particles of one body that are neighbours in the reference configuration, to see which of them
+/// have parted.
+class FirstNeighbours {
+  public:
+    explicit FirstNeighbours(const Particles<2>& particles);
+
+    /// Of every particle the share of its first neighbours that is farther than piece_reach away from it at
+    /// `position` (2 x N): 0 in a body that is whole, however it is turned, 1 of a particle that has lost all of
+    /// them or had none.
+    std::vector<double> lost(const Points<2>& position) const;
+
+  private:
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs_;
+    Eigen::ArrayXd count_;  ///< of every particle's neighbours
+    double reach_;
+};
+
+}  // namespace breaking

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spam-list: a tapered bar is pulled apart from within, by molecules and by smooth particles, [HH07] 13; 10 s
+//
+// Tension test, [HH07] 13: a bar of `columns` x `rows` particles of a triangular lattice, its heights 10 % less
+// at the middle, with a load on every particle that grows with time, under friction.
+//
+//     <- <- < o o o o o o > -> ->
+//     <- <- <  o o o o o  > -> ->       m v_dot_i = ... + m f(t) X_i/(L/2) e_x - m gamma v_i,   f = load-rate t
+//     <- <- < o o o o o o > -> ->       X_i: place at the start, L = `columns`
+//
+// Forces at the ends alone would tear off the ends.
+//
+//     --model pair_md        molecules: breaks
+//     --model embedded_atom  potentials of the density, a core, and a strength by the curvature: ductile
+//     --model spam           smooth particles of an elastic, perfectly plastic solid, and a core: necks, then parts
+//
+// [HH07] shows bars at t = 620 (molecules), 375 to 875 (smooth particles) and 10,000 to 20,000 (embedded
+// atoms). load-rate makes of these times the loads at which the three are known to part: 1/1500, 1e-5 and 1e-6.
+// Without a core smooth particles clump before that.
+#include "tension_test/bar.hpp"
+
+#include <fmt/format.h>
+
+namespace tension_test {
+namespace {
+
+Plan<2> plan_of(const Session& session, PulledBar& bar, bool several) {
+    Plan<2> plan;
+    plan.t_end = bar.largest_load / bar.load_rate;
+    plan.output_every = plan.t_end / (session.common().smoke ? 200.0 : 1000.0);
+    plan.snapshot_every = plan.t_end / 40.0;
+    if (several) plan.step = bar.step;
+    plan.record(columns_of(bar));
+    plan.observe({.enough = [](const History& h) {
+        const auto t = parted_at(h);
+        return t && h.last("t") >= 1.03 * *t;
+    }});
+    if (several)
+        bar.drawn = {{0.6 * plan.t_end}};
+    else
+        bar.drawn = {{0.0}, {0.4 * plan.t_end}, {0.6 * plan.t_end}};
+    plan.observe(keep_nearest<2>(bar.drawn));
+    return plan;
+}
+
+void compute(Session& session, const Parameters& p) {
+    std::vector<PulledBar> bars;
+    const auto kinds = kinds_of(p.matter.kind);
+    const bool several = kinds.size() > 1;
+    for (const MatterKind kind : kinds) {
+        Matter matter = p.matter;
+        matter.kind = kind;
+        bars.push_back(make_bar(session, p, matter));
+        if (several) bars.back().prefix = std::string(to_string(kind)) + "_";
+    }
+    if (!several) session.prefer_step(bars.front().step);
+    std::vector<Case<2>> cases;
+    for (PulledBar& bar : bars)
+        cases.push_back({bar.model, bar.y0, plan_of(session, bar, several),
+                         several ? std::string(to_string(bar.kind)) : ""});
+    const auto runs = session.run_all(std::move(cases));
+    for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, bars[k], runs[k]);
+    if (session.plots()) draw(session, bars, runs);
+}
+
+void add_options(Problem& problem, Parameters& p) {
+    Options& options = problem.options();
+    options.integer("columns", p.columns, "particles along the bar", between(8, 2000));
+    options.integer("rows", p.rows, "particles across the bar", between(4, 200));
+    options.number("taper", p.taper, "how much lower the bar is at its middle, by its height",
+                   between(0.0, 0.5));
+    options.number("load-rate", p.load_rate,
+                   "growth of the load at the ends by time (default: that of the model)",
+                   positive());
+    options.number("damping", p.damping, "rate of the friction, gamma (default: that of the model)",
+                   non_negative());
+    add_matter_options(
+        problem, p.matter,
+        {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam, MatterKind::all});
+}
+
+}  // namespace
+}  // namespace tension_test
+
+int main(int argc, char** argv) {
+    spam::Problem problem("tension_test", "a tapered bar under tension, [HH07] 13", 0.25);
+    tension_test::Parameters p;
+    tension_test::add_options(problem, p);
+    return problem.main(argc, argv, [&](spam::Session& session) {
+        if (session.common().smoke) {
+            if (!session.given("columns")) p.columns = 16;
+            if (!session.given("rows")) p.rows = 6;
+        }
+        tension_test::compute(session, p);
+    });
+}

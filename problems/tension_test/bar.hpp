@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A bar that is pulled apart: how it is made, what is watched, and what is known of it.
+#pragma once
+
+#include "../breaking/matter.hpp"
+#include <spam/problem/nearest_state.hpp>
+
+namespace tension_test {
+
+using namespace breaking;
+
+struct Parameters {
+    Matter matter;
+    int columns = 60, rows = 14;
+    double taper = 0.1;
+    std::optional<double> load_rate, damping;
+};
+
+struct PulledBar {
+    MatterKind kind;
+    double load_rate;     ///< the load at the ends is load_rate t
+    double step;          ///< of classical Runge-Kutta
+    double largest_load;  ///< at which a run ends at the latest
+    std::shared_ptr<ParticleModel<2>> model;
+    std::vector<double> y0{};
+    std::vector<NearestState<2>> drawn{};
+    std::string prefix{};  ///< of results where there are several
+};
+
+/// `matter`: that of p, of one kind.
+PulledBar make_bar(const Session& session, const Parameters& p, const Matter& matter);
+
+/// `pieces`: of a twentieth of the particles or more; `largest_piece`, `second_piece`: their particles;
+/// `length`, `closest_pair`.
+std::vector<Column<2>> columns_of(const PulledBar& bar);
+
+/// Time of the first row with more than one piece; none where there is none.
+std::optional<double> parted_at(const History& h);
+
+void report(Session& session, const Parameters& p, const PulledBar& bar, const RunRecord& run);
+/// The states kept of one bar, or of several how they were before and have ended.
+void draw(Session& session, const std::vector<PulledBar>& bars, const std::vector<RunRecord>& runs);
+
+}  // namespace tension_test

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/material/plastic_fields.hpp>
+#include <spam/physics/quadrilateral.hpp>
+#include <spam/rhs/elements.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace spam {
+namespace {
+
+void validate(const Elements::Material& material) {
+    const auto refuse = [](const char* what, double value, const char* allowed) {
+        throw InputError(fmt::format("elements: {} {:g} {}", what, value, allowed));
+    };
+    const HourglassControl& control = material.hourglass;
+    if (!(material.density > 0.0) || !std::isfinite(material.density))
+        refuse("density", material.density, "must be above 0");
+    if (!(control.viscosity >= 0.0) || !std::isfinite(control.viscosity))
+        refuse("hourglass viscosity", control.viscosity, "must not be below 0");
+    if (!(control.stiffness >= 0.0) || !std::isfinite(control.stiffness))
+        refuse("hourglass stiffness", control.stiffness, "must not be below 0");
+    if (control.viscosity + control.stiffness > 0.0 && !material.law.sound_speed(material.density))
+        throw InputError(
+            "elements: a law without a sound speed cannot say how strong an hourglass should be "
+            "resisted; give it one, or leave the control out");
+}
+
+}  // namespace
+
+Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners,
+                   std::vector<Material> materials, std::vector<std::int32_t> material)
+    : Term<2>(nodes),
+      corners_(std::move(corners)),
+      materials_(std::move(materials)),
+      material_(std::move(material)) {
+    if (corners_.empty()) throw InputError("elements: there are none; leave the term out");
+    if (box().periodic() || box().walled())
+        throw InputError("elements: they cannot reach across the borders of a box; use free space");
+    for (const Material& one : materials_) {
+        validate(one);
+        const double c = one.law.sound_speed(one.density).value_or(0.0);
+        viscosity_.push_back(0.25 * one.hourglass.viscosity * one.density * c);
+        stiffness_.push_back(0.25 * one.hourglass.stiffness * one.density * c * c);
+        elastic_hourglass_ = elastic_hourglass_ || one.hourglass.stiffness > 0.0;
+    }
+    const std::size_t n = corners_.size();
+    if (!material_.empty() && material_.size() != n)
+        throw InputError(fmt::format("elements: {} numbers of materials are given for {} elements",
+                                     material_.size(), n));
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto number = material_.empty() ? 0 : material_[k];
+        if (number < 0 || static_cast<std::size_t>(number) >= materials_.size())
+            throw InputError(fmt::format("elements: element {} has the material {} of {}", k,
+                                         number, materials_.size()));
+        for (const std::uint32_t i : corners_[k])
+            if (i < among().first() || i >= among().first() + among().count())
+                throw InputError(fmt::format(
+                    "elements: element {} has a corner {}, which is none of the particles "
+                    "that the term acts among",
+                    k, i));
+        const Corners x = corners_of(particles().reference_position, k);
+        const double area = QuadrilateralShape<>(x).area;
+        if (!(area > 0.0))
+            throw InputError(fmt::format(
+                "elements: the corners of element {} do not go round it counterclockwise", k));
+        mass_.push_back(area * materials_[static_cast<std::size_t>(number)].density);
+        damping_ = std::max(damping_, 16.0 * viscosity_[static_cast<std::size_t>(number)] *
+                                          std::sqrt(area) / mass_.back());
+        for (const Vec<2>& diagonal : {x[2] - x[0], x[3] - x[1]})
+            reach_ = std::max(reach_, std::sqrt(dot(diagonal, diagonal)));
+    }
+    start_.assign(particles().size() + 1, 0);
+    for (const Quadrilateral& one : corners_)
+        for (const std::uint32_t i : one) ++start_[i - among().first() + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    at_.resize(4 * n);
+    std::vector<std::size_t> next = start_;
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t c = 0; c < 4; ++c)
+            at_[next[corners_[k][c] - among().first()]++] = 4 * k + c;
+    returned_.resize(3 * n);
+    grad_v_.resize(n);
+    number_.resize(n);
+    std::iota(number_.begin(), number_.end(), 0U);
+    force_.resize(n);
+    inverted_.resize(n);
+}
+
+template <class View>
+Elements::Corners Elements::corners_of(const View& nodes, std::size_t element) const {
+    Corners corners;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const auto i = static_cast<Eigen::Index>(corners_[element][c] - among().first());
+        corners[c] = {{nodes(0, i), nodes(1, i)}};
+    }
+    return corners;
+}
+
+template <class F>
+void Elements::for_each_material(std::size_t first, std::size_t count, const F& f) const {
+    for (std::size_t k = first; k < first + count;) {
+        std::size_t end = material_.empty() ? first + count : k + 1;
+        while (end < first + count && material_[end] == material_[k]) ++end;
+        f(material_of(k), k, end - k);
+        k = end;
+    }
+}
+
+std::vector<Field> Elements::element_fields() const {
+    std::vector<Field> fields{Field::stress, Field::energy};
+    if (elastic_hourglass_) fields.emplace_back(field_kind::hourglass_force);
+    for (const Material& one : materials_)
+        for (const Field field : one.law.history())
+            if (std::find(fields.begin(), fields.end(), field) == fields.end())
+                fields.push_back(field);
+    return fields;
+}
+
+/// Of the right-hand side at work: nodes, and where fields of the elements begin (null for those not there).
+struct Elements::Held {
+    ConstState<2> nodes;
+    const double *broken, *Q;
+    double *e_dot, *Q_dot;
+    explicit Held(const Now& now)
+        : nodes(now.state),
+          broken(now.state.elements().find(field_kind::broken)),
+          Q(now.state.elements().find(field_kind::hourglass_force)),
+          e_dot(now.rate.elements().find(Field::energy)),
+          Q_dot(now.rate.elements().find(field_kind::hourglass_force)) {}
+};
+
+/// Gradient, forces and the rate of the energy of one element.
+void Elements::load(const Held& held, std::size_t element) {
+    inverted_[element] = 0;
+    if (held.broken != nullptr && held.broken[element] != 0.0) {
+        grad_v_[element] = {};
+        force_[element] = {};
+        held.e_dot[element] = 0.0;
+        if (elastic_hourglass_) held.Q_dot[2 * element] = held.Q_dot[2 * element + 1] = 0.0;
+        return;
+    }
+    const QuadrilateralShape<> shape(corners_of(held.nodes.position(), element));
+    const Corners v = corners_of(held.nodes.velocity(), element);
+    inverted_[element] = shape.area > 0.0 ? 0 : 1;
+    grad_v_[element] = shape.gradient(v);
+    SymTensor<2> stress;
+    for (std::size_t c = 0; c < 3; ++c) stress.c[c] = returned_[3 * element + c];
+    const auto m = static_cast<std::size_t>(material_.empty() ? 0 : material_[element]);
+    const Vec<2> q_dot = shape.hourglass(v);
+    Vec<2> Q = viscosity_[m] * std::sqrt(std::max(shape.area, 0.0)) * q_dot;
+    if (elastic_hourglass_) {
+        const Vec<2> Q_e{{held.Q[2 * element], held.Q[2 * element + 1]}};
+        const Mat<2>& grad = grad_v_[element];
+        const double omega = 0.5 * (grad(0, 1) - grad(1, 0));
+        held.Q_dot[2 * element] = stiffness_[m] * q_dot[0] - omega * Q_e[1];
+        held.Q_dot[2 * element + 1] = stiffness_[m] * q_dot[1] + omega * Q_e[0];
+        Q += Q_e;
+    }
+    force_[element] = shape.forces(stress, Q);
+    double power = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) power += dot(force_[element][c], v[c]);
+    held.e_dot[element] = -power / mass_[element];
+}
+
+/// Each node sums what its elements do to it, in their order.
+void Elements::gather(const Now& now) const {
+    parallel_for(particles().size(), [&](std::size_t i) {
+        Vec<2> force;
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
+            force += force_[at_[k] / 4][at_[k] % 4];
+        for (std::size_t a = 0; a < 2; ++a) now.v_dot[2 * i + a] = force.c[a] / particles().mass[i];
+    });
+}
+
+std::string Elements::rates(const Now& now) {
+    const ConstState<2> state = now.state.elements();
+    const State<2> rate = now.rate.elements();
+    const Held held(now);
+    parallel_blocks(corners_.size(), [&](std::size_t begin, std::size_t size) {
+        for_each_material(
+            begin, size, [&](const Material& m, std::size_t first, std::size_t count) {
+                m.law.return_stress(now.t, first, count, state, returned_.data());
+                for (std::size_t k = first; k < first + count; ++k) load(held, k);
+                m.law.stress_rates({number_.data() + first, count}, {grad_v_.data() + first, count},
+                                   returned_.data(), state, rate);
+            });
+    });
+    const auto inverted = std::find(inverted_.begin(), inverted_.end(), 1);
+    if (inverted != inverted_.end())
+        return fmt::format("element {} is turned inside out", inverted - inverted_.begin());
+    gather(now);
+    return {};
+}
+
+double Elements::energy(std::span<const double> y) const {
+    const auto e = ConstState<2>(layout(), y).elements().energy();
+    CompensatedSum sum;
+    for (std::size_t k = 0; k < mass_.size(); ++k)
+        sum += mass_[k] * e(0, static_cast<Eigen::Index>(k));
+    return sum;
+}
+
+double Elements::neighbour_forces(std::span<const double> y) const {
+    const ConstState<2> state(layout(), y), elements = state.elements();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < mass_.size(); ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        const double area =
+            QuadrilateralShape<>(corners_of(this->among().of(state).position(), k)).area;
+        sum += std::abs(area) * elements.stress().col(column).norm() +
+               mass_[k] * std::abs(elements.energy()(0, column));
+    }
+    return sum / particles().spacing;
+}
+
+std::size_t elements_broken(const Model<2>& model, std::span<const double> y) {
+    const ConstState<2> elements = ConstState<2>(model.layout(), y).elements();
+    const double* const broken = elements.find(field_kind::broken);
+    if (broken == nullptr) return 0;
+    return static_cast<std::size_t>(std::count_if(broken, broken + model.quadrilaterals().size(),
+                                                  [](double b) { return b != 0.0; }));
+}
+
+bool Elements::settle(double t, const State<2>& nodes) {
+    const State<2> state = nodes.elements();
+    bool changed = false;
+    for_each_material(0, corners_.size(),
+                      [&](const Material& m, std::size_t first, std::size_t count) {
+                          changed = m.law.settle(t, first, count, state) || changed;
+                      });
+    const double* const broken = state.find(field_kind::broken);
+    if (broken == nullptr) return changed;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+        if (broken[k] == 0.0) continue;
+        state.stress().col(static_cast<Eigen::Index>(k)).setZero();
+        if (elastic_hourglass_)
+            state.field(field_kind::hourglass_force).col(static_cast<Eigen::Index>(k)).setZero();
+    }
+    return changed;
+}
+
+std::string Elements::describe() const {
+    std::string words = fmt::format("{} one-point elements", corners_.size());
+    for (const Material& one : materials_) {
+        words += fmt::format(", {} of density {:.6g}", one.law.describe(), one.density);
+        if (one.hourglass.viscosity > 0.0)
+            words += fmt::format(", hourglass viscosity {:g}", one.hourglass.viscosity);
+        if (one.hourglass.stiffness > 0.0)
+            words += fmt::format(", hourglass stiffness {:g}", one.hourglass.stiffness);
+    }
+    return words;
+}
+
+}  // namespace spam

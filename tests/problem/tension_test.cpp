@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A bar under tension, as a user runs it: what is known of it and what is refused.
+#include "problem/found.hpp"
+
+#include <cmath>
+
+using namespace spam::test;
+
+BOOST_AUTO_TEST_CASE(molecules_part_in_two) {
+    const Results found("tension_test", {"--model", "pair_md"}, "load_at_parting");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(std::abs(found.value.at("load_at_parting") - 0.42) < 0.03);
+    BOOST_TEST(found.value.at("pieces") >= 2.0);
+    BOOST_TEST(found.value.at("second_piece") > 250.0);
+    // Loaded slowly they part where the rows are as strong as their bonds: 5.30/15, and a little later.
+    const Results slow("tension_test", {"--model", "pair_md", "--load-rate", "0.001"},
+                       "load_at_parting");
+    BOOST_TEST(slow.claims == 0U);
+    BOOST_TEST(slow.value.at("load_at_parting") > 0.353);
+    BOOST_TEST(slow.value.at("load_at_parting") < 0.38);
+}
+
+BOOST_AUTO_TEST_CASE(smooth_particles_neck_and_part) {
+    const Results found("tension_test", {}, "load_at_parting");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(std::abs(found.value.at("load_at_parting") - 0.0073) < 0.0012);
+    BOOST_TEST(found.value.at("pieces") >= 2.0);
+    BOOST_TEST(found.value.at("pieces") <= 3.0);
+    BOOST_TEST(found.value.at("largest_piece") >= 250.0);
+    BOOST_TEST(found.value.at("second_piece") >= 250.0);
+    BOOST_TEST(found.value.at("closest_pair") > 0.4);
+}
+
+BOOST_AUTO_TEST_CASE(smooth_particles_without_a_core_clump_before) {
+    const Results found("tension_test", {"--core", "0", "--t-end", "643"}, "pieces");
+    BOOST_TEST(found.value.at("closest_pair") < 0.05);  // at loads up to 0.0045
+}
+
+// A solid that does not yield bears the load.
+BOOST_AUTO_TEST_CASE(a_bar_that_does_not_yield_does_not_part) {
+    const Results found("tension_test", {"--yield-stress", "10", "--t-end", "800"}, "pieces");
+    BOOST_TEST(found.claims == 0U);
+    BOOST_TEST(found.value.at("pieces") == 1.0);
+    BOOST_TEST(!found.value.contains("load_at_parting"));
+}
+
+BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
+    struct Bad {
+        Words arguments, says;
+    };
+    const std::vector<Bad> all{
+        {{"--failure-strain", "-1"}, {"failure-strain", "-1", "above 0"}},
+        {{"--yield-stress", "0"}, {"yield-stress", "0", "above 0"}},
+        {{"--hardening", "-0.1"}, {"hardening", "-0.1"}},
+        {{"--transport", "monaghan"}, {"transport", "core", "--transport plain"}},
+        {{"--core-range", "0.001"}, {"core-range", "hundredth"}},
+        {{"--core", "0", "--core-range", "0.7"}, {"core-range", "without a core"}},
+        {{"--disorder", "0", "--seed", "2"}, {"seed", "without disorder"}},
+        {{"--strength", "0.1"}, {"strength", "--model spam"}},
+        {{"--model", "pair_md", "--core", "1"}, {"core", "--model pair_md"}},
+        {{"--model", "pair_md", "--range", "3"}, {"range", "--model pair_md"}},
+        {{"--model", "embedded_atom", "--transport", "plain"}, {"transport", "embedded_atom"}},
+        {{"--model", "embedded_atom", "--yield-stress", "1"}, {"yield-stress", "embedded_atom"}},
+        {{"--model", "embedded_atom", "--kernel", "lucy"}, {"kernel", "continuous derivatives"}},
+        {{"--model", "springs"}, {"model", "springs", "pair_md"}},
+        {{"--taper", "0.6"}, {"taper", "0.6", "between 0 and 0.5"}},
+        {{"--load-rate", "0"}, {"load-rate", "0", "above 0"}},
+        {{"--damping", "1e3"}, {"dt", "damping", "smaller --dt"}},
+        {{"--columns", "4"}, {"columns", "4", "between 8 and"}},
+    };
+    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
+            const Scratch folder;
+            const Outcome outcome = run_in(folder, "tension_test", bad.arguments);
+            BOOST_TEST(outcome.status == 2);
+            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+            for (const auto& word : bad.says)
+                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
+            BOOST_TEST(folder.listing().empty());
+        }
+}
