@@ -11,7 +11,8 @@ namespace taylor_bar {
 using namespace spam;
 
 struct Parameters {
-    double length = 32.4, radius = 3.2;                         // mm
+    double radius = 3.2;                                        // mm
+    double aspect = 10.125;                                     // length by radius
     double speed = 227.0;                                       // m/s
     double young = 117.0, yield_stress = 0.4, hardening = 0.1;  // GPa
     double poisson = 0.35, density = 8930.0;                    // kg/m^3
