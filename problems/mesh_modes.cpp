@@ -175,7 +175,7 @@ void compute(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     using namespace mesh_modes;
     Problem problem("mesh_modes",
-                    "motions of a mesh of one-point elements that nothing resists, [HH01]", 0.1);
+                    "motions of a mesh of one-point elements that nothing resists, [HH01]", 0.05);
     Parameters p;
     auto& options = problem.options();
     options.integer("elements", p.elements, "the mesh is elements x elements", between(1, 16));

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "elements.hpp"
 
+#include "../breaking/element_frames.hpp"
 #include <spam/core/error.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/material/yielding_solid.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/meshes.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <optional>
 
 namespace tension_elements {
 namespace {
@@ -85,6 +89,71 @@ std::vector<Column<2>> columns_of(const Parameters& p) {
              }},
             {"elements_broken",
              [](const Model<2>& m, Y y) { return static_cast<double>(elements_broken(m, y)); }}};
+}
+
+namespace {
+
+/// The three states of the lecture's slide, whose nominal strains are .050, .075 and .100.
+struct Known {
+    double t, nominal, largest;
+};
+constexpr Known slide[] = {{32.0, 0.050, 0.048}, {48.0, 0.075, 0.081}, {64.0, 0.100, 0.113}};
+
+/// At the row of that time; nothing where there is none.
+std::optional<double> at(const History& h, const char* name, double t) {
+    const auto times = h.column("t"), values = h.column(name);
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (std::abs(times[k] - t) < 1e-9) return values[k];
+    return {};
+}
+
+void report(Session& session, const Parameters& p, const RunRecord& run, bool known) {
+    const History& h = run.history;
+    for (const Known& one : slide) {
+        const auto length = at(h, "length", one.t), strain = at(h, "largest_plastic_strain", one.t),
+                   neck = at(h, "neck", one.t);
+        if (!strain) continue;
+        const auto name = [&](const char* what) { return fmt::format("{}_{:g}", what, one.t); };
+        session.claim({name("nominal_strain"), *length / p.columns - 1.0, one.nominal, 1e-3,
+                       "[HH07] 13, slide"},
+                      known);
+        session.claim({name("largest_plastic_strain"), *strain, one.largest, 0.006,
+                       "another program with the same elements"},
+                      known);
+        session.claim({name("neck"), *neck, 0.0, 3.0, "[HH07] 13: the neck is at the middle"},
+                      known);
+    }
+    session.measure("largest_plastic_strain", h.last("largest_plastic_strain"));
+    session.measure("neck_height", h.last("neck_height"));
+    session.measure("elements_broken", h.last("elements_broken"));
+    session.check_promises(run);
+}
+
+}  // namespace
+
+void compute(Session& session, const Parameters& p, double t_end, bool known) {
+    Bar bar = make_bar(p);
+    Plan<2> plan;
+    plan.t_end = t_end;
+    plan.output_every = t_end / 128.0;
+    plan.snapshot_every = t_end / 16.0;
+    plan.record(columns_of(p));
+    std::vector<breaking::ElementFrame> frames;
+    for (const Known& one : slide) frames.push_back({one.t / 64.0 * t_end});
+    plan.observe(breaking::keep_frames(frames));
+    const auto run = session.run(*bar.model, bar.y0, std::move(plan));
+    report(session, p, run, known);
+    if (!session.plots()) return;
+    std::vector<ConfigurationPanel> panels;
+    for (const auto& frame : frames)
+        if (frame.there())
+            panels.push_back(
+                breaking::strain_panel(fmt::format("t = {:.4g}, drawn out by {:.3g} %", frame.t,
+                                                   100.0 * bar.strain_rate * frame.t),
+                                       *bar.model, frame));
+    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
+                                           "A bar of finite elements under tension", panels, 1,
+                                           "plastic strain"));
 }
 
 }  // namespace tension_elements

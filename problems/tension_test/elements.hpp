@@ -3,7 +3,7 @@
 #pragma once
 
 #include <spam/material/plastic_fields.hpp>
-#include <spam/problem/observer.hpp>
+#include <spam/problem/session.hpp>
 #include <spam/rhs/elements.hpp>
 
 #include <memory>
@@ -40,5 +40,9 @@ double neck(const Parameters& p, const Model<2>& model, std::span<const double> 
 
 /// `largest_plastic_strain`, `mean_plastic_strain`, `neck`, `neck_height`, `length`, `elements_broken`.
 std::vector<Column<2>> columns_of(const Parameters& p);
+
+/// Until `t_end`, with checks and pictures. `known`: whether all parameters are as above, so that something is
+/// known of the run.
+void compute(Session& session, const Parameters& p, double t_end, bool known);
 
 }  // namespace tension_elements

@@ -116,8 +116,10 @@ std::string element_blocks(const ConfigurationPanel& panel, const Extent& e, std
                             name, block++, e.low + tone * (e.high - e.low) / tones);
     }
     data += lines + "\n";
-    return plot +
-           fmt::format("'{}.dat' index {} with lines lw 0.4 lc rgb '#333333'", name, block++);
+    // Lines would hide elements of a few pixels.
+    const double pixels = e.spacing * side / e.across();
+    return plot + fmt::format("'{}.dat' index {} with lines lw {} lc rgb '#333333'", name, block++,
+                              pixels > 5.0 ? 0.4 : 0.15);
 }
 
 std::string outline_block(const Points<2>& outline) {
