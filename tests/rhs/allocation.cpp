@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The second right-hand side allocates nothing. malloc is counted by a wrapper of our own, which
 // sanitizers and other C libraries do not allow: there the test only runs the code.
+#include "support/element_mesh.hpp"
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -92,6 +93,13 @@ BOOST_AUTO_TEST_CASE(nor_does_that_of_a_total_lagrangian_solid) {
                                      scheme);
         BOOST_TEST(allocations_of_second_call(many, 2) == 0);
     }
+}
+
+BOOST_AUTO_TEST_CASE(nor_does_that_of_elements) {
+    const auto few = model_of({distorted_mesh(5, 4)}, yielding(0.05), {0.1, 0.1});
+    BOOST_TEST(allocations_of_second_call(*few, 1) == 0);
+    const auto many = model_of({distorted_mesh(40, 30)}, yielding(0.05, 1.0), {0.1, 0.1});
+    BOOST_TEST(allocations_of_second_call(*many, 2) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(the_counter_counts) {

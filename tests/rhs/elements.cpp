@@ -133,6 +133,22 @@ BOOST_AUTO_TEST_CASE(an_hourglass_meets_what_resists_it_and_nothing_else) {
     }
 }
 
+/// Elements of the two colours of a chequerboard that turn against each other: s (x, -y), not s (-y, x), which
+/// draws them out along x and along y in turn.
+BOOST_AUTO_TEST_CASE(a_chequerboard_turns_without_resistance) {
+    const auto model = model_of({rectangle_mesh(4, 4)}, elastic);
+    const auto largest_rate = [&](const auto& field) {
+        const auto y = start_of(*model, [&](const Point<2>& x) {
+            const double s = std::lround(x.x() + x.y() + 8.0) % 2 == 0 ? 1.0 : -1.0;
+            return Point<2>(s * field(x));
+        });
+        const auto rates = rates_of(*model, y);
+        return ConstState<2>(model->layout(), rates).elements().stress().cwiseAbs().maxCoeff();
+    };
+    BOOST_TEST(largest_rate([](const Point<2>& x) { return Point<2>(x.x(), -x.y()); }) < 1e-15);
+    BOOST_TEST(largest_rate([](const Point<2>& x) { return Point<2>(-x.y(), x.x()); }) > 0.1);
+}
+
 BOOST_AUTO_TEST_CASE(no_bit_depends_on_the_number_of_threads) {
     const auto model = model_of({distorted_mesh(60, 40)}, yielding(0.05), both);
     const auto y = random_elements(*model, 0.2);
