@@ -269,6 +269,11 @@ void compare(Session& session, const Parameters& p) {
                                 : "of first order in the step, which its estimate does not see");
         session.measure(row.front() + "_energy_change", point.energy);
     }
+    for (const Form& form : forms)
+        if (form.yielding == Yielding::smooth)
+            session.measure(form.name + "_from_return",
+                            largest_distance(references.of(form, false), references.of(form, true)),
+                            "limits of the two, largest distance of a particle");
     for (const char* name : {"tl", "ul"}) {
         const auto& after = fixed.at(std::string(name) + "_after");
         const auto& stages = fixed.at(std::string(name) + "_return");
