@@ -22,6 +22,7 @@
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/elements.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -88,6 +89,17 @@ inline const std::map<std::string, Build> with_scheme{
          add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}, FourierConduction{0.2}}, scheme);
      }}};
 
+/// Between the rows of triangular_block(8, ...), whose numbers are the ids.
+inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
+    std::vector<std::uint32_t> stored(particles.size());
+    for (std::uint32_t k = 0; k < stored.size(); ++k)
+        stored[static_cast<std::size_t>(particles.id[k])] = k;
+    std::vector<Quadrilateral> mesh;
+    for (std::size_t i = 0; i + 8 < stored.size(); ++i)
+        if (i % 8 != 7) mesh.push_back({stored[i], stored[i + 1], stored[i + 9], stored[i + 8]});
+    return mesh;
+}
+
 /// Laws that make a body by themselves.
 inline const std::map<std::string, Build> without_scheme{
     {"OwnRanges",
@@ -99,6 +111,15 @@ inline const std::map<std::string, Build> without_scheme{
      [](Sample& s, const Scheme&) {
          s.model.add_term<DensityPotentialTerm<2>>(
              DensityPotentials{.state = EmbeddedAtom{1.0, site_density}});
+     }},
+    {"Elements",
+     [](Sample& s, const Scheme&) {
+         s.model.add_term<Elements>(
+             mesh_of(s.model.particles()),
+             std::vector<Elements::Material>{
+                 {YieldingSolid<PlaneVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}),
+                  site_density,
+                  {0.1, 0.1}}});
      }},
     {"Cohesion", [](Sample& s, const Scheme&) { s.model.add_term<Cohesion<2>>(); }},
     {"LucyPairPotential",
