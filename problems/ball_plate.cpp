@@ -18,7 +18,10 @@
 // ball_speed is that of the ball's centre of mass, along the way it came. Pieces are linked by pairs nearer than
 // 1.5 spacings. A run lasts until the ball would have gone `travel`, at the speed that it had.
 //
-//     --compare       the four speeds of the lecture, one after the other
+//     --model elements       finite elements of the same solid, which are removed at a plastic strain of 1
+//                            (--failure-strain), and a contact between their nodes
+//
+//     --compare       the speeds of the lecture, one after the other
 //     --ends held     the outermost particles of the plate are held, so that it bends and is torn
 #include "ball_plate/impact.hpp"
 
@@ -35,7 +38,7 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Impact& impact) {
     plan.t_end = (session.common().smoke ? 0.25 : 1.0) * p.travelled() / impact.speed;
     plan.output_every = plan.t_end / 200.0;
     plan.snapshot_every = plan.t_end / 10.0;
-    plan.record(columns_of(impact));
+    plan.record(columns_of(p));
     for (const double part : {0.0, 0.2, 0.6, 1.0}) impact.drawn.push_back({part * plan.t_end});
     plan.observe(keep_nearest<2>(impact.drawn));
     return plan;
@@ -70,7 +73,7 @@ void add_options(Problem& problem, Parameters& p) {
     options.number(
         "travel", p.travel,
         "how far the ball would have gone at the end, had it not met the plate (default: 75 with "
-        "--model pair_md, else 20)",
+        "--model pair_md, 100 of elements, else 20)",
         between(1.0, 1e4));
     options.choice<Ends>("ends", p.ends, {Ends::free, Ends::held},
                          "the outermost particles of the plate move freely, or are held");
@@ -86,7 +89,9 @@ void add_options(Problem& problem, Parameters& p) {
         .only_when(
             {"contact"}, [&p] { return p.contact.energy > 0.0; },
             "has no meaning without a contact; give --contact 0.2, or leave it out");
-    breaking::add_matter_options(problem, p.matter, kinds_of(MatterKind::all));
+    breaking::add_matter_options(
+        problem, p.matter,
+        {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam, MatterKind::elements});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: Taylor's bar: a copper cylinder against a rigid wall, beside converged elements; 1 min
+// spam-list: Taylor's bar: a copper cylinder against a rigid wall, beside converged elements; 1 min on 2 cores
 //
 // Taylor's test: a cylinder of copper flies against a rigid wall without friction and keeps a foot.
 //
@@ -85,7 +85,7 @@ void draw(Session& session, const std::vector<Drawn>& drawn, const RunRecord& ru
     std::vector<ConfigurationPanel> panels;
     for (const Drawn& one : drawn)
         panels.push_back(
-            {fmt::format("t = {:.3g} us", one.t), one.section.position, one.section.strain, {}});
+            {fmt::format("t = {:.3g} µs", one.t), one.section.position, one.section.strain, {}});
     session.note_drawn(draw_configurations(
         session.plots_folder(), "plastic_strain",
         fmt::format("Taylor's bar, a section: length {:.2f} mm (elements {:.2f}), foot {:.2f} mm "

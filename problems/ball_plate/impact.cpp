@@ -2,6 +2,7 @@
 #include "impact.hpp"
 
 #include "../breaking/pieces.hpp"
+#include "elements.hpp"
 #include <spam/external/clamp.hpp>
 #include <spam/picture/draw.hpp>
 
@@ -60,7 +61,7 @@ constexpr Known known_pieces[] = {{MatterKind::pair_md, 1.0, 1.0, 0.0},
 bool is_known(const Session& session, const RunRecord& run) {
     auto options = Problem::scheme_option_names();
     options.insert(options.end(),
-                   {"radius", "columns", "rows", "gap", "travel", "ends", "yield-stress",
+                   {"radius", "columns", "rows", "gap", "travel", "ends", "contact", "yield-stress",
                     "hardening", "failure-strain", "strength", "surface-tension", "core",
                     "core-range", "disorder", "kernel", "range", "t-end"});
     return session.when_default(options) && run.complete;
@@ -84,12 +85,32 @@ std::string_view to_string(Ends ends) { return ends == Ends::free ? "free" : "he
 
 std::vector<double> speeds_of(MatterKind kind) {
     if (kind == MatterKind::pair_md) return {1.0, 2.0, 4.0, 8.0};
+    if (kind == MatterKind::elements) return {0.25, 0.5};
     return {0.25, 0.5, 1.0, 2.0};
 }
 
 double step_of(const Parameters& p) { return p.matter.kind == MatterKind::pair_md ? 0.0025 : 0.05; }
 
+/// The finite-element twin, which meets by a contact and whose elements are removed where they break.
+Impact make_elements(const Parameters& p, double speed) {
+    ball_plate_elements::Parameters twin;
+    twin.speed = speed;
+    twin.radius = p.radius;
+    twin.ball_side = std::max(2, static_cast<int>(std::lround(1.75 * p.radius)));
+    twin.columns = p.columns;
+    twin.rows = p.rows;
+    twin.gap = p.gap;
+    twin.yield_stress = p.matter.yield_stress.value_or(twin.yield_stress);
+    twin.hardening = p.matter.hardening;
+    twin.failure_strain = p.matter.failure_strain.value_or(twin.failure_strain);
+    twin.held = p.ends == Ends::held;
+    if (p.contact.energy > 0.0) twin.contact = p.contact;
+    auto made = ball_plate_elements::make_impact(twin);
+    return {speed, std::move(made.model), std::move(made.y0)};
+}
+
 Impact make_impact(const Session& session, const Parameters& p, double speed) {
+    if (p.matter.kind == MatterKind::elements) return make_elements(p, speed);
     std::optional<ContactScheme> contact;
     if (p.contact.energy > 0.0) contact = p.contact;
     Impact impact{speed, make_model(session, p.matter, ball_and_plate(p), contact), {}};
@@ -104,7 +125,8 @@ Impact make_impact(const Session& session, const Parameters& p, double speed) {
     return impact;
 }
 
-std::vector<Column<2>> columns_of(const Impact&) {
+std::vector<Column<2>> columns_of(const Parameters& p) {
+    if (p.matter.kind == MatterKind::elements) return ball_plate_elements::columns_of();
     return {{"ball_speed",
              [](const Model<2>& model, std::span<const double> y) {
                  const auto v = ConstState<2>(model.layout(), y).velocity();
@@ -132,6 +154,12 @@ void report(Session& session, const Parameters& p, const Impact& impact, const R
     const bool known = is_known(session, run);
     claim(session, impact.prefix + "ball_speed", h.last("ball_speed"), known_speeds, p,
           impact.speed, known);
+    if (p.matter.kind == MatterKind::elements) {
+        for (const char* name : {"elements_broken", "largest_plastic_strain", "sag"})
+            session.measure(impact.prefix + name, h.last(name), "at the end");
+        session.check_promises(run, impact.prefix);
+        return;
+    }
     claim(session, impact.prefix + "pieces", h.last("pieces"), known_pieces, p, impact.speed,
           known);
     session.measure(impact.prefix + "largest_piece", h.last("largest_piece"));

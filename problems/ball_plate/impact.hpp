@@ -24,7 +24,9 @@ struct Parameters {
     ContactScheme contact{.energy = 0.0};  ///< without energy they stick together
 
     double travelled() const {
-        return travel.value_or(matter.kind == MatterKind::pair_md ? 75.0 : 20.0);
+        return travel.value_or(matter.kind == MatterKind::pair_md    ? 75.0
+                               : matter.kind == MatterKind::elements ? 100.0
+                                                                     : 20.0);
     }
 };
 
@@ -46,8 +48,8 @@ double step_of(const Parameters& p);
 /// The ball moves downwards.
 Impact make_impact(const Session& session, const Parameters& p, double speed);
 
-/// `ball_speed`, `pieces`, `largest_piece`, `closest_pair`.
-std::vector<Column<2>> columns_of(const Impact& impact);
+/// `ball_speed`, `pieces`, `largest_piece`, `closest_pair`; of elements those of their own.
+std::vector<Column<2>> columns_of(const Parameters& p);
 
 void report(Session& session, const Parameters& p, const Impact& impact, const RunRecord& run);
 /// The states kept of one impact, or how several have ended.

@@ -41,8 +41,10 @@ Material<2> yielding_solid(const Matter& matter) {
     const auto elastic = ElasticSolid::triangular_lattice();
     Failure failure;
     if (matter.failure_strain) failure.plastic_strain = *matter.failure_strain;
-    return YieldingSolid(PlaneVonMises{elastic.lambda, elastic.eta},
-                         LinearHardening{matter.yield_stress, matter.hardening}, failure);
+    return YieldingSolid(
+        PlaneVonMises{elastic.lambda, elastic.eta},
+        LinearHardening{matter.yield_stress.value_or(usual_yield_stress), matter.hardening},
+        failure);
 }
 
 void add_terms_among(const Session& session, const Matter& matter, ParticleModel<2>& model,
@@ -56,6 +58,7 @@ void add_terms_among(const Session& session, const Matter& matter, ParticleModel
                                                           potentials_of(session, matter));
             return;
         case MatterKind::spam:
+        case MatterKind::elements:
         case MatterKind::all:
             break;
     }
@@ -76,13 +79,14 @@ void refuse_impossible(const Matter& matter) {
 }  // namespace
 
 std::string_view to_string(MatterKind kind) {
-    constexpr std::string_view names[] = {"pair_md", "embedded_atom", "spam", "all"};
+    constexpr std::string_view names[] = {"pair_md", "embedded_atom", "spam", "elements", "all"};
     return names[static_cast<std::size_t>(kind)];
 }
 
 std::string title_of(MatterKind kind) {
     return kind == MatterKind::pair_md         ? "pair potential"
            : kind == MatterKind::embedded_atom ? "embedded atoms"
+           : kind == MatterKind::elements      ? "finite elements"
                                                : "SPAM";
 }
 
@@ -108,15 +112,14 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         "model", matter.kind, kinds,
         "molecular dynamics with a pair potential, or with potentials of the density; or smooth "
         "particles of a solid that yields");
-    options.number("yield-stress", matter.yield_stress, "stress Y at which smooth particles yield",
-                   positive());
+    options.number("yield-stress", matter.yield_stress,
+                   "stress Y at which a solid yields (default: 0.05)", positive());
     options.number("hardening", matter.hardening,
                    "how fast Y grows with the plastic strain, H; 0 for not at all", non_negative());
     options.number("failure-strain", matter.failure_strain,
-                   "plastic strain at which smooth particles break (default: they do not)",
-                   positive());
-    only_of({"yield-stress", "hardening", "failure-strain"}, {MatterKind::spam},
-            "only smooth particles yield");
+                   "plastic strain at which a solid breaks (default: it does not)", positive());
+    only_of({"yield-stress", "hardening", "failure-strain"},
+            {MatterKind::spam, MatterKind::elements}, "molecules yield by themselves");
     options.number("strength", matter.strength,
                    "strength s_c of the curvature, which makes embedded atoms a solid", positive());
     options.number("surface-tension", matter.surface_tension,
@@ -136,10 +139,13 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         .only_when(
             {"disorder"}, [&matter] { return matter.disorder > 0.0; },
             "has no meaning without disorder; give --disorder 0.01, or leave it out");
+    only_of({"disorder", "seed"},
+            {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam},
+            "the mesh is regular");
     problem.use_scheme();
     only_of({"core", "core-range", "kernel", "range"},
             {MatterKind::embedded_atom, MatterKind::spam},
-            "the pair potential has a core and a range of its own");
+            "it has a core or a range of its own, or none");
     only_of(Problem::scheme_option_names(), {MatterKind::spam}, "it is of smooth particles");
     // The model's own where they are not given.
     for (const char* name : {"kernel", "range"})

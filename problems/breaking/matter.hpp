@@ -19,7 +19,8 @@ enum class MatterKind {
     pair_md,        ///< molecular dynamics, phi = (2 - r^2)^8 - 2 (2 - r^2)^4
     embedded_atom,  ///< molecular dynamics with potentials of the density, and a core
     spam,           ///< smooth particles of an elastic solid that yields, and a core
-    all             ///< one after the other; no matter of its own
+    elements,       ///< finite elements of a solid that yields: a twin with options of its own
+    all             ///< all but the elements, one after the other
 };
 
 std::string_view to_string(MatterKind kind);
@@ -29,8 +30,8 @@ std::string title_of(MatterKind kind);
 /// As options give it. What is not set is chosen for the model.
 struct Matter {
     MatterKind kind = MatterKind::spam;
-    double yield_stress = 0.05;  ///< Y of SPAM
-    double hardening = 0.0;      ///< H of SPAM
+    std::optional<double> yield_stress{};  ///< Y of SPAM and of elements
+    double hardening = 0.0;                ///< H
     std::optional<double> failure_strain{};
     double strength = 0.2;         ///< s_c of embedded atoms
     double surface_tension = 0.1;  ///< s_g of embedded atoms
@@ -40,8 +41,11 @@ struct Matter {
     int seed = 1;
 };
 
-/// Those that make a body.
+/// Those that make a body of particles.
 std::vector<MatterKind> kinds_of(MatterKind kind);
+
+/// Y of SPAM where it is not given.
+constexpr double usual_yield_stress = 0.05;
 
 /// `--model`, one of `kinds`, the constants above, and those of the scheme of smooth particles, each refused
 /// where it means nothing.

@@ -36,7 +36,7 @@ struct Bar {
 
     double wave_speed, least_stretch = 0.35;
     /// An explicit step for the layer next to the wall, which becomes thinnest.
-    double step() const { return 0.6 * least_stretch * spacing / wave_speed; }
+    double step() const { return 0.4 * least_stretch * spacing / wave_speed; }
 };
 
 Bar make_bar(const Parameters& p, int particles_per_radius);

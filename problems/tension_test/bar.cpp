@@ -24,8 +24,9 @@ Known known_of(MatterKind kind) {
         case MatterKind::pair_md:
             return {5e-3, 0.1, 0.01, 0.6, 0.42, 0.03};
         case MatterKind::embedded_atom:
-            return {2e-5, 0.1, 0.1, 0.025, 0.01725, 0.00225};
+            return {2.5e-5, 0.1, 0.05, 0.025, 0.01725, 0.00225};
         case MatterKind::spam:
+        case MatterKind::elements:
         case MatterKind::all:
             break;
     }
@@ -39,7 +40,7 @@ double height(const Parameters& p, double x) {
 }
 
 Particles<2> tapered_block(const Parameters& p) {
-    Points<2> x = triangular_block(p.columns, p.rows);
+    Points<2> x = triangular_block(p.columns, p.rows.value_or(14));
     x.colwise() -= Point<2>(x.rowwise().mean());
     for (auto point : x.colwise()) point.y() *= height(p, point.x());
     auto particles = make_particles<2>(x, 1.0);

@@ -11,9 +11,11 @@ using namespace breaking;
 
 struct Parameters {
     Matter matter;
-    int columns = 60, rows = 14;
+    int columns = 60;
+    std::optional<int> rows;  ///< 14, or 12 elements
     double taper = 0.1;
     std::optional<double> load_rate, damping;
+    double end_speed = 0.0469;  ///< of elements, whose ends are drawn out
 };
 
 struct PulledBar {
@@ -40,5 +42,8 @@ std::optional<double> parted_at(const History& h);
 void report(Session& session, const Parameters& p, const PulledBar& bar, const RunRecord& run);
 /// The states kept of one bar, or of several how they were before and have ended.
 void draw(Session& session, const std::vector<PulledBar>& bars, const std::vector<RunRecord>& runs);
+
+/// The run of the finite-element twin, and what it came to.
+void compute_elements(Session& session, const Parameters& p);
 
 }  // namespace tension_test

@@ -182,14 +182,13 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (const auto& one : cases) refuse_unstable(one);
     for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
         // Vectors as long as y show that there is room for them; a dry run does without.
-        const std::size_t numbers = problem_.common_.dry_run ? 1 : one.model->layout().size();
+        std::size_t unused = 0, numbers = one.model->layout().size();
         const SundialsContext context;
-        Vector y(numbers, context);
-        std::size_t unused = 0;
+        Vector y(problem_.common_.dry_run ? 1 : numbers, context);
         const IntegratorOptions own = integrator_of(one.plan);
         if (own.dt != integrator_.dt) leave_out_of_case({"dt"});
         Ode ode = as_ode(*one.model, own, unused);
-        ode.absolute_tolerance.resize(std::min(numbers, ode.absolute_tolerance.size()));
+        ode.absolute_tolerance.resize(std::min(y.size(), ode.absolute_tolerance.size()));
         make_integrator(own, ode, y, 0.0, context);
     }
     check_restart(cases);
