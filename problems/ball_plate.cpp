@@ -39,8 +39,16 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Impact& impact) {
     plan.output_every = plan.t_end / 200.0;
     plan.snapshot_every = plan.t_end / 10.0;
     plan.record(columns_of(p));
-    for (const double part : {0.0, 0.2, 0.6, 1.0}) impact.drawn.push_back({part * plan.t_end});
-    plan.observe(keep_nearest<2>(impact.drawn));
+    const bool elements = p.matter.kind == MatterKind::elements;
+    for (const double part : {0.0, elements ? 0.1 : 0.2, elements ? 0.3 : 0.6, 1.0})
+        if (elements)
+            impact.frames.push_back({part * plan.t_end});
+        else
+            impact.drawn.push_back({part * plan.t_end});
+    if (elements)
+        plan.observe(keep_frames(impact.frames));
+    else
+        plan.observe(keep_nearest<2>(impact.drawn));
     return plan;
 }
 
@@ -73,7 +81,7 @@ void add_options(Problem& problem, Parameters& p) {
     options.number(
         "travel", p.travel,
         "how far the ball would have gone at the end, had it not met the plate (default: 75 with "
-        "--model pair_md, 100 of elements, else 20)",
+        "--model pair_md, 125 of elements, else 20)",
         between(1.0, 1e4));
     options.choice<Ends>("ends", p.ends, {Ends::free, Ends::held},
                          "the outermost particles of the plate move freely, or are held");

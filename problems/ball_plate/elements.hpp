@@ -2,7 +2,7 @@
 // The finite-element twin of the ball that hits a plate, [HH07] 13.
 #pragma once
 
-#include <spam/problem/session.hpp>
+#include <spam/problem/observer.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/elements.hpp>
 
@@ -47,9 +47,5 @@ double ball_speed(const Model<2>& model, std::span<const double> y);
 /// `ball_speed`, `elements_broken`, `largest_plastic_strain`, `sag` (how far the plate's centre of mass is below its
 /// first place).
 std::vector<Column<2>> columns_of();
-
-/// Until `t_end`, with checks and pictures. `known`: whether all parameters but speed, failure_strain and held are
-/// as above.
-void compute(Session& session, const Parameters& p, double t_end, bool known);
 
 }  // namespace ball_plate_elements

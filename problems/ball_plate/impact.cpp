@@ -57,6 +57,19 @@ constexpr Known known_pieces[] = {{MatterKind::pair_md, 1.0, 1.0, 0.0},
                                   {MatterKind::pair_md, 4.0, 35.0, 5.0},
                                   {MatterKind::pair_md, 8.0, 140.0, 10.0}};
 
+/// Of 196 and 640 elements, from another program. Contacts and breaking make a run depend on its last digits:
+/// meshes of the ball and steps from 0.05 to 0.25 give 82 to 88 broken elements at the speed of 0.5, and speeds
+/// that differ by 0.01.
+struct KnownElements {
+    double speed, failure_strain;
+    Ends ends;
+    double ball_speed, tolerance, least_time;
+};
+constexpr KnownElements known_elements[] = {{0.25, 1.0, Ends::held, -0.03, 0.012, 400.0},
+                                            {0.25, 2.0, Ends::held, -0.03, 0.012, 400.0},
+                                            {0.5, 1.0, Ends::held, 0.24, 0.02, 120.0},
+                                            {0.25, 1.0, Ends::free, 0.06, 0.03, 300.0}};
+
 /// Everything but the speed and the seed.
 bool is_known(const Session& session, const RunRecord& run) {
     auto options = Problem::scheme_option_names();
@@ -149,17 +162,66 @@ std::vector<Column<2>> columns_of(const Parameters& p) {
             closest_pair_column<2>()};
 }
 
+namespace {
+
+void report_elements(Session& session, const Parameters& p, const Impact& impact,
+                     const RunRecord& run) {
+    const History& h = run.history;
+    const bool known =
+        run.complete && session.when_default({"radius", "columns", "rows", "gap", "contact",
+                                              "yield-stress", "hardening"});
+    const KnownElements* found = nullptr;
+    for (const KnownElements& one : known_elements)
+        if (one.speed == impact.speed && one.ends == p.ends &&
+            one.failure_strain == p.matter.failure_strain.value_or(1.0) &&
+            run.statistics.t_end >= one.least_time)
+            found = &one;
+    const std::string speed = impact.prefix + "ball_speed",
+                      broken = impact.prefix + "elements_broken";
+    if (found != nullptr)
+        session.claim({speed, h.last("ball_speed"), found->ball_speed, found->tolerance,
+                       "[HH07] 13; recorded value"},
+                      known);
+    else
+        session.measure(speed, h.last("ball_speed"));
+    if (found != nullptr && found->speed == 0.5)
+        session.claim({broken, h.last("elements_broken"), 90.0, 8.0, "recorded value"}, known);
+    else
+        session.measure(broken, h.last("elements_broken"));
+    for (const char* name : {"largest_plastic_strain", "sag"})
+        session.measure(impact.prefix + name, h.last(name), "at the end");
+    session.check_promises(run, impact.prefix);
+}
+
+void draw_elements(Session& session, const Parameters& p, const std::vector<Impact>& impacts,
+                   const std::vector<RunRecord>& runs) {
+    std::vector<ConfigurationPanel> panels;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const auto& model = *impacts[k].model;
+        if (p.compare) {
+            ElementFrame last{runs[k].statistics.t_end};
+            last.take(last.wanted, model, runs[k].y);
+            panels.push_back(strain_panel(
+                fmt::format("v = {:g}, t = {:g}", impacts[k].speed, last.t), model, last));
+            continue;
+        }
+        for (const ElementFrame& frame : impacts[k].frames)
+            if (frame.there())
+                panels.push_back(strain_panel(fmt::format("t = {:.3g}", frame.t), model, frame));
+    }
+    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
+                                           "A ball and a plate: finite elements", panels, 2,
+                                           "plastic strain"));
+}
+
+}  // namespace
+
 void report(Session& session, const Parameters& p, const Impact& impact, const RunRecord& run) {
+    if (p.matter.kind == MatterKind::elements) return report_elements(session, p, impact, run);
     const History& h = run.history;
     const bool known = is_known(session, run);
     claim(session, impact.prefix + "ball_speed", h.last("ball_speed"), known_speeds, p,
           impact.speed, known);
-    if (p.matter.kind == MatterKind::elements) {
-        for (const char* name : {"elements_broken", "largest_plastic_strain", "sag"})
-            session.measure(impact.prefix + name, h.last(name), "at the end");
-        session.check_promises(run, impact.prefix);
-        return;
-    }
     claim(session, impact.prefix + "pieces", h.last("pieces"), known_pieces, p, impact.speed,
           known);
     session.measure(impact.prefix + "largest_piece", h.last("largest_piece"));
@@ -169,6 +231,7 @@ void report(Session& session, const Parameters& p, const Impact& impact, const R
 
 void draw(Session& session, const Parameters& p, const std::vector<Impact>& impacts,
           const std::vector<RunRecord>& runs) {
+    if (p.matter.kind == MatterKind::elements) return draw_elements(session, p, impacts, runs);
     std::vector<ConfigurationPanel> panels;
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const FirstNeighbours neighbours(impacts[k].model->particles());

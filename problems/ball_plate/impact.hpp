@@ -2,6 +2,7 @@
 // A ball on its way into a plate: how both are made, what is watched, and what is known of it.
 #pragma once
 
+#include "../breaking/element_frames.hpp"
 #include "../breaking/matter.hpp"
 #include <spam/problem/nearest_state.hpp>
 
@@ -25,7 +26,7 @@ struct Parameters {
 
     double travelled() const {
         return travel.value_or(matter.kind == MatterKind::pair_md    ? 75.0
-                               : matter.kind == MatterKind::elements ? 100.0
+                               : matter.kind == MatterKind::elements ? 125.0
                                                                      : 20.0);
     }
 };
@@ -37,7 +38,8 @@ struct Impact {
     std::shared_ptr<ParticleModel<2>> model;
     std::vector<double> y0;
     std::vector<NearestState<2>> drawn{};
-    std::string prefix{};  ///< of results where there are several
+    std::vector<ElementFrame> frames{};  ///< the same of elements
+    std::string prefix{};                ///< of results where there are several
 };
 
 /// Of the lecture.

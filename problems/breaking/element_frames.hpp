@@ -25,21 +25,25 @@ struct ElementFrame {
         return !there() || std::abs(other - wanted) <= std::abs(t - wanted);
     }
     void remember(Archive& archive) { archive(t, position, plastic_strain, broken); }
+    void take(double now, const Model<2>& model, std::span<const double> y) {
+        const ConstState<2> state(model.layout(), y), elements = state.elements();
+        const std::size_t n = model.quadrilaterals().size();
+        const double* const strain = elements.find(field_kind::plastic_strain);
+        const double* const gone = elements.find(field_kind::broken);
+        t = now;
+        position = state.position();
+        plastic_strain.assign(strain, strain + n);
+        broken.clear();
+        if (gone != nullptr) broken.assign(gone, gone + n);
+    }
 };
 
 /// Keeps frames at snapshots, and in checkpoints; a restarted run may want other times. `frames` must outlive
 /// the run.
 inline Observer<2> keep_frames(std::vector<ElementFrame>& frames) {
     const auto keep = [&frames](double t, const Model<2>& model, std::span<const double> y) {
-        const ConstState<2> state(model.layout(), y), elements = state.elements();
-        for (ElementFrame& frame : frames) {
-            if (!frame.nearer(t)) continue;
-            const std::size_t n = model.quadrilaterals().size();
-            const double* const strain = elements.find(field_kind::plastic_strain);
-            const double* const broken = elements.find(field_kind::broken);
-            frame = {frame.wanted, t, state.position(), {strain, strain + n}, {}};
-            if (broken != nullptr) frame.broken.assign(broken, broken + n);
-        }
+        for (ElementFrame& frame : frames)
+            if (frame.nearer(t)) frame.take(t, model, y);
     };
     const auto memory = [&frames](Archive& archive) {
         auto kept = archive.reading() ? std::vector<ElementFrame>{} : frames;

@@ -113,7 +113,7 @@ void report(Session& session, const Parameters& p, const RunRecord& run, bool kn
         const auto length = at(h, "length", one.t), strain = at(h, "largest_plastic_strain", one.t),
                    neck = at(h, "neck", one.t);
         if (!strain) continue;
-        const auto name = [&](const char* what) { return fmt::format("{}_{:g}", what, one.t); };
+        const auto name = [&](const char* what) { return fmt::format("{}_at_{:g}", what, one.t); };
         session.claim({name("nominal_strain"), *length / p.columns - 1.0, one.nominal, 1e-3,
                        "[HH07] 13, slide"},
                       known);
@@ -123,9 +123,9 @@ void report(Session& session, const Parameters& p, const RunRecord& run, bool kn
         session.claim({name("neck"), *neck, 0.0, 3.0, "[HH07] 13: the neck is at the middle"},
                       known);
     }
-    session.measure("largest_plastic_strain", h.last("largest_plastic_strain"));
-    session.measure("neck_height", h.last("neck_height"));
-    session.measure("elements_broken", h.last("elements_broken"));
+    for (const char* name : {"largest_plastic_strain", "mean_plastic_strain", "neck", "neck_height",
+                             "length", "elements_broken"})
+        session.measure(name, h.last(name), "at the end");
     session.check_promises(run);
 }
 
