@@ -80,9 +80,18 @@ void add_options(Problem& problem, Parameters& p) {
                    positive());
     options.number("damping", p.damping, "rate of the friction, gamma (default: that of the model)",
                    non_negative());
-    add_matter_options(
-        problem, p.matter,
-        {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam, MatterKind::all});
+    add_matter_options(problem, p.matter,
+                       {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
+                        MatterKind::elements, MatterKind::all});
+    options.only_when(
+        {"load-rate", "damping"}, {"model"}, [&p] { return p.matter.kind != MatterKind::elements; },
+        "has no meaning with {by}, whose ends are drawn out; leave it out");
+    options
+        .number("end-speed", p.end_speed, "speed at which the ends of elements are drawn out",
+                positive())
+        .only_when(
+            {"model"}, [&p] { return p.matter.kind == MatterKind::elements; },
+            "has no meaning with {by}, on which a load acts; leave it out");
 }
 
 }  // namespace

@@ -102,7 +102,10 @@ std::vector<double> speeds_of(MatterKind kind) {
     return {0.25, 0.5, 1.0, 2.0};
 }
 
-double step_of(const Parameters& p) { return p.matter.kind == MatterKind::pair_md ? 0.0025 : 0.05; }
+double step_of(const Parameters& p) {
+    if (p.matter.kind == MatterKind::embedded_atom) return 0.02;
+    return p.matter.kind == MatterKind::pair_md ? 0.0025 : 0.05;
+}
 
 /// The finite-element twin, which meets by a contact and whose elements are removed where they break.
 Impact make_elements(const Parameters& p, double speed) {

@@ -22,7 +22,7 @@ struct Known {
 Known known_of(MatterKind kind) {
     switch (kind) {
         case MatterKind::pair_md:
-            return {5e-3, 0.1, 0.01, 0.6, 0.42, 0.03};
+            return {5e-3, 0.1, 0.005, 0.6, 0.42, 0.03};
         case MatterKind::embedded_atom:
             return {2.5e-5, 0.1, 0.05, 0.025, 0.01725, 0.00225};
         case MatterKind::spam:

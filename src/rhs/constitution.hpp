@@ -38,6 +38,8 @@ class Constitution {
     virtual std::string describe() const = 0;
     /// Whether forces act along r_ij with this scheme.
     virtual bool central(const Scheme& scheme) const = 0;
+    /// Whether the stress is a smooth function of the state.
+    virtual bool smooth() const { return true; }
     /// sigma of all particles, for records; null where density and energy tell it.
     virtual const double* stress(const ConstState<Dim>&) const { return nullptr; }
     /// The same for a right-hand side, which counts with what trial stresses are returned to.

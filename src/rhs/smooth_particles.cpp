@@ -183,6 +183,12 @@ PackedFields SmoothParticles<Dim>::fields_of(const ConstState<Dim>& state) const
 
 /// List and records for this state. Returns why it has no meaning.
 template <int Dim>
+bool SmoothParticles<Dim>::smooth() const {
+    return scheme_.angular_momentum != AngularMomentum::torque_particle &&
+           scheme_.angular_momentum != AngularMomentum::gauss && constitution_->smooth();
+}
+
+template <int Dim>
 std::string SmoothParticles<Dim>::load(const Now& now) {
     const std::size_t n = this->particles().size();
     PackedFields given = fields_of(now.state);

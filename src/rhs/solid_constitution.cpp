@@ -32,6 +32,7 @@ class SolidConstitution final : public Constitution<Dim> {
     }
     Matter matter(const Scheme&) const override { return Matter::solid; }
     bool central(const Scheme&) const override { return false; }
+    bool smooth() const override { return returned_.empty(); }
 
     std::vector<Field> fields() const override {
         std::vector<Field> fields{Field::stress, Field::energy};

@@ -4,6 +4,7 @@
 #include <spam/material/material.hpp>
 #include <spam/rhs/particle_model.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace spam {
@@ -58,6 +59,11 @@ class Elements final : public Term<2> {
     }
     std::string describe() const override;
     double fastest_damping() const override { return damping_; }
+    /// Not of solids that begin to yield.
+    bool smooth() const override {
+        return std::none_of(materials_.begin(), materials_.end(),
+                            [](const Material& material) { return material.law.returns(); });
+    }
     std::size_t pairs() const override { return 4 * corners_.size(); }
     double reach() const override { return reach_; }
 

@@ -84,11 +84,8 @@ class SmoothParticles final : public Term<Dim> {
     std::string describe() const override;
     double fastest_damping() const override { return damping_; }
     /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
-    /// sets in and out.
-    bool smooth() const override {
-        return scheme_.angular_momentum != AngularMomentum::torque_particle &&
-               scheme_.angular_momentum != AngularMomentum::gauss;
-    }
+    /// sets in and out, nor of solids that begin to yield.
+    bool smooth() const override;
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
     std::size_t list_builds() const override;
