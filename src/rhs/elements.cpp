@@ -183,6 +183,9 @@ std::string Elements::rates(const Now& now) {
     const ConstState<2> state = now.state.elements();
     const State<2> rate = now.rate.elements();
     const Held held(now);
+    if (materials_.size() > 1)  // what one finds the rates of, another may know nothing of
+        for (const Field field : element_fields())
+            if (field != Field::stress && field != Field::energy) rate.field(field).setZero();
     parallel_blocks(corners_.size(), [&](std::size_t begin, std::size_t size) {
         for_each_material(
             begin, size, [&](const Material& m, std::size_t first, std::size_t count) {
