@@ -85,6 +85,9 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t c = 0; c < 4; ++c)
             at_[next[corners_[k][c] - among().first()]++] = 4 * k + c;
+    if (materials_.size() > 1)
+        for (const Field field : element_fields())
+            if (field != Field::stress && field != Field::energy) of_some_.push_back(field);
     returned_.resize(3 * n);
     grad_v_.resize(n);
     number_.resize(n);
@@ -183,9 +186,7 @@ std::string Elements::rates(const Now& now) {
     const ConstState<2> state = now.state.elements();
     const State<2> rate = now.rate.elements();
     const Held held(now);
-    if (materials_.size() > 1)  // what one finds the rates of, another may know nothing of
-        for (const Field field : element_fields())
-            if (field != Field::stress && field != Field::energy) rate.field(field).setZero();
+    for (const Field field : of_some_) rate.field(field).setZero();
     parallel_blocks(corners_.size(), [&](std::size_t begin, std::size_t size) {
         for_each_material(
             begin, size, [&](const Material& m, std::size_t first, std::size_t count) {

@@ -133,6 +133,44 @@ BOOST_AUTO_TEST_CASE(an_hourglass_meets_what_resists_it_and_nothing_else) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(each_element_has_the_law_of_its_material) {
+    MeshedBodies bodies = make_nodes({distorted_mesh(6, 4)}, lattice_density);
+    std::vector<std::int32_t> material(bodies.element.size());
+    for (std::size_t k = 0; k < material.size(); ++k) material[k] = k % 3 == 0 ? 1 : 0;
+    ParticleModel<2> model(bodies.nodes);
+    model.add_term<Elements>(bodies.element,
+                             std::vector<Elements::Material>{{elastic, lattice_density, {}},
+                                                             {yielding(0.05), lattice_density, {}}},
+                             material);
+    const auto y = random_elements(model, 0.2);
+    const auto soft = model_of({distorted_mesh(6, 4)}, yielding(0.05)),
+               hard = model_of({distorted_mesh(6, 4)}, elastic);
+    const auto of = [&](ParticleModel<2>& alone) {
+        std::vector<double> z(alone.layout().size(), 0.0);
+        const State<2> to(alone.layout(), z);
+        const ConstState<2> from(model.layout(), y);
+        to.position() = from.position();
+        to.velocity() = from.velocity();
+        to.elements().stress() = from.elements().stress();
+        if (to.elements().has(field_kind::plastic_strain))
+            to.elements().field(field_kind::plastic_strain) =
+                from.elements().field(field_kind::plastic_strain);
+        return rates_of(alone, z);
+    };
+    const auto rates = rates_of(model, y), yields = of(*soft), stretches = of(*hard);
+    const auto stress = ConstState<2>(model.layout(), rates).elements().stress();
+    double apart = 0.0;
+    for (std::size_t k = 0; k < material.size(); ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        const Eigen::Vector3d
+            soft_rate = ConstState<2>(soft->layout(), yields).elements().stress().col(column),
+            hard_rate = ConstState<2>(hard->layout(), stretches).elements().stress().col(column);
+        BOOST_TEST((stress.col(column) - (material[k] == 1 ? soft_rate : hard_rate)).norm() == 0.0);
+        apart = std::max(apart, (soft_rate - hard_rate).norm());
+    }
+    BOOST_TEST(apart > 1e-3);
+}
+
 /// Elements of the two colours of a chequerboard that turn against each other: s (x, -y), not s (-y, x), which
 /// draws them out along x and along y in turn.
 BOOST_AUTO_TEST_CASE(a_chequerboard_turns_without_resistance) {

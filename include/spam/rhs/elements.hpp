@@ -92,6 +92,8 @@ class Elements final : public Term<2> {
         stiffness_;                   ///< of each material, as factors of sqrt(A) q_dot and q_dot
     std::vector<std::size_t> start_;  ///< of each node, in `at_`
     std::vector<std::size_t> at_;     ///< 4 element + corner, ascending, of each node
+    std::vector<Field>
+        of_some_;  ///< what one material finds the rates of, and another may know nothing of
     double damping_ = 0.0, reach_ = 0.0;
     bool elastic_hourglass_ = false;
 
