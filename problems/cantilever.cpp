@@ -45,7 +45,7 @@ void report(Session& session, const Parameters& p, const std::vector<Plate>& pla
         const double T = period_of(p, h),
                      derived = layered_period(p.beam, plates[k].layers, p.range());
         session.check_promises(runs[k], prefix);
-        session.measure(prefix + "tip", h.largest("tip"));
+        session.measure(prefix + "largest_tip", h.largest("tip"));
         if (!(T > 0.0)) continue;
         periods.push_back(T);
         const bool known = runs[k].complete && p.lagrangian() && p.gravity == 0.0 &&
