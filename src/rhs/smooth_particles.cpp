@@ -181,13 +181,13 @@ PackedFields SmoothParticles<Dim>::fields_of(const ConstState<Dim>& state) const
             state.find(Field::density), constitution_->stress(state), scheme_.mean_density};
 }
 
-/// List and records for this state. Returns why it has no meaning.
 template <int Dim>
 bool SmoothParticles<Dim>::smooth() const {
     return scheme_.angular_momentum != AngularMomentum::torque_particle &&
            scheme_.angular_momentum != AngularMomentum::gauss && constitution_->smooth();
 }
 
+/// List and records for this state. Returns why it has no meaning.
 template <int Dim>
 std::string SmoothParticles<Dim>::load(const Now& now) {
     const std::size_t n = this->particles().size();

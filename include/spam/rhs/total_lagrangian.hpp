@@ -52,6 +52,8 @@ class TotalLagrangian final : public Term<Dim> {
         return "its neighbours are those of the reference configuration, where nobody meets a wall";
     }
     std::string describe() const override;
+    /// Not of solids that begin to yield.
+    bool smooth() const override { return material_.history().empty() || material_.has_rates(); }
 
     std::size_t pairs() const override { return list_.pairs(); }
     double reach() const override { return scheme_.range; }
