@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
     cantilever::Parameters p;
     cantilever::add_options(problem.options(), p);
     return problem.main(argc, argv, [&](spam::Session& session) {
-        if (session.common().smoke && !session.given("layers")) p.layers = p.compare ? 6 : 4;
+        if (session.common().smoke && !session.given("layers")) p.layers = p.compare ? 6 : 3;
         cantilever::refuse_impossible(p);
         cantilever::compute(session, p);
     });
