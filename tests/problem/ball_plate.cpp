@@ -75,6 +75,7 @@ BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
         {{"--gap", "0"}, {"gap", "0", "between 0.5"}},
         {{"--ends", "glued"}, {"ends", "glued", "held"}},
         {{"--model", "all"}, {"model", "all", "spam"}},
+        {{"--model", "elements", "--seed", "2"}, {"seed", "--model elements"}},
         {{"--model", "pair_md", "--viscosity", "1"}, {"viscosity", "--model pair_md"}},
     };
     for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
