@@ -96,7 +96,7 @@ void add_options(Problem& problem, Parameters& p) {
                 positive())
         .only_when(
             {"contact"}, [&p] { return p.contact.energy > 0.0; },
-            "has no meaning without a contact; give --contact 0.2, or leave it out");
+            "has no meaning without a contact; give --contact 1, or leave it out");
     breaking::add_matter_options(
         problem, p.matter,
         {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam, MatterKind::elements});

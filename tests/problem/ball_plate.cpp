@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(smooth_particles_keep_as_much_as_in_another_program) {
 // Nothing holds on to the ball, which keeps more of its speed than one that sticks to the plate.
 BOOST_AUTO_TEST_CASE(a_contact_in_place_of_adhesion) {
     const double sticking = value_of({"--speed", "0.25"}, "ball_speed"),
-                 touching = value_of({"--speed", "0.25", "--contact", "0.2"}, "ball_speed");
+                 touching = value_of({"--speed", "0.25", "--contact", "1"}, "ball_speed");
     BOOST_TEST(touching == 0.116, boost::test_tools::tolerance(0.05));
     BOOST_TEST(touching > sticking);
 }
@@ -75,6 +75,7 @@ BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
         {{"--gap", "0"}, {"gap", "0", "between 0.5"}},
         {{"--ends", "glued"}, {"ends", "glued", "held"}},
         {{"--model", "all"}, {"model", "all", "spam"}},
+        {{"--model", "elements", "--seed", "2"}, {"seed", "--model elements"}},
         {{"--model", "pair_md", "--viscosity", "1"}, {"viscosity", "--model pair_md"}},
     };
     for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {

@@ -26,7 +26,6 @@ BOOST_AUTO_TEST_CASE(smooth_particles_neck_and_part) {
     BOOST_TEST(std::abs(found.value.at("load_at_parting") - 0.0073) < 0.0012);
     BOOST_TEST(found.value.at("pieces") >= 2.0);
     BOOST_TEST(found.value.at("pieces") <= 3.0);
-    BOOST_TEST(found.value.at("largest_piece") >= 250.0);
     BOOST_TEST(found.value.at("second_piece") >= 250.0);
     BOOST_TEST(found.value.at("closest_pair") > 0.4);
 }
