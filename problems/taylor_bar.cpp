@@ -12,7 +12,7 @@
 //
 // The foot's edge converges slowly: the particles at the rim have neighbours on one side alone.
 //
-//     --compare    five, six and eight particles a radius, and the order at which the errors fall. 8 min
+//     --compare    five, six and eight particles a radius, and the order at which the errors fall. 20 min
 #include "taylor_bar/bar.hpp"
 #include <spam/picture/draw.hpp>
 
