@@ -73,7 +73,8 @@ void add_options(Problem& problem, Parameters& p) {
     options.number("speed", p.speed, "speed of the ball (that of sound is 1.06, of molecules 12)",
                    positive());
     options.flag("compare", p.compare, "compute the four speeds of the lecture");
-    options.exclude("compare", {"speed"}, "has the speeds of the lecture; leave one out");
+    options.exclude("compare", {"speed"},
+                    "has no effect with {by}, which has the speeds of the lecture; leave one out");
     options.number("radius", p.radius, "radius of the ball", between(1.0, 200.0));
     options.integer("columns", p.columns, "particles along the plate", between(4, 5000));
     options.integer("rows", p.rows, "particles across the plate", between(1, 500));

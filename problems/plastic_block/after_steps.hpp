@@ -29,6 +29,7 @@ struct AfterSteps {
 /// The same of logarithmic strain.
 class LogarithmicAfterSteps {
   public:
+    static constexpr bool keeps_energy = false;  // the return takes more than it books
     LogarithmicAfterSteps(const PlaneVonMises& surface, const LinearHardening& flow)
         : law_(surface, flow),
           elastic_(surface, LinearHardening{1e300}) {}

@@ -68,19 +68,19 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
         std::string says;
     };
     const std::vector<Bad> all{
-        {"plastic_block", {"--yield-stress", "-1"}, "yield-stress: -1 "},
-        {"plastic_block", {"--hardening", "-1"}, "hardening: -1 "},
+        {"plastic_block", {"--yield-stress", "-1"}, "yield-stress: '-1'"},
+        {"plastic_block", {"--hardening", "-1"}, "hardening: '-1'"},
         {"plastic_block",
          {"--yield-width", "0.2"},
          "yield-width: has a meaning for --yield smooth"},
-        {"plastic_block", {"--yield", "smooth", "--yield-width", "2"}, "yield-width: 2 "},
+        {"plastic_block", {"--yield", "smooth", "--yield-width", "2"}, "yield-width: '2'"},
         {"plastic_block", {"--penalty", "0.2"}, "penalty: has a meaning"},
         {"plastic_block", {"--integrator", "cvode:adams"}, "a material that yields"},
         {"plastic_block", {"--compare", "--yield", "after"}, "yield: has no effect with --compare"},
         {"plastic_block", {"--compare", "--dt", "0.1"}, "dt"},
-        {"taylor_bar", {"--poisson", "0.5"}, "poisson: 0.5 "},
+        {"taylor_bar", {"--poisson", "0.5"}, "poisson: '0.5'"},
         {"taylor_bar", {"--compare", "--particles-per-radius", "3"}, "--compare"},
-        {"taylor_bar", {"--particles-per-radius", "1"}, "particles-per-radius: 1 "},
+        {"taylor_bar", {"--particles-per-radius", "1"}, "particles-per-radius: '1'"},
     };
     for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.program << " " << bad.arguments.back()) {
             const Scratch folder;

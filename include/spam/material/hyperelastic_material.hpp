@@ -45,6 +45,8 @@ class HyperelasticMaterial {
     bool settle(std::size_t i, const Mat<Dim>& F, const State<Dim>& state) const {
         return loop_->settle(i, F, state);
     }
+    /// False where the law's energy is not that of its stress (it says so by a keeps_energy of its own).
+    bool keeps_energy() const { return loop_->keeps_energy(); }
     double stiffness() const { return loop_->stiffness(); }
     std::string describe() const { return loop_->describe(); }
 
@@ -59,6 +61,7 @@ class HyperelasticMaterial {
         virtual void rates(std::size_t, const Mat<Dim>&, const Mat<Dim>&, const ConstState<Dim>&,
                            const State<Dim>&) const = 0;
         virtual bool settle(std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
+        virtual bool keeps_energy() const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
     };
@@ -115,6 +118,10 @@ class HyperelasticMaterial {
                     [[maybe_unused]] const State<Dim>& state) const override {
             if constexpr (remembers) return law.settle(i, F, state);
             return false;
+        }
+        bool keeps_energy() const override {
+            if constexpr (requires { Law::keeps_energy; }) return Law::keeps_energy;
+            return true;
         }
         double stiffness() const override { return law.stiffness(); }
         std::string describe() const override { return law.describe(); }

@@ -52,6 +52,11 @@ class TotalLagrangian final : public Term<Dim> {
         return "its neighbours are those of the reference configuration, where nobody meets a wall";
     }
     std::string describe() const override;
+    Promises promises() const override {
+        Promises p = Term<Dim>::promises();
+        if (!material_.keeps_energy()) p.energy = Promise::not_kept;
+        return p;
+    }
     /// Not of solids that begin to yield.
     bool smooth() const override { return material_.history().empty() || material_.has_rates(); }
 
