@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Columns of invariants.csv against time, and their drifts: changes in units of their scales, less what externals
+// have given. One cursor for all; a click sets the time.
+const given = {momentum: ['impulse'], 'angular momentum': ['angular_impulse'], energy: ['work', 'heat'], mass: []};
+const endings = ['', '_x', '_y', '_z'];
+
+function columnOf(c, name) {
+  const at = c.invariants ? c.invariants.names.indexOf(name) : -1;
+  return at < 0 ? null : numbers(c.invariants.columns[at]);
+}
+
+// Null where the case has no such invariant or no scale of it.
+function driftOf(c, name) {
+  const scale = c.statistics?.invariants?.[name]?.scale, column = name.replace(' ', '_');
+  if (!(scale > 0)) return null;
+  let out = null;
+  for (const ending of endings) {
+    const v = columnOf(c, column + ending);
+    if (!v) continue;
+    const from = (given[name] || []).map(g => columnOf(c, g + ending)).filter(Boolean);
+    out = out || new Float64Array(v.length);
+    for (let k = 0; k < v.length; ++k) {
+      let change = v[k] - v[0];
+      for (const g of from) change -= g[k] - g[0];
+      out[k] = Math.max(out[k], Math.abs(change) / scale);
+    }
+  }
+  return out;
+}
+
+const curveNames = new Map();  // key -> label
+for (const name of Object.keys(given))
+  if (cases.some(c => driftOf(c, name))) curveNames.set('drift:' + name, 'drift of ' + name);
+for (const c of cases)
+  for (const name of c.invariants?.names || []) if (name !== 't') curveNames.set(name, name.replace(/_/g, ' '));
+
+function valuesOfCurve(c, key) {
+  const values = key.startsWith('drift:') ? driftOf(c, key.slice(6)) : columnOf(c, key);
+  if (!values) return null;
+  const log = key.startsWith('drift:');
+  return Array.from(values, v => Number.isFinite(v) && (!log || v > 0) ? v : null);
+}
+
+function firstCurves() {
+  const usual = /^(t|dt|mass|momentum_.|angular_momentum(_.)?|kinetic|internal|energy|closest_pair|impulse.*|angular_impulse.*|work|heat)$/;
+  const keys = [...curveNames.keys()], own = keys.filter(k => !k.startsWith('drift:') && !usual.test(k));
+  const wanted = ['drift:angular momentum', 'drift:energy', own[0], 'kinetic', 'internal', 'drift:momentum'];
+  return wanted.filter(k => curveNames.has(k)).slice(0, 3);
+}
+
+class Curves {
+  constructor(element, setTime) {
+    this.element = element;
+    this.setTime = setTime;
+    this.plots = [];
+  }
+
+  build() {
+    for (const plot of this.plots) plot.u?.destroy();
+    this.element.textContent = '';
+    this.plots = state.curves.map(key => this.make(key));
+    this.resize();
+  }
+
+  make(key) {
+    const holder = document.createElement('figure'), title = document.createElement('figcaption');
+    const close = document.createElement('button');
+    title.textContent = curveNames.get(key);
+    close.textContent = '×';
+    close.title = 'remove this curve';
+    close.onclick = () => changeCurves(state.curves.filter(k => k !== key));
+    title.append(close);
+    holder.append(title);
+    this.element.append(holder);
+    const tables = [], series = [{}];
+    for (const c of cases) {
+      const y = valuesOfCurve(c, key);
+      if (!y || y.every(v => v === null)) continue;
+      tables.push([Array.from(columnOf(c, 't')), y]);
+      series.push({label: c.label || key, stroke: caseColours[c.number % caseColours.length], width: 1.6, points: {show: false}});
+    }
+    const plot = {key, holder, cursor: document.createElement('div')};
+    if (!tables.length) {
+      holder.append('zero at all times');
+      return plot;
+    }
+    const log = key.startsWith('drift:'), style = getComputedStyle(document.body);
+    const ink = style.getPropertyValue('--soft-text'), grid = {stroke: style.getPropertyValue('--line'), width: 1};
+    const axis = {stroke: ink, grid, ticks: grid, font: '11px system-ui, sans-serif'};
+    plot.u = new uPlot({
+      width: 300, height: 140, legend: {show: false}, series,
+      scales: {x: {time: false, range: [firstTime, lastTime]}, y: log ? {distr: 3} : {range: roomFor}},
+      cursor: {drag: {x: false, y: false}, sync: {key: 'spam'}, points: {size: 5}},
+      axes: [{...axis, size: 24, space: 60, values: (u, at) => at.map(shortNumber)},
+             {...axis, size: 58, space: 28, values: (u, at) => at.map(v => v === null ? '' : log ? powerOfTen(v) : shortNumber(v))}],
+    }, uPlot.join(tables), holder);
+    plot.cursor.className = 'now';
+    plot.u.over.append(plot.cursor);
+    const set = event => {
+      const box = plot.u.over.getBoundingClientRect();
+      this.setTime(plot.u.posToVal(event.clientX - box.left, 'x'));
+    };
+    plot.u.over.addEventListener('pointerdown', set);
+    plot.u.over.addEventListener('pointermove', event => { if (event.buttons & 1) set(event); });
+    return plot;
+  }
+
+  resize() {
+    for (const {u, holder} of this.plots)
+      u?.setSize({width: Math.max(120, holder.clientWidth), height: Math.max(80, holder.clientHeight - 22)});
+    this.show();
+  }
+
+  show() {
+    for (const {u, cursor} of this.plots)
+      if (u) cursor.style.transform = `translateX(${u.valToPos(state.t, 'x').toFixed(1)}px)`;
+  }
+}
+
+// A column that changes by round-off only is a line, not its noise.
+function roomFor(u, low, high) {
+  if (low === null) return [0, 1];
+  const size = Math.max(Math.abs(low), Math.abs(high)), room = Math.max(0.08 * (high - low), 1e-9 * size, 1e-300);
+  return [low - room, high + room];
+}
+
+function powerOfTen(v) {
+  const p = Math.log10(v);
+  return Math.abs(p - Math.round(p)) < 1e-6 ? '1e' + Math.round(p) : '';
+}
