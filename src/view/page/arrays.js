@@ -41,7 +41,8 @@ function numbers(ref) {
 }
 
 const dims = page.dimensions;
-const cases = page.cases.map((one, number) => ({
+const byName = new Intl.Collator('en', {numeric: true});
+const cases = page.cases.sort((a, b) => byName.compare(a.name, b.name)).map((one, number) => ({
   ...one, number, label: one.name.replace(/_/g, ' '), times: one.snapshots.map(s => s.t),
 }));
 const firstTime = Math.min(...cases.map(c => c.times[0]));

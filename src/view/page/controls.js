@@ -162,7 +162,7 @@ function describeTime(how) {
   byId('slider').value = (state.t - firstTime) / (lastTime - firstTime || 1);
   const words = [...how].map(h => ways[h]);
   const text = how.size > 1 && how.has('velocities') ? 'cubic; where velocities do not lead along it, through positions' : words.join('; ');
-  if (byId('how').textContent !== text) byId('how').textContent = text;
+  if (byId('how').textContent !== text) byId('how').textContent = byId('how').title = text;
 }
 
 // --- the address

@@ -2,6 +2,7 @@
 // Columns of invariants.csv against time, and their drifts: changes in units of their scales, less what externals
 // have given. One cursor for all; a click sets the time.
 const given = {momentum: ['impulse'], 'angular momentum': ['angular_impulse'], energy: ['work', 'heat'], mass: []};
+const nothingBelow = 1e-18;  // uPlot's logarithmic axis fails where a curve spans too many decades
 const endings = ['', '_x', '_y', '_z'];
 
 function columnOf(c, name) {
@@ -38,14 +39,19 @@ function valuesOfCurve(c, key) {
   const values = key.startsWith('drift:') ? driftOf(c, key.slice(6)) : columnOf(c, key);
   if (!values) return null;
   const log = key.startsWith('drift:');
-  return Array.from(values, v => Number.isFinite(v) && (!log || v > 0) ? v : null);
+  return Array.from(values, v => !Number.isFinite(v) || (log && v === 0) ? null : log ? Math.max(v, nothingBelow) : v);
 }
 
 function firstCurves() {
   const usual = /^(t|dt|mass|momentum_.|angular_momentum(_.)?|kinetic|internal|energy|closest_pair|impulse.*|angular_impulse.*|work|heat)$/;
-  const keys = [...curveNames.keys()], own = keys.filter(k => !k.startsWith('drift:') && !usual.test(k));
+  const keys = [...curveNames.keys()].filter(isPromised), own = keys.filter(k => !k.startsWith('drift:') && !usual.test(k));
   const wanted = ['drift:angular momentum', 'drift:energy', own[0], 'kinetic', 'internal', 'drift:momentum'];
-  return wanted.filter(k => curveNames.has(k)).slice(0, 3);
+  return wanted.filter(k => keys.includes(k)).slice(0, 3);
+}
+
+// A drift that no case promises to keep small is not what one looks at first.
+function isPromised(key) {
+  return !key.startsWith('drift:') || cases.some(c => c.statistics?.invariants?.[key.slice(6)]?.kept != null);
 }
 
 class Curves {
@@ -85,14 +91,17 @@ class Curves {
       return plot;
     }
     const log = key.startsWith('drift:'), style = getComputedStyle(document.body);
+    const decades = log ? everyDecade : (u, at) => at;
     const ink = style.getPropertyValue('--soft-text'), grid = {stroke: style.getPropertyValue('--line'), width: 1};
+    const sparse = {...grid, filter: decades};
     const axis = {stroke: ink, grid, ticks: grid, font: '11px system-ui, sans-serif'};
     plot.u = new uPlot({
       width: 300, height: 140, legend: {show: false}, series,
       scales: {x: {time: false, range: [firstTime, lastTime]}, y: log ? {distr: 3} : {range: roomFor}},
       cursor: {drag: {x: false, y: false}, sync: {key: 'spam'}, points: {size: 5}},
       axes: [{...axis, size: 24, space: 60, values: (u, at) => at.map(shortNumber)},
-             {...axis, size: 58, space: 28, values: (u, at) => at.map(v => v === null ? '' : log ? powerOfTen(v) : shortNumber(v))}],
+             {...axis, grid: sparse, ticks: sparse, filter: decades, size: 58, space: 22,
+              values: (u, at) => at.map(v => v === null ? '' : log ? '1e' + Math.round(Math.log10(v)) : shortNumber(v))}],
     }, uPlot.join(tables), holder);
     plot.cursor.className = 'now';
     plot.u.over.append(plot.cursor);
@@ -124,7 +133,11 @@ function roomFor(u, low, high) {
   return [low - room, high + room];
 }
 
-function powerOfTen(v) {
-  const p = Math.log10(v);
-  return Math.abs(p - Math.round(p)) < 1e-6 ? '1e' + Math.round(p) : '';
+// Of the marks of a logarithmic axis the powers of ten, five or six of them at most; null hides one.
+function everyDecade(u, at) {
+  const decades = Math.log10(u.scales.y.max / u.scales.y.min), every = Math.max(1, Math.ceil(decades / 5));
+  return at.map(v => {
+    const p = Math.log10(v), whole = Math.round(p);
+    return Math.abs(p - whole) < 1e-6 && whole % every === 0 ? v : null;
+  });
 }

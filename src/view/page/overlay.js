@@ -11,6 +11,7 @@ function drawOver(panels, p, theme) {
   g.beginPath();
   g.rect(p.left, p.top, p.right - p.left, p.bottom - p.top);
   g.clip();
+  drawEdges(panels, p, g, theme);
   if (state.box) drawBox(panels, p, g, theme);
   if (state.crosses && dims === 2) drawCrosses(panels, p, g);
   if (state.pick !== null) drawPick(panels, p, g, theme);
@@ -40,6 +41,21 @@ function drawBox(panels, p, g, theme) {
     for (let a = 0; a < dims; ++a)
       if (!(k >> a & 1)) line(g, [corner(k), corner(k | 1 << a)]);
   g.setLineDash([]);
+}
+
+// Of elements, where they are large enough.
+function drawEdges(panels, p, g, theme) {
+  if (p.c.snapshots[p.frame.k].corners === undefined || panels.discRadius(p) < 3 * panels.ratio) return;
+  const {corners} = wholeElements(p.c, p.frame.k);
+  g.strokeStyle = theme.plate;
+  g.lineWidth = panels.ratio;
+  g.beginPath();
+  for (let k = 0; k < corners.length; k += 4)
+    for (let a = 0; a <= 4; ++a) {
+      const i = corners[k + a % 4];
+      if (a) g.lineTo(p.x[i], p.y[i]); else g.moveTo(p.x[i], p.y[i]);
+    }
+  g.stroke();
 }
 
 function drawLabel(panels, p, g, theme) {

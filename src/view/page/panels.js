@@ -17,6 +17,20 @@ function worldSize() {
   return [extent[0] + 3 * largestRadius, extent[1] + 3 * largestRadius];
 }
 
+// Elements that are not broken, and the particles that are no corner of any of them.
+function wholeElements(c, k) {
+  c.whole ||= [];
+  if (c.whole[k]) return c.whole[k];
+  const s = c.snapshots[k], corners = numbers(s.corners), broken = numbers(s.cells.broken);
+  const list = [], corner = new Uint8Array(s.n), alone = [];
+  for (let e = 0; e < corners.length / 4; ++e)
+    if (!broken || broken[e] < 0.5) list.push(e);
+  const kept = Uint32Array.from(list.flatMap(e => [...corners.subarray(4 * e, 4 * e + 4)]));
+  for (const i of kept) corner[i] = 1;
+  for (let i = 0; i < s.n; ++i) if (!corner[i]) alone.push(i);
+  return c.whole[k] = {corners: kept, list, alone};
+}
+
 class Panels {
   constructor(canvas) {
     this.canvas = canvas;
@@ -91,7 +105,7 @@ class Panels {
     return [cx + (u - state.x) * scale, cy - (v - state.y) * scale];
   }
 
-  discRadius(p) { return p.c.radius * this.scale() * state.size * (dims === 1 ? 1 : 1); }
+  discRadius(p) { return p.c.radius * this.scale() * state.size; }
 
   draw() {
     const theme = themes[state.dark ? 'dark' : 'light'], {raster, context} = this;
@@ -124,22 +138,15 @@ class Panels {
     }
     coloursOf(colour, n, low, high, table, p.colours);
     if (snapshot.corners === undefined) return this.raster.discs(p.x, p.y, n, radius, p.colours);
-    this.fillElements(p, frame, snapshot, radius, low, high, table);
+    this.fillElements(p, frame, radius, low, high, table);
   }
 
-  fillElements(p, frame, snapshot, radius, low, high, table) {
-    const corners = numbers(snapshot.corners), values = valuesOf(p.c, frame, state.field, 'cells');
-    const colours = new Uint32Array(corners.length / 4).fill(nowhere);
-    if (values) coloursOf(values, values.length, low, high, table, colours);
+  fillElements(p, frame, radius, low, high, table) {
+    const {corners, list, alone} = wholeElements(p.c, frame.k), values = valuesOf(p.c, frame, state.field, 'cells');
+    const colours = new Uint32Array(list.length).fill(nowhere), pick = from => Float32Array.from(alone, i => from[i]);
+    if (values) coloursOf(Float32Array.from(list, e => values[e]), list.length, low, high, table, colours);
     this.raster.quadrilaterals(p.x, p.y, corners, colours);
-    if (p.alone?.of !== snapshot.corners) {
-      const corner = new Uint8Array(frame.n), list = [];
-      for (const i of corners) corner[i] = 1;
-      for (let i = 0; i < frame.n; ++i) if (!corner[i]) list.push(i);
-      p.alone = {of: snapshot.corners, list};
-    }
-    const pick = from => Float32Array.from(p.alone.list, i => from[i]);
-    this.raster.discs(pick(p.x), pick(p.y), p.alone.list.length, radius, p.alone.list.map(i => p.colours[i]));
+    this.raster.discs(pick(p.x), pick(p.y), alone.length, radius, alone.map(i => p.colours[i]));
   }
 
   // Id of the particle under a place of the canvas, null where there is none.

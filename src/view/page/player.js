@@ -187,7 +187,7 @@ function connect() {
     byId(name).checked = state[name];
     byId(name).onchange = () => { state[name] = byId(name).checked; changed(); };
   }
-  byId('crossesLabel').hidden = !(dims === 2 && fieldTable.has('sxx'));
+  byId('crossesLabel').hidden = !(dims === 2 && cases.some(c => c.snapshots[0].points.stress !== undefined));
   byId('boxLabel').hidden = !cases.some(c => c.snapshots.some(s => s.periodic.some(Boolean)));
   byId('speed').value = '1';
   byId('speed').onchange = event => { state.speed = Number(event.target.value); };

@@ -15,7 +15,7 @@ class Raster {
   // pixel would leave a lattice full of specks.
   discs(x, y, n, radius, colours) {
     if (radius < 0.75) this.dots(x, y, n, colours);
-    else if (radius > 2.5 && n * radius * radius < 3e6) this.softDiscs(x, y, n, radius, colours);
+    else if (n < 20000 || (radius > 2.5 && n * radius * radius < 3e6)) this.softDiscs(x, y, n, radius, colours);
     else this.hardDiscs(x, y, n, radius, colours);
   }
 

@@ -49,11 +49,11 @@ function spheres(raster, x, y, depth, n, radius, steps, shaded, low, high, keep)
       const q = (r * r + s * s) / Math.max(radius * radius, 0.25);
       mask[(r + rows) * side + s + rows] = q > 1.05 ? 0 : 0.45 + 0.55 * Math.sqrt(Math.max(0, 1 - q)) - 0.12 * (r + s) / side;
     }
-  const scale = high > low ? 0.55 / (high - low) : 0, drawn = order(depth, n, low, high, keep);
+  const scale = high > low ? 0.4 / (high - low) : 0, drawn = order(depth, n, low, high, keep);
   for (let k = 0; k < n; ++k) {
     const i = drawn[k], px = Math.floor(x[i]), py = Math.floor(y[i]);
     if (px + rows < left || px - rows >= right || py + rows < top || py - rows >= bottom) continue;
-    const near = (0.45 + (depth[i] - low) * scale) * levels;
+    const near = (0.65 + (depth[i] - low) * scale) * levels;
     for (let r = 0; r < side; ++r) {
       const row = py + r - rows;
       if (row < top || row >= bottom) continue;
