@@ -36,9 +36,7 @@ std::string contents(const fs::path& path) {
         if (in.gcount() == static_cast<std::streamsize>(size)) return text;
     }
     throw InputError(fmt::format("RESULTS: {} cannot be read ({})", shown(path),
-                                 error                     ? error.message()
-                                 : fs::exists(path, error) ? "no file that may be read"
-                                                           : "it is missing"));
+                                 error ? error.message() : "it is no file that may be read"));
 }
 
 void check_writable(const fs::path& path) {

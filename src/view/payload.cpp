@@ -20,6 +20,7 @@ namespace {
 /// Single precision looks better under the magnifying glass, where it costs nothing that matters.
 constexpr std::size_t small_page = 800'000;
 constexpr std::size_t most_rows = 4000;
+constexpr std::size_t in_description = 200;  ///< bytes that say what an array is, at most
 
 template <class Number>
 std::string bytes_of(const std::vector<Number>& numbers) {
@@ -199,6 +200,7 @@ std::size_t bytes_in_page(const Results& results, const Thinning& thinning) {
                         !v.empty() &&
                         std::all_of(v.begin(), v.end(), [&](float x) { return x == v[0]; });
                     const int size = moves(fields[f]) ? thinning.bytes : thinning.field_bytes;
+                    if (!same) bytes += in_description;
                     if (!same && !constant) bytes += v.size() * static_cast<std::size_t>(size);
                 }
             };
@@ -207,7 +209,7 @@ std::size_t bytes_in_page(const Results& results, const Thinning& thinning) {
             if (before == nullptr || before->id != now.id) bytes += 4 * now.id.size();
             if (before == nullptr || before->corners != now.corners)
                 bytes += 4 * now.corners.size();
-            bytes += 600;  // of the description
+            bytes += 2 * in_description;
             before = &now;
         }
         const auto& table = one.invariants;
