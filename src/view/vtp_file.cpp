@@ -105,6 +105,7 @@ void VtpFile::read_element(const std::string& name, const Attributes& attributes
         return it != attributes.end() && it->second == value;
     };
     if (name == "VTKFile") {
+        if (!is("version", "1.0")) refuse("it is of a format that this spam-view does not know");
         if (!is("type", "PolyData") || !is("byte_order", "LittleEndian") ||
             !is("header_type", "UInt64") || attributes.contains("compressor"))
             refuse("it is not uncompressed little-endian PolyData");

@@ -155,6 +155,9 @@ BOOST_AUTO_TEST_CASE(half_a_folder_is_refused_by_the_name_of_the_file) {
     damaged("snapshot_0001.vtp", whole.substr(0, whole.size() / 2), "ends too early");
     damaged("snapshot_0001.vtp", whole.substr(0, 400), "ends before");
     damaged("snapshot_0001.vtp", test::contents_of(scratch / "out/snapshot_0000.vtp"), "not later");
+    std::string newer = whole;
+    newer.replace(newer.find("version=\"1.0\" byte"), 13, "version=\"2.0\"");
+    damaged("snapshot_0001.vtp", newer, "format that this spam-view does not know");
     damaged("snapshots.pvd", "<VTKFile>", "ends too early");
     damaged("invariants.csv", "t,energy\n0,1\n1\n", "line 3");
     damaged("invariants.csv", "t,energy\n0,one\n", "column energy");

@@ -49,7 +49,7 @@ function addFieldsOf(name, components) {
   if (name === 'position') return;
   if (name === 'velocity') {
     addField('speed', 'speed', name, speedOf, false);
-    for (let c = 0; c < dims; ++c) addField('v' + axes[c], 'velocity, ' + axes[c], name, component(c), true);
+    for (let c = 0; c < dims; ++c) addField('v' + axes[c], 'velocity ' + axes[c], name, component(c), true);
   } else if (components === 1) addField(name, words, name, component(0), false);
   else if (name === 'stress') {
     addField('pressure', 'pressure (mean of −σ)', name, pressureOf, true);
