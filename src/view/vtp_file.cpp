@@ -180,7 +180,7 @@ std::vector<Number> VtpFile::numbers(const Array& array, std::size_t tuples) con
     const char* const begin = bytes_.data() + tail_ + array.offset;
     std::memcpy(&length, begin, sizeof length);
     const std::size_t expected = array.components * tuples * sizeof(Number);
-    if (array.components > 64 || length != expected ||
+    if (array.components == 0 || array.components > 64 || length != expected ||
         left - array.offset - sizeof length < expected)
         refuse(fmt::format("{} has {} bytes, and should have {}", array.name, length, expected));
     std::vector<Number> result(array.components * tuples);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The pages of two runs in a headless Chromium, without WebGL: no request but for the page itself, nothing on the
 # console, particles where and in the colours that their values say, controls that work.
-# browser.py <spam-view> <rotating_hexagon> <free_expansion> <work folder>; exit status 77: no browser.
+# browser.py <spam-view> <rotating_hexagon> <free_expansion> <ball_plate> <taylor_bar> <work folder>; exit status 77: no browser.
 import array
 import pathlib
 import re
@@ -159,14 +159,42 @@ def check_address(driver, page):
     assert max(ground) < 60, ground
 
 
+def check_elements(driver, folder):
+    """Elements are filled with the colour of their own values; discs only where a particle belongs to none."""
+    driver.execute_script("spam.setField('energy'); spam.setTime(spam.cases[0].times[0] + 1e-9)")
+    wait_for_frame(driver)
+    ground = pixel(driver, 2, 2)
+    centres = driver.execute_script(
+        "const p = spam.panels.panels[0], q = spam.numbers(spam.cases[0].snapshots[0].corners), out = [];"
+        "for (let k = 0; k < q.length; k += 4) out.push([p.x, p.y].map(v => (v[q[k]] + v[q[k + 1]] + v[q[k + 2]] + v[q[k + 3]]) / 4));"
+        "return out")
+    assert len(centres) == len(array_of(folder / "snapshot_0000.vtp", b"energy"))
+    filled = sum(pixel(driver, int(x), int(y)) != ground for x, y in centres[::7])
+    assert filled == len(centres[::7]), (filled, len(centres))
+
+
+def check_turning(driver):
+    canvas = driver.find_element("id", "canvas")
+    state = lambda: driver.execute_script("return [spam.state.turn, spam.panels.raster.pixels.reduce((a, b) => (a * 31 + b) >>> 0, 7)]")
+    wait_for_frame(driver)
+    before = state()
+    ActionChains(driver).drag_and_drop_by_offset(canvas, 80, 30).perform()
+    wait_for_frame(driver)
+    after = state()
+    assert before[0] != after[0] and before[1] != after[1]
+    length = sum(v * v for v in after[0])
+    assert abs(length - 3) < 1e-9, length  # still a rotation
+
+
 def main():
-    spam_view, hexagon, expansion, work = sys.argv[1:]
+    spam_view, hexagon, expansion, plate, bar, work = sys.argv[1:]
     work = pathlib.Path(work).absolute()
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     pages = {}
     for name, program, more in (("hexagon", hexagon, ["--turns", "0.02", "--snapshot-every", "1"]),
-                                ("gas", expansion, ["--cells", "16", "--t-end", "20", "--snapshot-every", "4"])):
+                                ("gas", expansion, ["--cells", "16", "--t-end", "20", "--snapshot-every", "4"]),
+                                ("plate", plate, ["--model", "elements", "--smoke"]), ("bar", bar, ["--smoke"])):
         ran = subprocess.run([program, *more, "--no-plots", "--quiet", "--out", name], cwd=work, capture_output=True, text=True)
         assert (work / name / "result.json").exists(), ran.stderr
         subprocess.run([spam_view, name], cwd=work, check=True)
@@ -187,6 +215,10 @@ def main():
             if width == 1440:
                 driver.get(pages["hexagon"].as_uri())
                 check_controls(driver, 1.0)
+                driver.get(pages["plate"].as_uri())
+                check_elements(driver, work / "plate")
+                driver.get(pages["bar"].as_uri())
+                check_turning(driver)
                 check_address(driver, pages["hexagon"])
                 check_quiet(driver, pages["gas"].parent.parent)
         finally:

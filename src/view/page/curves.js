@@ -29,6 +29,13 @@ function driftOf(c, name) {
   return out;
 }
 
+// Of rows and snapshots; never empty, which uPlot would not bear.
+const timeRange = (() => {
+  const times = cases.flatMap(c => { const t = columnOf(c, 't'); return t && t.length ? [t[0], t[t.length - 1]] : []; });
+  const low = Math.min(firstTime, ...times), high = Math.max(lastTime, ...times);
+  return [low, high > low ? high : low + 1];
+})();
+
 const curveNames = new Map();  // key -> label
 for (const name of Object.keys(given))
   if (cases.some(c => driftOf(c, name))) curveNames.set('drift:' + name, 'drift of ' + name);
@@ -97,7 +104,7 @@ class Curves {
     const axis = {stroke: ink, grid, ticks: grid, font: '11px system-ui, sans-serif'};
     plot.u = new uPlot({
       width: 300, height: 140, legend: {show: false}, series,
-      scales: {x: {time: false, range: [firstTime, lastTime]}, y: log ? {distr: 3} : {range: roomFor}},
+      scales: {x: {time: false, range: timeRange}, y: log ? {distr: 3} : {range: roomFor}},
       cursor: {drag: {x: false, y: false}, sync: {key: 'spam'}, points: {size: 5}},
       axes: [{...axis, size: 24, space: 60, values: (u, at) => at.map(shortNumber)},
              {...axis, grid: sparse, ticks: sparse, filter: decades, size: 58, space: 22,

@@ -174,6 +174,14 @@ const keys = {
   Escape: () => { state.pick = null; changed(); },
 };
 
+// Controls and colours show the state, whatever has changed it.
+function showState() {
+  byId('size').value = state.size;
+  for (const name of ['between', 'crosses', 'box']) byId(name).checked = state[name];
+  setDark(state.dark);
+  setField(state.field);
+}
+
 function connect() {
   for (const field of fieldTable.values()) byId('field').append(option(field.name, field.label));
   for (const name of Object.keys(maps)) byId('map').append(option(name, name));
@@ -181,10 +189,8 @@ function connect() {
   byId('map').onchange = event => { state.map = event.target.value; setMap(); changed(); };
   byId('percent').onchange = event => { state.percent = event.target.value; setRange(); changed(); };
   byId('low').onchange = byId('high').onchange = typedRange;
-  byId('size').value = state.size;
   byId('size').oninput = event => { state.size = Number(event.target.value); changed(); };
   for (const name of ['between', 'crosses', 'box']) {
-    byId(name).checked = state[name];
     byId(name).onchange = () => { state[name] = byId(name).checked; changed(); };
   }
   byId('crossesLabel').hidden = !(dims === 2 && cases.some(c => c.snapshots[0].points.stress !== undefined));
@@ -205,7 +211,7 @@ function connect() {
     keys[event.key](event);
   });
   window.addEventListener('resize', () => { panels.resize(); curves.resize(); changed(); });
-  window.addEventListener('hashchange', () => { readAddress(); setField(state.field); curves.build(); changed(); });
+  window.addEventListener('hashchange', () => { readAddress(); fillAddCurve(); showState(); });
 }
 
 describeRun();
@@ -213,8 +219,7 @@ describeChecks();
 fillAddCurve();
 connect();
 connectPointers();
-setDark(state.dark);
-setField(state.field);
+showState();
 panels.resize();
 requestAnimationFrame(frame);
 // For tests, and for who writes more into the page by hand.
