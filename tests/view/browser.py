@@ -103,6 +103,23 @@ def check_particles(driver, folder, case, number, snapshot):
     assert checked >= 5, (case, checked)
 
 
+def check_borders(driver):
+    """Half-way between snapshots particles are inside the periodic box and near where they were: none crosses all of it."""
+    wrong, crossing = driver.execute_script(
+        "const c = spam.cases[0]; let wrong = 0, crossing = 0;"
+        "for (let k = 0; k + 1 < c.times.length; ++k) {"
+        "  const s = c.snapshots[k], x0 = spam.numbers(s.points.position), x1 = spam.numbers(c.snapshots[k + 1].points.position);"
+        "  const side = s.high[0] - s.low[0], reach = 1.5 * (c.times[k + 1] - c.times[k]);"
+        "  const x = spam.frameOf(c, (c.times[k] + c.times[k + 1]) / 2, true).x;"
+        "  for (let i = 0; i < 2 * s.n; ++i) {"
+        "    const d = Math.abs(x[i] - x0[i]);"
+        "    if (x[i] < s.low[0] || x[i] > s.high[0] || Math.min(d, side - d) > reach) ++wrong;"
+        "    if (Math.abs(x1[i] - x0[i]) > side / 2) ++crossing;"
+        "  } }"
+        "return [wrong, crossing]")
+    assert crossing > 20 and wrong == 0, (wrong, crossing)
+
+
 def text(driver, id):
     return driver.execute_script("return document.getElementById(arguments[0]).textContent", id)
 
@@ -211,6 +228,7 @@ def main():
             driver.get(pages["gas"].as_uri())
             wait_for_frame(driver)
             check_particles(driver, work / "gas", "gas", 0, 5)
+            check_borders(driver)
             check_quiet(driver, pages["gas"].parent.parent)
             if width == 1440:
                 driver.get(pages["hexagon"].as_uri())
