@@ -221,6 +221,7 @@ connect();
 connectPointers();
 showState();
 panels.resize();
-requestAnimationFrame(frame);
+frame(performance.now());  // with the page, not after it
+dirty = true;              // curves know their places only now
 // For tests, and for who writes more into the page by hand.
 window.spam = {page, cases, state, panels, curves, costs, setTime, setField, play, picture, numbers, frameOf, address};
