@@ -11,6 +11,8 @@ class Raster {
   clear(colour) { this.pixels.fill(colour); }
   bounds(left, top, right, bottom) { Object.assign(this, {left, top, right, bottom}); }
 
+  holds(col, row) { return col >= this.left && col < this.right && row >= this.top && row < this.bottom; }
+
   // n discs about (x, y) in pixels. Large ones have soft edges, small ones are whole pixels: discs of parts of a
   // pixel would leave a lattice full of specks.
   discs(x, y, n, radius, colours) {

@@ -40,29 +40,35 @@ function shadedTable(table) {
   return out;
 }
 
-// Spheres: the brightness of a pixel follows the normal and the depth of the particle.
-function spheres(raster, x, y, depth, n, radius, steps, shaded, low, high, keep) {
-  const {pixels, width, left, top, right, bottom} = raster;
-  const rows = Math.max(0, Math.round(radius - 0.25)), side = 2 * rows + 1, mask = new Float32Array(side * side);
+// Pixels of a sphere about its middle, and how bright the normal makes each.
+function sphereMask(radius, width) {
+  const rows = Math.max(0, Math.round(radius - 0.25)), right = [], down = [], light = [];
   for (let r = -rows; r <= rows; ++r)
     for (let s = -rows; s <= rows; ++s) {
       const q = (r * r + s * s) / Math.max(radius * radius, 0.25);
-      mask[(r + rows) * side + s + rows] = q > 1.05 ? 0 : 0.45 + 0.55 * Math.sqrt(Math.max(0, 1 - q)) - 0.12 * (r + s) / side;
+      if (q > 1.05) continue;
+      right.push(s);
+      down.push(r);
+      light.push(0.45 + 0.55 * Math.sqrt(Math.max(0, 1 - q)) - 0.12 * (r + s) / (2 * rows + 1));
     }
+  return {rows, right, down, light: Float32Array.from(light), offset: Int32Array.from(right, (s, k) => down[k] * width + s)};
+}
+
+// Spheres from the farthest to the nearest; brightness follows the normal and the depth. steps: colours as numbers
+// from 0 to 255.
+function spheres(raster, x, y, depth, n, radius, steps, shaded, low, high, keep) {
+  const {pixels, width, left, top, right, bottom} = raster, mask = sphereMask(radius, width);
+  const {rows, light, offset} = mask, count = light.length, last = levels - 1;
   const scale = high > low ? 0.4 / (high - low) : 0, drawn = order(depth, n, low, high, keep);
   for (let k = 0; k < n; ++k) {
     const i = drawn[k], px = Math.floor(x[i]), py = Math.floor(y[i]);
     if (px + rows < left || px - rows >= right || py + rows < top || py - rows >= bottom) continue;
-    const near = (0.65 + (depth[i] - low) * scale) * levels;
-    for (let r = 0; r < side; ++r) {
-      const row = py + r - rows;
-      if (row < top || row >= bottom) continue;
-      for (let s = 0; s < side; ++s) {
-        const light = mask[r * side + s], col = px + s - rows;
-        if (light === 0 || col < left || col >= right) continue;
-        const level = Math.min(levels - 1, near * light | 0);
-        pixels[row * width + col] = shaded[level * 256 + steps[i]];
-      }
+    const near = (0.65 + (depth[i] - low) * scale) * levels, step = steps[i], at = py * width + px;
+    const inside = px - rows >= left && px + rows < right && py - rows >= top && py + rows < bottom;
+    for (let m = 0; m < count; ++m) {
+      if (!inside && !raster.holds(px + mask.right[m], py + mask.down[m])) continue;
+      const level = near * light[m] | 0;
+      pixels[at + offset[m]] = shaded[(level > last ? last : level) << 8 | step];
     }
   }
 }
