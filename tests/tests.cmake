@@ -87,6 +87,15 @@ spam_test(io/checkpoint_pair property)
 spam_test(io/checkpoint_faults property)
 spam_test(front_door/front_door problem)
 target_compile_definitions(test.front_door.front_door PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
+if(SPAM_BUILD_VIEW)
+  foreach(test reader page)
+    spam_test(view/${test} unit spam_view)
+    target_include_directories(test.view.${test} PRIVATE ${PROJECT_SOURCE_DIR}/src
+                                                         ${CMAKE_CURRENT_SOURCE_DIR}/view)
+    target_compile_definitions(test.view.${test} PRIVATE SPAM_VIEW="$<TARGET_FILE:spam-view>")
+    add_dependencies(test.view.${test} spam-view)
+  endforeach()
+endif()
 # All of libspam as a shared object, from what was compiled for the static library: what
 # -DBUILD_SHARED_LIBS=ON links, and what a module of an interpreter holds.
 add_library(spam_module MODULE builds/module.cpp)

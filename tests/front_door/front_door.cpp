@@ -100,3 +100,15 @@ BOOST_AUTO_TEST_CASE(a_program_that_is_up_to_date_runs_without_leave_to_write) {
     }
     fs::permissions(tree / "build/release", fs::perms(0755));
 }
+
+BOOST_AUTO_TEST_CASE(view_is_built_and_gets_its_words) {
+    const Tree tree("0");
+    const Outcome empty = run(tree.call({"view"}), tree.launch());
+    BOOST_TEST(empty.status == 2);
+    BOOST_TEST(has(empty.err, "which results?"), empty.err);
+    BOOST_TEST(!fs::exists(tree / "build"));
+    const Outcome outcome =
+        run(tree.call({"view", "--no-install", "drop-out", "--max-mb", "5"}), tree.launch());
+    BOOST_TEST(outcome.status == 0, outcome.err);
+    BOOST_TEST(outcome.out == "ran drop-out --max-mb 5\n");
+}

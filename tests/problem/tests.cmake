@@ -72,3 +72,13 @@ if(SPAM_PYTHON)
   set_tests_properties(io.read_by_vtk PROPERTIES LABELS problem TIMEOUT ${timeout}
     SKIP_RETURN_CODE 77)
 endif()
+
+# A page in a browser, where chromium and python3-selenium are installed.
+if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
+  add_test(NAME view.browser COMMAND ${SPAM_PYTHON}
+    ${CMAKE_CURRENT_SOURCE_DIR}/view/browser.py $<TARGET_FILE:spam-view>
+    $<TARGET_FILE:rotating_hexagon> $<TARGET_FILE:free_expansion>
+    $<TARGET_FILE:ball_plate> $<TARGET_FILE:taylor_bar> ${CMAKE_CURRENT_BINARY_DIR}/view_browser)
+  set_tests_properties(view.browser PROPERTIES LABELS problem TIMEOUT ${timeout}
+    SKIP_RETURN_CODE 77)
+endif()

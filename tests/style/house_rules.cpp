@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> rooms{"core",      "kernel",      "material", "neighbors",
-                                     "boundary",  "physics",     "external", "rhs",
-                                     "integrate", "diagnostics", "setup",    "analysis",
-                                     "io",        "picture",     "problem",  "study"};
+const std::vector<std::string> rooms{"core",    "kernel",   "material", "neighbors", "boundary",
+                                     "physics", "external", "rhs",      "integrate", "diagnostics",
+                                     "setup",   "analysis", "io",       "picture",   "problem",
+                                     "study",   "view"};
 
 /// kernel and material are neighbours on one floor: both include only core.
 /// integrate knows vectors and callables, not particles: only core as well.
@@ -40,11 +40,15 @@ bool allowed(const std::string& from, const std::string& to) {
     return level(to) < level(from);
 }
 
+/// What others wrote stays as they wrote it.
+bool is_from_elsewhere(const fs::path& path) { return path.parent_path().filename() == "vendor"; }
+
 std::vector<fs::path> sources(const std::vector<std::string>& folders) {
     std::vector<fs::path> result;
     for (const auto& folder : folders)
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPAM_SOURCE) / folder))
-            if (const auto e = entry.path().extension(); e == ".hpp" || e == ".cpp")
+            if (const auto e = entry.path().extension();
+                e == ".hpp" || e == ".cpp" || (e == ".js" && !is_from_elsewhere(entry.path())))
                 result.push_back(entry.path());
     return result;
 }
