@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bond_table.hpp"
+#include "packed_particles.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
+#include <spam/core/sums.hpp>
+#include <spam/physics/material_vectors.hpp>
+#include <spam/rhs/material_vectors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particles<Dim>& particles,
+                               const HyperelasticMaterial<Dim>& material) {
+    valid_range<Dim>(scheme.range, particles.spacing, particles.size());
+    if (!(scheme.density > 0.0) || !std::isfinite(scheme.density))
+        throw InputError(fmt::format(
+            "density: {} at the start must be positive; sqrt(4/3) m is that of the triangular lattice",
+            scheme.density));
+    if (!(scheme.penalty >= 0.0) || !std::isfinite(scheme.penalty))
+        throw InputError(fmt::format("penalty: {} must be a number not below 0; try --penalty 1",
+                                     scheme.penalty));
+    if (scheme.penalty > 0.0 && !(material.stiffness() > 0.0))
+        throw InputError(fmt::format(
+            "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
+            "another material",
+            scheme.penalty, material.stiffness()));
+    if (!material.history().empty())
+        throw InputError(fmt::format(
+            "material: '{}' remembers its plastic flow from a reference configuration, and material "
+            "vectors have none; use --formulation total_lagrangian",
+            material.describe()));
+    if (!particles.reference_position.allFinite())
+        throw InputError("particles: a reference position is not finite");
+    return scheme;
+}
+
+template <int Dim>
+void read(const double* from, Mat<Dim>& t) {
+    std::copy_n(from, t.c.size(), t.c.begin());
+}
+template <int Dim>
+void read(const double* from, SymTensor<Dim>& t) {
+    std::copy_n(from, t.c.size(), t.c.begin());
+}
+
+}  // namespace
+
+template <int Dim>
+struct MaterialVectors<Dim>::Parts {
+    using Record = BondRecord<Dim>;
+    static constexpr std::size_t block = 128;  ///< particles whose bonds stay in the cache
+
+    BondSweeps<Dim> sweeps;
+    BondTable<Dim> table;
+    double N0 = 0.0;  ///< tr N/D of a whole particle
+    std::vector<double> x{}, records{}, heat{};
+    std::vector<std::uint32_t> numbers{};
+
+    double* record(std::size_t k) { return &records[k * Record::numbers]; }
+    const double* record(std::size_t k) const { return &records[k * Record::numbers]; }
+    double little() const { return 1e-13 * N0; }
+    BondView<Dim> view() {
+        BondView<Dim> view = table.view();
+        view.little = little();
+        return view;
+    }
+    /// body(first, last) for blocks of groups.
+    template <class Body>
+    void for_groups(const Body& body) {
+        const std::size_t groups = table.groups(),
+                          each = block / static_cast<std::size_t>(sweeps.lanes);
+        parallel_for((groups + each - 1) / each,
+                     [&](std::size_t b) { body(b * each, std::min(groups, (b + 1) * each)); },
+                     block);
+    }
+};
+
+/// What the bonds of one particle say, in plain numbers: for what is not done in every right-hand side.
+template <int Dim>
+struct MaterialVectors<Dim>::Fit {
+    Mat<Dim> F;
+    SymTensor<Dim> K;  ///< N^-1
+    double misfit = 0.0;
+};
+
+template <int Dim>
+MaterialVectors<Dim>::~MaterialVectors() = default;
+
+template <int Dim>
+MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
+                                      const HyperelasticMaterial<Dim>& material,
+                                      const MaterialVectorScheme& scheme)
+    : Term<Dim>(among),
+      material_(material),
+      scheme_(validated(scheme, this->particles(), material)) {
+    const auto sweeps = at_level(instruction_set(), [&](auto level) {
+        return bond_sweeps<Dim, level>(this->box().periodic());
+    });
+    const Particles<Dim>& all = this->particles();
+    parts_ = std::make_unique<Parts>(
+        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps.lanes, all.body)});
+    Parts& p = *parts_;
+    p.table.update(all.reference_position, [](std::size_t, const Vec<Dim>& r) { return r; });
+    const std::size_t n = all.size(),
+                      full = p.table.groups() * static_cast<std::size_t>(sweeps.lanes);
+    p.numbers.resize(n);
+    std::iota(p.numbers.begin(), p.numbers.end(), 0U);
+    p.x.assign(full * Dim, 0.0);
+    p.records.assign(full * Parts::Record::numbers, 0.0);
+    p.heat.assign(n, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+        BondFit<Dim, double> sums;
+        for (const Bond& bond : bonds_at(all.reference_position.data(), k))
+            sums.add(bond.weight, bond.X, bond.X);
+        double trace = 0.0;
+        for (int a = 0; a < Dim; ++a) trace += sums.N(a, a);
+        p.N0 = std::max(p.N0, trace / Dim);
+    }
+    if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
+    for (std::size_t k = 0; k < n; ++k) {
+        const double V = all.mass[k] / scheme.density;
+        p.record(k)[Parts::Record::V] = V;
+        p.record(k)[Parts::Record::c] = scheme.penalty * material.stiffness() * V / p.N0;
+    }
+}
+
+/// Positions as the sweeps want them: inside a periodic box, and some behind the last one.
+template <int Dim>
+void MaterialVectors<Dim>::load(const double* x) {
+    const Box<Dim>& box = this->box();
+    double* const to = parts_->x.data();
+    if (!box.periodic()) {
+        parallel_for(this->particles().size(), [=](std::size_t i) {
+            for (std::size_t a = 0; a < Dim; ++a) to[i * Dim + a] = x[i * Dim + a];
+        });
+        return;
+    }
+    parallel_for(this->particles().size(), [&](std::size_t i) {
+        for (std::size_t a = 0; a < Dim; ++a)
+            to[i * Dim + a] = box.periodic(static_cast<int>(a))
+                                  ? box.wrap(static_cast<int>(a), x[i * Dim + a])
+                                  : x[i * Dim + a];
+    });
+}
+
+/// P, which stands where G will be, and what follows from it. False where a stress is not finite.
+template <int Dim>
+bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count,
+                                 const ConstState<Dim>& state) {
+    using Record = BondRecord<Dim>;
+    double* const records = parts_->record(first);
+    if (!material_.stresses({&parts_->numbers[first], count}, Record::numbers, records + Record::F,
+                            records + Record::G, state))
+        return false;
+    for (std::size_t i = 0; i < count; ++i) {
+        double* const record = records + i * Record::numbers;
+        SymTensor<Dim> K, H;
+        Mat<Dim> P;
+        read(record + Record::K, K);
+        read(record + Record::G, P);
+        const double V = record[Record::V];
+        const Wholeness whole = Wholeness::of(K, parts_->N0);
+        const Mat<Dim> G = (V * whole.th) * (P * K);
+        std::copy(G.c.begin(), G.c.end(), record + Record::G);
+        if (whole.slope > 0.0) {
+            Mat<Dim> F, root;
+            read(record + Record::F, F);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = 0; b < Dim; ++b) root(a, b) = K(a, b);
+            const Mat<Dim> square = root * K;
+            const double by = V * whole.slope * material_.energy(first + i, F, state);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = a; b < Dim; ++b) H(a, b) = by * square(a, b);
+        }
+        std::copy(H.c.begin(), H.c.end(), record + Record::H);
+    }
+    return true;
+}
+
+template <int Dim>
+std::string MaterialVectors<Dim>::rates(const Now& now) {
+    Parts& p = *parts_;
+    load(now.state.position().data());
+    const BondView<Dim> view = p.view();
+    const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
+    std::atomic<bool> finite = true;
+    p.for_groups([&](std::size_t first, std::size_t last) {
+        p.sweeps.fit(view, p.x.data(), p.records.data(), first, last);
+        const std::size_t k = first * lanes;
+        if (!close(k, std::min(last * lanes, view.particles) - k, now.state)) finite = false;
+        p.sweeps.forces(view, p.records.data(), first, last);
+    });
+    if (!finite) return complaint();
+    const double* const mass = this->particles().mass.data();
+    p.for_groups([&](std::size_t first, std::size_t last) {
+        p.sweeps.gather(view, mass, now.v_dot, first, last);
+    });
+    return {};
+}
+
+template <int Dim>
+typename MaterialVectors<Dim>::Fit MaterialVectors<Dim>::fit(const double* x, std::size_t k) const {
+    const BondTable<Dim>& table = parts_->table;
+    const auto weight = [&](std::size_t m, const Vec<Dim>& r) {
+        return table.g(k, m) * BondFade<double>(dot(r, r), 1.0 / scheme_.range).s;
+    };
+    BondFit<Dim, double> sums;
+    for (std::size_t m = 0; m < table.row(k); ++m) {
+        const Vec<Dim> r = table.separation(x, k, table.partner(k, m));
+        sums.add(weight(m, r), r, table.X(k, m));
+    }
+    Fit fit;
+    const FitSolver<Dim, double> solver(sums.N, parts_->little());
+    fit.K = solver.inverse();
+    fit.F = solver.divided(sums.A);
+    for (std::size_t m = 0; m < table.row(k); ++m) {
+        const Vec<Dim> r = table.separation(x, k, table.partner(k, m));
+        Vec<Dim> e = r;
+        e -= fit.F * table.X(k, m);
+        fit.misfit += weight(m, r) * dot(e, e);
+    }
+    return fit;
+}
+
+template <int Dim>
+double MaterialVectors<Dim>::energy_of(const Fit& fit, std::size_t k,
+                                       const ConstState<Dim>& state) const {
+    const double* const record = parts_->record(k);
+    const double th = Wholeness::of(fit.K, parts_->N0).th;
+    const double misfit = 0.5 * record[BondRecord<Dim>::c] * fit.misfit;
+    return th == 0.0 ? misfit
+                     : record[BondRecord<Dim>::V] * th * material_.energy(k, fit.F, state) + misfit;
+}
+
+template <int Dim>
+std::vector<double> MaterialVectors<Dim>::energies(const ConstState<Dim>& state) const {
+    const double* const x = state.position().data();
+    std::vector<double> energies(parts_->numbers.size());
+    parallel_for(energies.size(),
+                 [&](std::size_t k) { energies[k] = energy_of(fit(x, k), k, state); });
+    return energies;
+}
+
+template <int Dim>
+double MaterialVectors<Dim>::energy(std::span<const double> y) const {
+    CompensatedSum sum;
+    for (const double energy : energies(this->state_of(y))) sum += energy;
+    sum += heat();
+    return sum;
+}
+
+template <int Dim>
+double MaterialVectors<Dim>::heat() const {
+    CompensatedSum sum;
+    for (const double heat : parts_->heat) sum += heat;
+    return sum;
+}
+
+template <int Dim>
+bool MaterialVectors<Dim>::settle(double, const State<Dim>& state) {
+    return !parts_->table.serves(state.position()) && update(ConstState<Dim>(state));
+}
+
+/// Whether somebody has entered who weighs something: else the rates are the same bits as before.
+template <int Dim>
+bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
+    Parts& p = *parts_;
+    const double* const x = state.position().data();
+    const std::size_t n = p.numbers.size();
+    std::vector<Mat<Dim>> back(n);  // F^-1
+    std::vector<double> before(n);
+    parallel_for(n, [&](std::size_t k) {
+        const Fit now = fit(x, k);
+        before[k] = energy_of(now, k, state);
+        // Where neighbours do not span space there is no F^-1, and r is as good as any.
+        if (Wholeness::of(now.K, p.N0).th > 0.0 && std::abs(determinant(now.F)) > 1e-3)
+            back[k] = inverse(now.F);
+        else
+            for (int a = 0; a < Dim; ++a) back[k](a, a) = 1.0;
+    });
+    std::vector<unsigned char> entered(n, 0);
+    const double range2 = scheme_.range * scheme_.range;
+    p.table.update(state.position(), [&](std::size_t k, const Vec<Dim>& r) {
+        const Vec<Dim> X = back[k] * r;
+        if (dot(r, r) < range2 && material_weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0)
+            entered[k] = 1;
+        return X;
+    });
+    return parallel_count(n, [&](std::size_t k) -> std::size_t {
+               if (entered[k] == 0) return 0;
+               p.heat[k] += before[k] - energy_of(fit(x, k), k, state);
+               return 1;
+           }) > 0;
+}
+
+/// Names the first particle whose stress has no meaning.
+template <int Dim>
+std::string MaterialVectors<Dim>::complaint() const {
+    const auto finite = [&](std::size_t k, std::size_t at) {
+        const double* const first = parts_->record(k) + at;
+        return std::all_of(first, first + Dim * Dim, [](double x) { return std::isfinite(x); });
+    };
+    using Record = BondRecord<Dim>;
+    std::size_t k = 0;
+    const std::size_t n = parts_->numbers.size();
+    while (k + 1 < n && finite(k, Record::F) && finite(k, Record::G)) ++k;
+    return fmt::format("the {} of particle {} is not finite",
+                       finite(k, Record::F) ? "stress" : "deformation gradient",
+                       this->particles().id[k]);
+}
+
+template <int Dim>
+std::vector<Mat<Dim>> MaterialVectors<Dim>::deformation_gradients(std::span<const double> y) const {
+    const double* const x = this->state_of(y).position().data();
+    std::vector<Mat<Dim>> F(parts_->numbers.size());
+    parallel_for(F.size(), [&](std::size_t k) { F[k] = fit(x, k).F; });
+    return F;
+}
+
+template <int Dim>
+std::vector<double> MaterialVectors<Dim>::density(std::span<const double> y) const {
+    std::vector<double> rho;
+    for (const Mat<Dim>& F : deformation_gradients(y))
+        rho.push_back(scheme_.density / determinant(F));
+    return rho;
+}
+
+template <int Dim>
+auto MaterialVectors<Dim>::bonds(std::span<const double> y, std::size_t k) const
+    -> std::vector<Bond> {
+    return bonds_at(this->state_of(y).position().data(), k);
+}
+
+template <int Dim>
+auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std::vector<Bond> {
+    const BondTable<Dim>& table = parts_->table;
+    std::vector<Bond> bonds;
+    for (std::size_t m = 0; m < table.row(k); ++m) {
+        const std::uint32_t j = table.partner(k, m);
+        const Vec<Dim> r = table.separation(x, k, j);
+        bonds.push_back(
+            {j, table.X(k, m), table.g(k, m) * BondFade<double>(dot(r, r), 1.0 / scheme_.range).s});
+    }
+    return bonds;
+}
+
+template <int Dim>
+std::size_t MaterialVectors<Dim>::pairs() const {
+    return parts_->table.bonds() / 2;
+}
+
+template <int Dim>
+std::size_t MaterialVectors<Dim>::list_builds() const {
+    return parts_->table.builds();
+}
+
+template <int Dim>
+void MaterialVectors<Dim>::remember(Archive& archive) {
+    archive(parts_->heat, parts_->table);
+}
+
+template <int Dim>
+std::string MaterialVectors<Dim>::describe() const {
+    return fmt::format("material vectors, {}, density {:.6g}, range {}, penalty kappa = {}",
+                       material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+}
+
+template class MaterialVectors<2>;
+template class MaterialVectors<3>;
+
+}  // namespace spam
