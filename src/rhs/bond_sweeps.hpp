@@ -22,20 +22,26 @@ struct BondView {
     std::size_t particles;
     const std::size_t* first;      ///< by group: where its bonds begin
     const std::uint32_t* partner;  ///< by bond
-    const std::uint32_t* reverse;  ///< by bond: where in t that of the partner begins
+    const std::uint32_t* reverse;  ///< by bond: which place in t is that of the partner's bond
     const double* vectors;         ///< by bond
-    double* t;                     ///< Dim by bond, each number for all lanes: r, then the force
+    double* t;                     ///< Dim by place: r, each number for all lanes; then forces
     double inverse_range;
     double little;                            ///< of FitSolver
     double length[Dim], inverse_length[Dim];  ///< of the box, 0 where it is free
 };
 
-/// Of a particle, number by number: F, then N^-1, G, H and c.
+/// The place in t, among those of W bonds that lie together, of the one in a lane: even lanes first, because
+/// registers fall apart and come together so.
+constexpr std::size_t place_of_lane(std::size_t lane, std::size_t lanes) {
+    return lane / 2 + lane % 2 * (lanes / 2);
+}
+
+/// Of a particle, number by number: F, G, N^-1 = K, H, c, V and the sum of its own t.
 template <int Dim>
 struct BondRecord {
     static constexpr std::size_t square = Dim * Dim, symmetric = Dim * (Dim + 1) / 2;
     static constexpr std::size_t F = 0, G = square, K = 2 * square, H = K + symmetric,
-                                 c = H + symmetric, V = c + 1, numbers = V + 1;
+                                 c = H + symmetric, V = c + 1, own = V + 1, numbers = own + Dim;
 };
 
 /// For the groups [first, last). `x`: Dim by particle, also of those that fill the last group.
@@ -45,12 +51,12 @@ struct BondSweeps {
     /// F and N^-1 of every record; r into t.
     void (*fit)(const BondView<Dim>&, const double* x, double* records, std::size_t first,
                 std::size_t last) = nullptr;
-    /// t, by F, G, H and c.
-    void (*forces)(const BondView<Dim>&, const double* records, std::size_t first,
+    /// t, by F, G, H and c; its sum over the bonds of each particle. `whole`: H = 0 in all.
+    void (*forces)(const BondView<Dim>&, double* records, bool whole, std::size_t first,
                    std::size_t last) = nullptr;
     /// v_dot_i = sum_j (t_ij - t_ji)/m_i
-    void (*gather)(const BondView<Dim>&, const double* mass, double* v_dot, std::size_t first,
-                   std::size_t last) = nullptr;
+    void (*gather)(const BondView<Dim>&, const double* records, const double* mass, double* v_dot,
+                   std::size_t first, std::size_t last) = nullptr;
 };
 
 template <int Dim, InstructionSet Level>

@@ -89,7 +89,8 @@ void BondTable<Dim>::lay_out(std::vector<std::uint32_t> count) {
         [&](std::size_t group) {
             for (std::size_t s = rows_.first[group]; s < rows_.first[group + 1]; ++s) {
                 rows_.partner[s] = static_cast<std::uint32_t>(group * lanes + s % lanes);
-                rows_.reverse[s] = static_cast<std::uint32_t>(s / lanes * lanes * Dim + s % lanes);
+                rows_.reverse[s] =
+                    static_cast<std::uint32_t>(s / lanes * lanes + place_of_lane(s % lanes, lanes));
             }
         },
         lanes);
@@ -109,8 +110,8 @@ void BondTable<Dim>::find_reverse() {
                     high = middle;
             }
             const std::size_t back = rows_.slot(j, low), lanes = rows_.lanes;
-            rows_.reverse[rows_.slot(k, m)] =
-                static_cast<std::uint32_t>(back / lanes * lanes * Dim + back % lanes);
+            rows_.reverse[rows_.slot(k, m)] = static_cast<std::uint32_t>(
+                back / lanes * lanes + place_of_lane(back % lanes, lanes));
         }
     });
 }

@@ -110,10 +110,10 @@ void MaterialVectors<Dim>::load(const double* x) {
     });
 }
 
-/// P, which stands where G will be, and what follows from it. False where a stress is not finite.
+/// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. False where a stress is not finite.
 template <int Dim>
-bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count,
-                                 const ConstState<Dim>& state) {
+bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const ConstState<Dim>& state,
+                                 bool& whole) {
     using Record = BondRecord<Dim>;
     double* const records = parts_->record(first);
     if (!material_.stresses({&parts_->numbers[first], count}, Record::numbers, records + Record::F,
@@ -126,16 +126,17 @@ bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count,
         read(record + Record::K, K);
         read(record + Record::G, P);
         const double V = record[Record::V];
-        const Wholeness whole = Wholeness::of(K, parts_->N0);
-        const Mat<Dim> G = (V * whole.th) * (P * K);
+        const Wholeness spans = Wholeness::of(K, parts_->N0);
+        const Mat<Dim> G = (V * spans.th) * (P * K);
         std::copy(G.c.begin(), G.c.end(), record + Record::G);
-        if (whole.slope > 0.0) {
+        if (spans.slope > 0.0) {
+            whole = false;
             Mat<Dim> F, root;
             read(record + Record::F, F);
             for (int a = 0; a < Dim; ++a)
                 for (int b = 0; b < Dim; ++b) root(a, b) = K(a, b);
             const Mat<Dim> square = root * K;
-            const double by = V * whole.slope * material_.energy(first + i, F, state);
+            const double by = V * spans.slope * material_.energy(first + i, F, state);
             for (int a = 0; a < Dim; ++a)
                 for (int b = a; b < Dim; ++b) H(a, b) = by * square(a, b);
         }
@@ -154,13 +155,14 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
     p.for_groups([&](std::size_t first, std::size_t last) {
         p.sweeps.fit(view, p.x.data(), p.records.data(), first, last);
         const std::size_t k = first * lanes;
-        if (!close(k, std::min(last * lanes, view.particles) - k, now.state)) finite = false;
-        p.sweeps.forces(view, p.records.data(), first, last);
+        bool whole = true;
+        if (!close(k, std::min(last * lanes, view.particles) - k, now.state, whole)) finite = false;
+        p.sweeps.forces(view, p.records.data(), whole, first, last);
     });
     if (!finite) return complaint();
     const double* const mass = this->particles().mass.data();
     p.for_groups([&](std::size_t first, std::size_t last) {
-        p.sweeps.gather(view, mass, now.v_dot, first, last);
+        p.sweeps.gather(view, p.records.data(), mass, now.v_dot, first, last);
     });
     return {};
 }

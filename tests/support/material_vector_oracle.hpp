@@ -89,12 +89,12 @@ class MaterialVectorOracle {
         return r;
     }
     double s(double r) const {
-        const double z = std::clamp((1.0 - r / range_) / 0.3, 0.0, 1.0);
+        const double z = std::clamp((1.0 - std::pow(r / range_, 2)) / 0.51, 0.0, 1.0);
         return z * z * (3.0 - 2.0 * z);
     }
     double slope(double r) const {
-        const double z = std::clamp((1.0 - r / range_) / 0.3, 0.0, 1.0);
-        return -6.0 * z * (1.0 - z) / (0.3 * range_);
+        const double z = std::clamp((1.0 - std::pow(r / range_, 2)) / 0.51, 0.0, 1.0);
+        return -12.0 * z * (1.0 - z) * r / (0.51 * range_ * range_);
     }
     double g(const Vector& X) const {
         if (mutation_ == BondMutation::fixed_weight) return 1.0;

@@ -21,18 +21,17 @@ inline double material_weight(double length, double range) {
     return z * z;
 }
 
-/// The part s(r) = z^2 (3 - 2z), z = (1 - r/h)/0.3 clipped to [0, 1], which lets neighbours come and go.
+/// The part s(r) = z^2 (3 - 2z), z = (1 - r^2/h^2)/0.51 clipped to [0, 1], which lets neighbours come and go
+/// between 0.7 h and h. Of r^2, so that no bond costs a root or a quotient.
 template <class T>
 struct BondFade {
     T s, slope;  ///< slope = s'(r)/r
 
     constexpr BondFade(const T& r2, double inverse_range) {
-        using std::sqrt;
-        const T r = sqrt(r2 + T(1e-300));
-        const T free = (T(1.0) - T(inverse_range) * r) * T(1.0 / 0.3);
+        const T free = T(1.0 / 0.51) - T(inverse_range * inverse_range / 0.51) * r2;
         const T z = T(1.0) - positive_part(T(1.0) - positive_part(free));
         s = z * z * (T(3.0) - T(2.0) * z);
-        slope = T(-6.0 / 0.3 * inverse_range) * z * (T(1.0) - z) / r;
+        slope = T(-12.0 / 0.51 * inverse_range * inverse_range) * z * (T(1.0) - z);
     }
 };
 
@@ -135,13 +134,16 @@ struct BondLaw {
     SymTensor<Dim, T> H;
     T c;
 
+    /// `Whole`: H = 0.
+    template <bool Whole>
     constexpr Vec<Dim, T> force(const T& g, const Vec<Dim, T>& r, const Vec<Dim, T>& X,
                                 double inverse_range) const {
         const BondFade<T> fade(dot(r, r), inverse_range);
         Vec<Dim, T> e = r;
         e -= F * X;
         const Vec<Dim, T> GX = G * X;
-        const T change = dot(e, GX) + T(0.5) * c * dot(e, e) + dot(X, H * X);
+        T change = dot(e, GX) + T(0.5) * c * dot(e, e);
+        if constexpr (!Whole) change += dot(X, H * X);
         return (g * fade.s) * (GX + c * e) + (g * fade.slope * change) * r;
     }
 };

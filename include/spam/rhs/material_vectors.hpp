@@ -79,7 +79,7 @@ class MaterialVectors final : public Term<Dim> {
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;
     std::vector<double> energies(const ConstState<Dim>& state) const;
-    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state);
+    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, bool& whole);
     bool update(const ConstState<Dim>& state);
     std::string complaint() const;
 
