@@ -36,27 +36,28 @@ constexpr std::size_t place_of_lane(std::size_t lane, std::size_t lanes) {
     return lane / 2 + lane % 2 * (lanes / 2);
 }
 
-/// Of a particle, number by number: F, G, N^-1 = K, H, c, V and the sum of its own t.
+/// What right-hand sides find of a particle, number by number: F, G, N^-1, H and c. Held for a block of groups
+/// at a time, while their bonds are in the cache.
 template <int Dim>
 struct BondRecord {
     static constexpr std::size_t square = Dim * Dim, symmetric = Dim * (Dim + 1) / 2;
     static constexpr std::size_t F = 0, G = square, K = 2 * square, H = K + symmetric,
-                                 c = H + symmetric, V = c + 1, own = V + 1, numbers = own + Dim;
+                                 c = H + symmetric, numbers = c + 1;
 };
 
-/// For the groups [first, last). `x`: Dim by particle, also of those that fill the last group.
+/// For the groups [first, last), whose records begin with that of the first one.
 template <int Dim>
 struct BondSweeps {
     int lanes = 0;
-    /// F and N^-1 of every record; r into t.
+    /// F and N^-1 of every record; r into t. `x`: Dim by particle, also of those that fill the last group.
     void (*fit)(const BondView<Dim>&, const double* x, double* records, std::size_t first,
                 std::size_t last) = nullptr;
-    /// t, by F, G, H and c; its sum over the bonds of each particle. `whole`: H = 0 in all.
-    void (*forces)(const BondView<Dim>&, double* records, bool whole, std::size_t first,
-                   std::size_t last) = nullptr;
-    /// v_dot_i = sum_j (t_ij - t_ji)/m_i
-    void (*gather)(const BondView<Dim>&, const double* records, const double* mass, double* v_dot,
+    /// t, by F, G, H and c; v_dot_i = sum_j t_ij. `whole`: H = 0 in all.
+    void (*forces)(const BondView<Dim>&, const double* records, bool whole, double* v_dot,
                    std::size_t first, std::size_t last) = nullptr;
+    /// v_dot_i = (v_dot_i - sum_j t_ji)/m_i
+    void (*gather)(const BondView<Dim>&, const double* mass, double* v_dot, std::size_t first,
+                   std::size_t last) = nullptr;
 };
 
 template <int Dim, InstructionSet Level>

@@ -112,7 +112,7 @@ void fit(const BondView<Dim>& view, const double* x, double* records, std::size_
         const FitSolver<Dim, T> solver(sums.N, view.little);
         const SymTensor<Dim, T> K = solver.inverse();
         const Mat<Dim, T> F = solver.divided(sums.A);
-        double* const record = records + group * W * R::numbers;
+        double* const record = records + (group - first) * W * R::numbers;
         for (std::size_t c = 0; c < R::square; ++c)
             to_records(record, R::numbers, R::F + c, F.c[c]);
         for (std::size_t c = 0; c < R::symmetric; ++c)
@@ -121,10 +121,11 @@ void fit(const BondView<Dim>& view, const double* x, double* records, std::size_
 }
 
 template <int Dim, bool Whole>
-void forces_of(const BondView<Dim>& view, double* records, std::size_t first, std::size_t last) {
+void forces_of(const BondView<Dim>& view, const double* records, double* v_dot, std::size_t first,
+               std::size_t last) {
     using R = BondRecord<Dim>;
     for (std::size_t group = first; group < last; ++group) {
-        double* const record = records + group * W * R::numbers;
+        const double* const record = records + (group - first) * W * R::numbers;
         BondLaw<Dim, T> law;
         for (std::size_t c = 0; c < R::square; ++c) {
             law.F.c[c] = from_records(record, R::numbers, R::F + c);
@@ -145,31 +146,31 @@ void forces_of(const BondView<Dim>& view, double* records, std::size_t first, st
             own += force;
             store_points<Dim>(t, force);
         }
-        for (std::size_t a = 0; a < Dim; ++a) to_records(record, R::numbers, R::own + a, own.c[a]);
+        for (std::size_t l = 0; l < W && group * W + l < view.particles; ++l)
+            for (std::size_t a = 0; a < Dim; ++a)
+                v_dot[(group * W + l) * Dim + a] = lane(own.c[a], static_cast<int>(l));
     }
 }
 
 template <int Dim>
-void forces(const BondView<Dim>& view, double* records, bool whole, std::size_t first,
-            std::size_t last) {
-    whole ? forces_of<Dim, true>(view, records, first, last)
-          : forces_of<Dim, false>(view, records, first, last);
+void forces(const BondView<Dim>& view, const double* records, bool whole, double* v_dot,
+            std::size_t first, std::size_t last) {
+    whole ? forces_of<Dim, true>(view, records, v_dot, first, last)
+          : forces_of<Dim, false>(view, records, v_dot, first, last);
 }
 
 template <int Dim>
-void gather(const BondView<Dim>& view, const double* records, const double* mass, double* v_dot,
-            std::size_t first, std::size_t last) {
-    using R = BondRecord<Dim>;
+void gather(const BondView<Dim>& view, const double* mass, double* v_dot, std::size_t first,
+            std::size_t last) {
     for (std::size_t group = first; group < last; ++group) {
         Vec<Dim, T> back;
         for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W)
             back += load_points<Dim>(view.t, view.reverse + bond);
-        for (std::size_t l = 0; l < W; ++l) {
+        for (std::size_t l = 0; l < W && group * W + l < view.particles; ++l) {
             const std::size_t i = group * W + l;
-            if (i >= view.particles) break;
-            const double* const own = records + i * R::numbers + R::own;
             for (std::size_t a = 0; a < Dim; ++a)
-                v_dot[i * Dim + a] = (own[a] - lane(back.c[a], static_cast<int>(l))) / mass[i];
+                v_dot[i * Dim + a] =
+                    (v_dot[i * Dim + a] - lane(back.c[a], static_cast<int>(l))) / mass[i];
         }
     }
 }

@@ -19,11 +19,10 @@ struct MaterialVectors<Dim>::Parts {
     BondSweeps<Dim> sweeps;
     BondTable<Dim> table;
     double N0 = 0.0;  ///< tr N/D of a whole particle
-    std::vector<double> x{}, records{}, heat{};
+    std::vector<double> x{}, volume{}, heat{};
+    double stiffness = 0.0;  ///< c_k/V_k = kappa eta/N0
     std::vector<std::uint32_t> numbers{};
 
-    double* record(std::size_t k) { return &records[k * Record::numbers]; }
-    const double* record(std::size_t k) const { return &records[k * Record::numbers]; }
     double little() const { return 1e-13 * N0; }
     BondView<Dim> view() {
         BondView<Dim> view = table.view();

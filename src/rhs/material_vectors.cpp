@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -73,7 +74,6 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     p.numbers.resize(n);
     std::iota(p.numbers.begin(), p.numbers.end(), 0U);
     p.x.assign(full * Dim, 0.0);
-    p.records.assign(full * Parts::Record::numbers, 0.0);
     p.heat.assign(n, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
         BondFit<Dim, double> sums;
@@ -84,11 +84,8 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
         p.N0 = std::max(p.N0, trace / Dim);
     }
     if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
-    for (std::size_t k = 0; k < n; ++k) {
-        const double V = all.mass[k] / scheme.density;
-        p.record(k)[Parts::Record::V] = V;
-        p.record(k)[Parts::Record::c] = scheme.penalty * material.stiffness() * V / p.N0;
-    }
+    p.stiffness = scheme.penalty * material.stiffness() / p.N0;
+    for (std::size_t k = 0; k < n; ++k) p.volume.push_back(all.mass[k] / scheme.density);
 }
 
 /// Positions as the sweeps want them: inside a periodic box, and some behind the last one.
@@ -113,9 +110,8 @@ void MaterialVectors<Dim>::load(const double* x) {
 /// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. False where a stress is not finite.
 template <int Dim>
 bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const ConstState<Dim>& state,
-                                 bool& whole) {
+                                 double* records, bool& whole) {
     using Record = BondRecord<Dim>;
-    double* const records = parts_->record(first);
     if (!material_.stresses({&parts_->numbers[first], count}, Record::numbers, records + Record::F,
                             records + Record::G, state))
         return false;
@@ -125,7 +121,8 @@ bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const Con
         Mat<Dim> P;
         read(record + Record::K, K);
         read(record + Record::G, P);
-        const double V = record[Record::V];
+        const double V = parts_->volume[first + i];
+        record[Record::c] = V * parts_->stiffness;
         const Wholeness spans = Wholeness::of(K, parts_->N0);
         const Mat<Dim> G = (V * spans.th) * (P * K);
         std::copy(G.c.begin(), G.c.end(), record + Record::G);
@@ -153,34 +150,39 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
     const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
     std::atomic<bool> finite = true;
     p.for_groups([&](std::size_t first, std::size_t last) {
-        p.sweeps.fit(view, p.x.data(), p.records.data(), first, last);
+        std::array<double, Parts::block * Parts::Record::numbers> records{};
+        p.sweeps.fit(view, p.x.data(), records.data(), first, last);
         const std::size_t k = first * lanes;
         bool whole = true;
-        if (!close(k, std::min(last * lanes, view.particles) - k, now.state, whole)) finite = false;
-        p.sweeps.forces(view, p.records.data(), whole, first, last);
+        if (!close(k, std::min(last * lanes, view.particles) - k, now.state, records.data(), whole))
+            finite = false;
+        p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
     });
-    if (!finite) return complaint();
+    if (!finite) return complaint(now.state);
     const double* const mass = this->particles().mass.data();
     p.for_groups([&](std::size_t first, std::size_t last) {
-        p.sweeps.gather(view, p.records.data(), mass, now.v_dot, first, last);
+        p.sweeps.gather(view, mass, now.v_dot, first, last);
     });
     return {};
 }
 
 /// Names the first particle whose stress has no meaning.
 template <int Dim>
-std::string MaterialVectors<Dim>::complaint() const {
-    const auto finite = [&](std::size_t k, std::size_t at) {
-        const double* const first = parts_->record(k) + at;
-        return std::all_of(first, first + Dim * Dim, [](double x) { return std::isfinite(x); });
+std::string MaterialVectors<Dim>::complaint(const ConstState<Dim>& state) const {
+    const auto finite = [](const Mat<Dim>& t) {
+        return std::all_of(t.c.begin(), t.c.end(), [](double x) { return std::isfinite(x); });
     };
-    using Record = BondRecord<Dim>;
-    std::size_t k = 0;
-    const std::size_t n = parts_->numbers.size();
-    while (k + 1 < n && finite(k, Record::F) && finite(k, Record::G)) ++k;
-    return fmt::format("the {} of particle {} is not finite",
-                       finite(k, Record::F) ? "stress" : "deformation gradient",
-                       this->particles().id[k]);
+    const double* const x = state.position().data();
+    for (const std::uint32_t& k : parts_->numbers) {
+        const Mat<Dim> F = fit(x, k).F;
+        Mat<Dim> P;
+        material_.stresses({&k, 1}, F.c.size(), F.c.data(), P.c.data(), state);
+        if (!finite(F) || !finite(P))
+            return fmt::format("the {} of particle {} is not finite",
+                               finite(F) ? "stress" : "deformation gradient",
+                               this->particles().id[k]);
+    }
+    return "a stress is not finite";
 }
 
 template <int Dim>

@@ -34,11 +34,9 @@ typename MaterialVectors<Dim>::Fit MaterialVectors<Dim>::fit(const double* x, st
 template <int Dim>
 double MaterialVectors<Dim>::energy_of(const Fit& fit, std::size_t k,
                                        const ConstState<Dim>& state) const {
-    const double* const record = parts_->record(k);
-    const double th = Wholeness::of(fit.K, parts_->N0).th;
-    const double misfit = 0.5 * record[BondRecord<Dim>::c] * fit.misfit;
-    return th == 0.0 ? misfit
-                     : record[BondRecord<Dim>::V] * th * material_.energy(k, fit.F, state) + misfit;
+    const double V = parts_->volume[k], th = Wholeness::of(fit.K, parts_->N0).th;
+    const double misfit = 0.5 * V * parts_->stiffness * fit.misfit;
+    return th == 0.0 ? misfit : V * th * material_.energy(k, fit.F, state) + misfit;
 }
 
 template <int Dim>
@@ -67,7 +65,26 @@ double MaterialVectors<Dim>::heat() const {
 
 template <int Dim>
 bool MaterialVectors<Dim>::settle(double, const State<Dim>& state) {
-    return !parts_->table.serves(state.position()) && update(ConstState<Dim>(state));
+    const bool flowed = material_.flows() && flow(ConstState<Dim>(state));
+    return (!parts_->table.serves(state.position()) && update(ConstState<Dim>(state))) || flowed;
+}
+
+/// F <- F G, X <- G^-1 X: F X stays.
+template <int Dim>
+bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
+    Parts& p = *parts_;
+    const double* const x = state.position().data();
+    return parallel_count(p.numbers.size(), [&](std::size_t k) -> std::size_t {
+               const Fit before = fit(x, k);
+               if (Wholeness::of(before.K, p.N0).th == 0.0) return 0;
+               const std::optional<Mat<Dim>> G = material_.flow(before.F);
+               if (!G) return 0;
+               const Mat<Dim> back = inverse(*G);
+               for (std::size_t m = 0; m < p.table.row(k); ++m)
+                   p.table.set_X(k, m, back * p.table.X(k, m));
+               p.heat[k] += energy_of(before, k, state) - energy_of(fit(x, k), k, state);
+               return 1;
+           }) > 0;
 }
 
 /// Whether somebody has entered who weighs something: else the rates are the same bits as before.
@@ -145,6 +162,7 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template double MaterialVectors<D>::energy(std::span<const double>) const;                   \
     template double MaterialVectors<D>::heat() const;                                            \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
+    template bool MaterialVectors<D>::flow(const ConstState<D>&);                                \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
     template std::vector<Mat<D>> MaterialVectors<D>::deformation_gradients(                      \
         std::span<const double>) const;                                                          \

@@ -45,6 +45,9 @@ class HyperelasticMaterial {
     bool settle(std::size_t i, const Mat<Dim>& F, const State<Dim>& state) const {
         return loop_->settle(i, F, state);
     }
+    /// Whether the law is a FlowingLaw, and its flow.
+    bool flows() const { return loop_->flows(); }
+    std::optional<Mat<Dim>> flow(const Mat<Dim>& F) const { return loop_->flow(F); }
     double stiffness() const { return loop_->stiffness(); }
     std::string describe() const { return loop_->describe(); }
 
@@ -59,6 +62,8 @@ class HyperelasticMaterial {
         virtual void rates(std::size_t, const Mat<Dim>&, const Mat<Dim>&, const ConstState<Dim>&,
                            const State<Dim>&) const = 0;
         virtual bool settle(std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
+        virtual bool flows() const = 0;
+        virtual std::optional<Mat<Dim>> flow(const Mat<Dim>&) const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
     };
@@ -115,6 +120,11 @@ class HyperelasticMaterial {
                     [[maybe_unused]] const State<Dim>& state) const override {
             if constexpr (remembers) return law.settle(i, F, state);
             return false;
+        }
+        bool flows() const override { return FlowingLaw<Law, Dim>; }
+        std::optional<Mat<Dim>> flow([[maybe_unused]] const Mat<Dim>& F) const override {
+            if constexpr (FlowingLaw<Law, Dim>) return law.flow(F);
+            return {};
         }
         double stiffness() const override { return law.stiffness(); }
         std::string describe() const override { return law.describe(); }

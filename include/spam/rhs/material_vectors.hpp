@@ -23,8 +23,10 @@ struct MaterialVectorScheme {
 ///
 ///     enter   a neighbour that is new within 1.1 h, where it weighs nothing: X_kj = F_k^-1 r_kj
 ///     leave   beyond that, with weight 0
+///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays; what
+///             that takes off the energy is heat()
 ///
-/// Between such changes the motion is Hamiltonian, at them the energy stays as it is: p is kept exactly, L
+/// Between such changes the motion is Hamiltonian, at the first two the energy stays as it is: p is kept exactly, L
 /// and E to integrator error, and there is no tensile instability. Where a step is so long that somebody enters
 /// within h, F and the energy of a whole particle stay as they are all the same, and what a particle with few
 /// neighbours loses is booked as heat(). Particles of different bodies do not see each other: let them touch
@@ -79,9 +81,11 @@ class MaterialVectors final : public Term<Dim> {
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;
     std::vector<double> energies(const ConstState<Dim>& state) const;
-    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, bool& whole);
+    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, double* records,
+               bool& whole);
+    bool flow(const ConstState<Dim>& state);
     bool update(const ConstState<Dim>& state);
-    std::string complaint() const;
+    std::string complaint(const ConstState<Dim>& state) const;
 
     HyperelasticMaterial<Dim> material_;
     MaterialVectorScheme scheme_;
