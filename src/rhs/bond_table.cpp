@@ -117,6 +117,21 @@ void BondTable<Dim>::find_reverse() {
 }
 
 template <int Dim>
+void BondTable<Dim>::find_reach() {
+    const std::size_t n = particles();
+    reach_.resize((n + block - 1) / block);
+    for (std::size_t b = 0; b < reach_.size(); ++b) {
+        reach_[b] = {b, b};
+        for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k)
+            if (row(k) > 0) {
+                reach_[b].first = std::min<std::size_t>(reach_[b].first, partner(k, 0) / block);
+                reach_[b].last =
+                    std::max<std::size_t>(reach_[b].last, partner(k, row(k) - 1) / block);
+            }
+    }
+}
+
+template <int Dim>
 void BondTable<Dim>::update(const Eigen::Ref<const Points<Dim>>& x, const Anchor& anchor) {
     list_.build(x);
     built_at_.assign(x.data(), x.data() + x.size());
@@ -151,6 +166,7 @@ void BondTable<Dim>::update(const Eigen::Ref<const Points<Dim>>& x, const Anchor
         });
     });
     find_reverse();
+    find_reach();
 }
 
 /// Rows without what fills groups, so that lanes do not matter.
@@ -178,6 +194,7 @@ void BondTable<Dim>::remember(Archive& archive) {
             set_X(k, m, one);
         }
     find_reverse();
+    find_reach();
 }
 
 template class BondTable<2>;

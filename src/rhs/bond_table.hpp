@@ -47,6 +47,15 @@ class BondTable {
     /// x_j - x_k, the nearest image.
     Vec<Dim> separation(const double* x, std::size_t k, std::size_t j) const;
 
+    /// Particles are summed in blocks of so many, whose bonds fit the cache.
+    static constexpr std::size_t block = 128;
+    std::size_t blocks() const { return reach_.size(); }
+    /// The first and the last block that a block has bonds with.
+    struct Reach {
+        std::size_t first, last;
+    };
+    const Reach& reach(std::size_t b) const { return reach_[b]; }
+
     /// For the loops of right-hand sides, which write t.
     BondView<Dim> view();
 
@@ -72,6 +81,7 @@ class BondTable {
     };
     void lay_out(std::vector<std::uint32_t> count);
     void find_reverse();
+    void find_reach();
 
     double range_;
     Box<Dim> box_;
@@ -80,6 +90,7 @@ class BondTable {
     ClusterList<Dim> list_;
     std::vector<double> built_at_;
     Rows rows_;
+    std::vector<Reach> reach_;  ///< by block
     std::vector<double> t_;
 };
 

@@ -149,21 +149,20 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
     const BondView<Dim> view = p.view();
     const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
     std::atomic<bool> finite = true;
-    p.for_groups([&](std::size_t first, std::size_t last) {
-        std::array<double, Parts::block * Parts::Record::numbers> records{};
+    const auto find = [&](std::size_t first, std::size_t last) {
+        std::array<double, BondTable<Dim>::block * BondRecord<Dim>::numbers> records{};
         p.sweeps.fit(view, p.x.data(), records.data(), first, last);
         const std::size_t k = first * lanes;
         bool whole = true;
         if (!close(k, std::min(last * lanes, view.particles) - k, now.state, records.data(), whole))
             finite = false;
         p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
-    });
-    if (!finite) return complaint(now.state);
+    };
     const double* const mass = this->particles().mass.data();
-    p.for_groups([&](std::size_t first, std::size_t last) {
+    p.for_blocks(find, [&](std::size_t first, std::size_t last) {
         p.sweeps.gather(view, mass, now.v_dot, first, last);
     });
-    return {};
+    return finite ? std::string() : complaint(now.state);
 }
 
 /// Names the first particle whose stress has no meaning.
