@@ -150,12 +150,14 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
     const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
     std::atomic<bool> finite = true;
     const auto find = [&](std::size_t first, std::size_t last) {
-        std::array<double, BondTable<Dim>::block * BondRecord<Dim>::numbers> records{};
+        constexpr std::size_t numbers = BondRecord<Dim>::numbers;
+        std::array<double, BondTable<Dim>::block * numbers> records;
+        const std::size_t k = first * lanes, filled = std::min(last * lanes, view.particles) - k;
+        std::fill(records.data() + filled * numbers,
+                  records.data() + (last - first) * lanes * numbers, 0.0);
         p.sweeps.fit(view, p.x.data(), records.data(), first, last);
-        const std::size_t k = first * lanes;
         bool whole = true;
-        if (!close(k, std::min(last * lanes, view.particles) - k, now.state, records.data(), whole))
-            finite = false;
+        if (!close(k, filled, now.state, records.data(), whole)) finite = false;
         p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
     };
     const double* const mass = this->particles().mass.data();

@@ -5,7 +5,9 @@
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
@@ -91,6 +93,14 @@ BOOST_AUTO_TEST_CASE(nor_does_that_of_a_total_lagrangian_solid) {
         TotalLagrangianModel<2> many(jittered_particles<2>(40, 61), StVenantKirchhoff{0.7, 0.4},
                                      scheme);
         BOOST_TEST(allocations_of_second_call(many, 2) == 0);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(nor_does_that_of_a_solid_with_material_vectors) {
+    for (const int cells : {8, 40}) {
+        MaterialVectorModel<2> model(jittered_particles<2>(cells, 61), PolynomialSolid{0.7, 0.4},
+                                     {1.2, 3.0, 1.0});
+        BOOST_TEST(allocations_of_second_call(model, cells == 8 ? 1 : 2) == 0);
     }
 }
 
