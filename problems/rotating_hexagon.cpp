@@ -17,13 +17,15 @@
 //     e_dot     = -1/2 sum m f_ij . v_ij           lambda = eta = sqrt(3/16)
 //
 // The reference is molecular dynamics of the same particles joined by harmonic springs.
-// --formulation total_lagrangian sums over initial neighbours and keeps p, L, E and the shape. Every
-// case reports turns_survived: turns until a row of invariants.csv has a shape error >= 0.5 or a
+// --formulation total_lagrangian sums over initial neighbours and keeps p, L, E and the shape; with
+// --formulation material_vectors a body that may meet new neighbours does. Every case reports turns_survived: turns until a row of invariants.csv has a shape error >= 0.5 or a
 // closest pair <= 0.3 spacings, the turns run if none has.
 // Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
 // With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
 #include "rotating_hexagon/hexagon.hpp"
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
 #include <fmt/format.h>
@@ -62,10 +64,15 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
                 std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{})};
     if (p.lagrangian())
         return {
-            label, fmt::format("total Lagrangian, κ = {}", p.penalty),
+            label, fmt::format("total Lagrangian, κ = {}", p.kappa()),
             std::make_unique<TotalLagrangianModel<2>>(
                 std::move(particles), StVenantKirchhoff::like(ElasticSolid::triangular_lattice()),
-                TotalLagrangianScheme{std::sqrt(4.0 / 3.0), scheme.range, p.penalty})};
+                TotalLagrangianScheme{std::sqrt(4.0 / 3.0), scheme.range, p.kappa()})};
+    if (p.material_vectors())
+        return {label, fmt::format("material vectors, κ = {}", p.kappa()),
+                std::make_unique<MaterialVectorModel<2>>(
+                    std::move(particles), PolynomialSolid::like(ElasticSolid::triangular_lattice()),
+                    MaterialVectorScheme{std::sqrt(4.0 / 3.0), scheme.range, p.kappa()})};
     return {label, title,
             std::make_unique<SmoothParticleModel<2>>(std::move(particles),
                                                      ElasticSolid::triangular_lattice(), scheme)};
@@ -99,8 +106,9 @@ void add_rules(Options& options, const Parameters& p) {
     const auto of_one = with({"model", "formulation", "penalty"});
     options.only_when(of_one, {}, [&, of_one] { return !options.first_given(of_one).empty(); }, {});
     const std::vector<std::string> by{"model", "formulation"};
-    const auto lagrangian = [&p] { return p.lagrangian(); };
+    const auto remembers = [&p] { return p.remembers(); };
     const auto not_lagrangian = [&p] { return !p.lagrangian(); };
+    const auto no_vectors = [&p] { return !p.material_vectors(); };
     const auto smooth = [&p] { return !p.md(); };
     options.only_when(with({"kernel", "range", "formulation", "penalty", "torques"}), {"model"},
                       smooth,
@@ -109,25 +117,28 @@ void add_rules(Options& options, const Parameters& p) {
     options.only_when(with({"torques", "kernel"}), by, not_lagrangian,
                       "has no meaning for --formulation total_lagrangian (no choice of that kind, "
                       "no pair torques, always Lucy's weight); leave it out");
-    options.only_when({"penalty"}, by, lagrangian,
+    options.only_when(with({"torques", "kernel"}), by, no_vectors,
+                      "has no meaning for --formulation material_vectors (no choice of that kind, "
+                      "no pair torques, a weight of its own); leave it out");
+    options.only_when({"penalty"}, by, remembers,
                       "has no meaning for --formulation updated; leave it out");
 }
 
 // ---- what is known of the standard case, from the paper and tests/drift/hexagon.cpp ----
 
 /// 217 particles, speed 0.1, Lucy with range 3, RK4 with dt <= 0.1; one turn and integrated density,
-/// or total Lagrangian and up to 100 turns.
+/// or a solid that remembers and up to 100 turns.
 bool is_standard(const Session& session, const Parameters& p, const Model<2>& model) {
     const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
     if (solid && (solid->scheme().kernel != Kernel::lucy || solid->scheme().range != 3.0 ||
                   solid->scheme().density == Density::summed || solid->scheme().viscosity > 0.0 ||
                   solid->scheme().closest_approach > 0.0))
         return false;
-    if (p.lagrangian() && (session.scheme().range != 3.0 || p.penalty < 0.1 || p.penalty > 10.0))
+    if (p.remembers() && (session.scheme().range != 3.0 || p.kappa() < 0.1 || p.kappa() > 10.0))
         return false;
     const auto& integrator = session.integrator();
     return p.size == 8 && p.speed == 0.1 && p.turns.value_or(0.0) >= 1.0 &&
-           *p.turns <= (p.lagrangian() ? 100.0 : 1.0) && integrator.method == "rk4" &&
+           *p.turns <= (p.remembers() ? 100.0 : 1.0) && integrator.method == "rk4" &&
            *integrator.dt <= 0.1;
 }
 
@@ -157,8 +168,8 @@ void check_standard(Session& session, const RunRecord& run, const Model<2>& mode
     const bool L_kept = model.promises().angular_momentum != Promise::not_kept;
     const double ratio = h.last("angular_momentum") / h.first("angular_momentum");
     const auto drift = [&](const char* name) {  // throughout, where nothing ever happens
-        return p.lagrangian() ? h.largest_change(name) / std::abs(h.first(name))
-                              : h.relative_drift(name);
+        return p.remembers() ? h.largest_change(name) / std::abs(h.first(name))
+                             : h.relative_drift(name);
     };
 
     claim("momentum_per_particle", momentum_per_particle(run), 0.0, 1e-12, "pairwise forces");
@@ -167,9 +178,9 @@ void check_standard(Session& session, const RunRecord& run, const Model<2>& mode
     const auto law = solid ? solid->scheme().angular_momentum : AngularMomentum::free;
     const bool jumps = law == AngularMomentum::torque_particle || law == AngularMomentum::gauss;
     claim("energy_drift", drift("energy"), 0.0,
-          jumps                                    ? 1e-4
-          : p.lagrangian() || (solid && !averaged) ? 1e-7
-                                                   : 1e-9,
+          jumps                                   ? 1e-4
+          : p.remembers() || (solid && !averaged) ? 1e-7
+                                                  : 1e-9,
           "to the error of RK4");
     if (L_kept)
         claim("angular_momentum_drift", drift("angular_momentum"), 0.0,
@@ -184,7 +195,7 @@ void check_standard(Session& session, const RunRecord& run, const Model<2>& mode
         claim("closest_pair_before_half_turn", smallest_in_first_half(h, "closest_pair"), 0.1, 0.1,
               "tensile instability: clumps, [HHM04] Fig. 4");
     if (!solid)
-        claim("shape_error_largest", h.largest("shape_error"), 0.0, p.lagrangian() ? 0.03 : 0.05,
+        claim("shape_error_largest", h.largest("shape_error"), 0.0, p.remembers() ? 0.03 : 0.05,
               "elastic breathing only");
     else if (averaged)
         claim("shape_error_largest", h.largest("shape_error"), 0.0,
@@ -230,11 +241,14 @@ int main(int argc, char** argv) {
         "7 (L kept)",
         {[](double f) { return f == 4.0 || f == 5.0 || f == 6.0 || f == 7.0; }, "4, 5, 6 or 7"});
     problem.use_scheme();
-    options.choice<Formulation>("formulation", p.formulation,
-                                {Formulation::updated, Formulation::total_lagrangian},
-                                "sums over the present neighbours, or over the initial ones");
+    options.choice<Formulation>(
+        "formulation", p.formulation,
+        {Formulation::updated, Formulation::total_lagrangian, Formulation::material_vectors},
+        "sums over the present neighbours, over the initial ones, or over the "
+        "present ones with a memory");
     options.number("penalty", p.penalty,
-                   "penalty kappa against zero-energy modes, total_lagrangian only (default 0.1)",
+                   "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
+                   "material_vectors (default 1)",
                    non_negative());
 
     options.flag("torques", p.torques,

@@ -16,9 +16,17 @@ inline std::string_view to_string(ModelKind kind) {
     return kind == ModelKind::spam ? "spam" : "md";
 }
 
-enum class Formulation { updated, total_lagrangian };
+enum class Formulation { updated, total_lagrangian, material_vectors };
 inline std::string_view to_string(Formulation formulation) {
-    return formulation == Formulation::updated ? "updated" : "total_lagrangian";
+    switch (formulation) {
+        case Formulation::total_lagrangian:
+            return "total_lagrangian";
+        case Formulation::material_vectors:
+            return "material_vectors";
+        case Formulation::updated:
+            break;
+    }
+    return "updated";
 }
 
 struct Parameters {
@@ -28,8 +36,8 @@ struct Parameters {
     std::optional<double> figure;  // of [HHM04], 4 to 7
     ModelKind model = ModelKind::spam;
     Formulation formulation = Formulation::updated;
-    double penalty = 0.1;  // kappa of the total-Lagrangian scheme
-    bool torques = false;  // record their distribution
+    std::optional<double> penalty;  // kappa of the solids that remember
+    bool torques = false;           // record their distribution
 
     double omega() const { return speed / size; }
     double turn() const {  // nominal: the hexagon's own turn is slower
@@ -37,6 +45,9 @@ struct Parameters {
     }
     bool md() const { return model == ModelKind::md; }
     bool lagrangian() const { return !md() && formulation == Formulation::total_lagrangian; }
+    bool material_vectors() const { return !md() && formulation == Formulation::material_vectors; }
+    bool remembers() const { return lagrangian() || material_vectors(); }
+    double kappa() const { return penalty.value_or(lagrangian() ? 0.1 : 1.0); }
 };
 
 struct Hexagon {

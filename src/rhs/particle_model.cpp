@@ -227,6 +227,13 @@ std::string ParticleModel<Dim>::inseparable() const {
 }
 
 template <int Dim>
+bool ParticleModel<Dim>::settles() const {
+    return walled_ || Model<Dim>::settles() ||
+           std::any_of(terms_.begin(), terms_.end(),
+                       [](const auto& term) { return term->settles(); });
+}
+
+template <int Dim>
 double ParticleModel<Dim>::fastest_damping() const {
     double damping = 0.0;
     for (const auto& term : terms_) damping += term->fastest_damping();

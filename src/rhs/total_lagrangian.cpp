@@ -102,6 +102,11 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
       sweeps_(std::make_unique<const Sweeps<Dim>>(
           best_sweeps([](auto level) { return lagrangian_sweeps<Dim, level>(); }))),
       list_(scheme.range, 0.0, this->box(), sweeps_->width, stride<Dim>) {
+    if (material_.flows())
+        throw InputError(fmt::format(
+            "material: '{}' flows by changing what neighbours remember, and these never change; use a "
+            "solid with a plastic metric, or --formulation material_vectors",
+            material_.describe()));
     if (!this->particles().reference_position.allFinite())
         throw InputError("particles: a reference position is not finite");
     list_.build(this->particles().reference_position);

@@ -205,6 +205,11 @@ BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
         {{"--formulation", "total_lagrangian", "--transport", "plain"},
          {"transport", "--formulation total_lagrangian"}},
         {{"--formulation", "total_lagrangian", "--range", "0.9"}, {"range", "0.9"}},
+        {{"--formulation", "material_vectors", "--kernel", "w5"}, {"kernel", "material_vectors"}},
+        {{"--formulation", "material_vectors", "--torques"}, {"torques", "material_vectors"}},
+        {{"--formulation", "material_vectors", "--penalty", "-1"}, {"penalty", "-1"}},
+        {{"--formulation", "material_vectors", "--integrator", "cvode:adams"},
+         {"cvode:adams", "one-step"}},
     });
 }
 

@@ -166,6 +166,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"rotating_hexagon", {}},
     {"rotating_hexagon", {"--model", "md"}},
     {"rotating_hexagon", {"--formulation", "total_lagrangian"}},
+    {"rotating_hexagon", {"--formulation", "material_vectors"}},
     {"rotating_hexagon", {"--figure", "6"}},
     {"rotating_hexagon", {"--angular-momentum", "gauss", "--transport", "monaghan"}},
     {"rotating_hexagon", {"--integrator", "arkode:BOGACKI_SHAMPINE_4_2_3"}},

@@ -6,7 +6,9 @@
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
@@ -100,6 +102,14 @@ BOOST_AUTO_TEST_CASE(nor_does_that_of_elements) {
     BOOST_TEST(allocations_of_second_call(*few, 1) == 0);
     const auto many = model_of({distorted_mesh(40, 30)}, yielding(0.05, 1.0), {0.1, 0.1});
     BOOST_TEST(allocations_of_second_call(*many, 2) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(nor_does_that_of_a_solid_with_material_vectors) {
+    for (const int cells : {8, 40}) {
+        MaterialVectorModel<2> model(jittered_particles<2>(cells, 61), PolynomialSolid{0.7, 0.4},
+                                     {1.2, 3.0, 1.0});
+        BOOST_TEST(allocations_of_second_call(model, cells == 8 ? 1 : 2) == 0);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(the_counter_counts) {

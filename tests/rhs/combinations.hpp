@@ -17,12 +17,14 @@
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/hencky_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/elements.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -134,6 +136,11 @@ inline const std::map<std::string, Build> without_scheme{
          s.model.add_term<TotalLagrangian<2>>(
              HenckySolid<PlaneVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}),
              TotalLagrangianScheme{site_density});
+     }},
+    {"MaterialVectors",
+     [](Sample& s, const Scheme&) {
+         s.model.add_term<MaterialVectors<2>>(PolynomialSolid{0.43, 0.43},
+                                              MaterialVectorScheme{site_density});
      }},
     {"Springs", [](Sample& s, const Scheme&) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }}};
 

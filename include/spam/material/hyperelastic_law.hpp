@@ -5,6 +5,7 @@
 #include <spam/core/tensor.hpp>
 
 #include <concepts>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,14 @@ concept HyperelasticLawWithRates = HyperelasticLawWithMemory<Law, Dim> &&
     requires(const Law law, std::size_t i, Mat<Dim> F, const ConstState<Dim>& state,
              const State<Dim>& rate) {
     law.rates(state, rate)(i, F, F);
+};
+
+/// One that flows where neighbours remember the material (physics/material_vectors.hpp): flow(F) is the G by
+/// which F is returned, F <- F G, where the stress is beyond what the law bears; nothing where it is not. Its
+/// stress and energy are those of the elastic part alone.
+template <class Law, int Dim>
+concept FlowingLaw = HyperelasticLaw<Law, Dim> && requires(const Law law, Mat<Dim> F) {
+    { law.flow(F) } -> std::same_as<std::optional<Mat<Dim>>>;
 };
 
 }  // namespace spam

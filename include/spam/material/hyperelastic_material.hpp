@@ -47,6 +47,9 @@ class HyperelasticMaterial {
     }
     /// False where the law's energy is not that of its stress (it says so by a keeps_energy of its own).
     bool keeps_energy() const { return loop_->keeps_energy(); }
+    /// Whether the law is a FlowingLaw, and its flow.
+    bool flows() const { return loop_->flows(); }
+    std::optional<Mat<Dim>> flow(const Mat<Dim>& F) const { return loop_->flow(F); }
     double stiffness() const { return loop_->stiffness(); }
     std::string describe() const { return loop_->describe(); }
 
@@ -62,6 +65,8 @@ class HyperelasticMaterial {
                            const State<Dim>&) const = 0;
         virtual bool settle(std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
         virtual bool keeps_energy() const = 0;
+        virtual bool flows() const = 0;
+        virtual std::optional<Mat<Dim>> flow(const Mat<Dim>&) const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
     };
@@ -122,6 +127,11 @@ class HyperelasticMaterial {
         bool keeps_energy() const override {
             if constexpr (requires { Law::keeps_energy; }) return Law::keeps_energy;
             return true;
+        }
+        bool flows() const override { return FlowingLaw<Law, Dim>; }
+        std::optional<Mat<Dim>> flow([[maybe_unused]] const Mat<Dim>& F) const override {
+            if constexpr (FlowingLaw<Law, Dim>) return law.flow(F);
+            return {};
         }
         double stiffness() const override { return law.stiffness(); }
         std::string describe() const override { return law.describe(); }

@@ -79,7 +79,7 @@ class ParticleModel : public Model<Dim> {
     std::vector<Remark> watch(double t, std::span<const double> y) final;
     void set_bodies(std::vector<std::int32_t> bodies) final;
     void remember(Archive& archive) final;
-    bool settles() const final { return walled_ || Model<Dim>::settles(); }
+    bool settles() const final;
     /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n, where
     /// externals have potentials with the velocity that keeps the energy.
     bool settle(double t, std::span<double> y) final;

@@ -101,8 +101,10 @@ class Term {
     }
 
     /// After an accepted step, and before anybody looks at it: the term may change its history fields,
-    /// and the stress that goes with them. Returns whether it did.
+    /// and the stress that goes with them, or what it remembers beyond y. Returns whether rates changed.
     virtual bool settle(double, const State<Dim>&) { return false; }
+    /// Whether settle() may do anything although y holds no history of the term.
+    virtual bool settles() const { return false; }
 
   protected:
     const Particles<Dim>& particles() const { return among_.particles(); }

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/material/hyperelastic_material.hpp>
+#include <spam/rhs/particle_model.hpp>
+
+#include <memory>
+
+namespace spam {
+
+/// How a solid with material vectors is summed.
+struct MaterialVectorScheme {
+    double density;  ///< rho_0 at the start, free of stress; sqrt(4/3) m in the triangular lattice
+    double range = 3.0;  ///< h, beyond which bonds weigh nothing
+    /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness: stable for
+    /// 1.5 times the largest tension or more; above 3 short waves become stiff.
+    double penalty = 1.0;
+};
+
+/// A solid of smooth particles that meet new neighbours: each particle remembers a material vector for each
+/// present neighbour of its body (physics/material_vectors.hpp). y = (x, v); the vectors are parameters, as a
+/// neighbour list is, and change after accepted steps only:
+///
+///     enter   a neighbour that is new within 1.1 h, where it weighs nothing: X_kj = F_k^-1 r_kj
+///     leave   beyond that, with weight 0
+///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays; what
+///             that takes off the energy is heat()
+///
+/// Between such changes the motion is Hamiltonian, at the first two the energy stays as it is: p is kept exactly, L
+/// and E to integrator error, and there is no tensile instability. Where a step is so long that somebody enters
+/// within h, F and the energy of a whole particle stay as they are all the same, and what a particle with few
+/// neighbours loses is booked as heat(). Particles of different bodies do not see each other: let them touch
+/// (Contact). Bodies are those of Particles::body when the term is made.
+template <int Dim>
+class MaterialVectors final : public Term<Dim> {
+  public:
+    /// `material`: any hyperelastic law without a memory; one that is a polynomial of F (PolynomialSolid) stays
+    /// smooth where particles are turned inside out. Material vectors at the start are separations of
+    /// Particles::reference_position. Throws InputError for a density, range or penalty that makes no
+    /// sense, a material with a memory and a periodic box not wider than 2.2 ranges.
+    MaterialVectors(const Selection<Dim>& among, const HyperelasticMaterial<Dim>& material,
+                    const MaterialVectorScheme& scheme);
+    ~MaterialVectors() override;
+
+    using typename Term<Dim>::Now;
+    std::string rates(const Now& now) override;
+    bool settle(double t, const State<Dim>& state) override;
+    bool settles() const override { return true; }
+    /// Of all particles, with heat().
+    double energy(std::span<const double> y) const override;
+    /// rho_0/det F; negative where a particle is turned inside out.
+    std::vector<double> density(std::span<const double> y) const override;
+    std::string no_walls() const override {
+        return "particles have no bonds with images behind walls";
+    }
+    std::string describe() const override;
+    std::size_t pairs() const override;
+    double reach() const override { return scheme_.range; }
+    std::size_t list_builds() const override;
+    void remember(Archive& archive) override;
+
+    const MaterialVectorScheme& scheme() const { return scheme_; }
+    /// Energy that changes of the table have taken out of the motion so far.
+    double heat() const;
+    /// F of all particles, in their order; F_ab = d x_a / d X_b.
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
+
+    /// A particle's neighbour now, for observers and tests.
+    struct Bond {
+        std::uint32_t partner;
+        Vec<Dim> X;
+        double weight;
+    };
+    std::vector<Bond> bonds(std::span<const double> y, std::size_t k) const;
+
+  private:
+    struct Parts;
+    struct Fit;
+    void load(const double* x);
+    std::vector<Bond> bonds_at(const double* x, std::size_t k) const;
+    Fit fit(const double* x, std::size_t k) const;
+    double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;
+    std::vector<double> energies(const ConstState<Dim>& state) const;
+    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, double* records,
+               bool& whole);
+    bool flow(const ConstState<Dim>& state);
+    bool update(const ConstState<Dim>& state);
+    std::string complaint(const ConstState<Dim>& state) const;
+
+    HyperelasticMaterial<Dim> material_;
+    MaterialVectorScheme scheme_;
+    std::unique_ptr<Parts> parts_;
+};
+
+extern template class MaterialVectors<2>;
+extern template class MaterialVectors<3>;
+
+/// A solid with material vectors and nothing else.
+template <int Dim>
+class MaterialVectorModel final : public ParticleModel<Dim> {
+  public:
+    MaterialVectorModel(Particles<Dim> particles, const HyperelasticMaterial<Dim>& material,
+                        const MaterialVectorScheme& scheme, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<MaterialVectors<Dim>>(material, scheme)) {}
+
+    const MaterialVectorScheme& scheme() const { return law.scheme(); }
+
+    MaterialVectors<Dim>& law;
+};
+
+}  // namespace spam

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops over bonds that a right-hand side waits for: each function is defined in
+// bond_sweeps.lanes.cpp, for every instruction set.
+#pragma once
+
+#include "../core/levels.hpp"
+#include <spam/core/instruction_set.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace spam {
+
+/// What the loops read of a table of bonds. Particles are taken `lanes` at a time, a group; bond m of all
+/// of them lies together, after those before m. A particle with fewer bonds than others of its group has
+/// bonds with itself behind its own, of weight 0. Sums run over the bonds of a particle in their order: what has
+/// no weight adds an exact zero and leaves no trace.
+template <int Dim>
+struct BondView {
+    static constexpr std::size_t vector_numbers = Dim + 1;  ///< X and g, each number for all lanes
+
+    std::size_t particles;
+    const std::size_t* first;      ///< by group: where its bonds begin
+    const std::uint32_t* partner;  ///< by bond
+    const std::uint32_t* reverse;  ///< by bond: which place in t is that of the partner's bond
+    const double* vectors;         ///< by bond
+    double* t;                     ///< Dim by place: r, each number for all lanes; then forces
+    double inverse_range;
+    double little;                            ///< of FitSolver
+    double length[Dim], inverse_length[Dim];  ///< of the box, 0 where it is free
+};
+
+/// The place in t, among those of W bonds that lie together, of the one in a lane: even lanes first, because
+/// registers fall apart and come together so.
+constexpr std::size_t place_of_lane(std::size_t lane, std::size_t lanes) {
+    return lane / 2 + lane % 2 * (lanes / 2);
+}
+
+/// What right-hand sides find of a particle, number by number: F, G, N^-1, H and c. Held for a block of groups
+/// at a time, while their bonds are in the cache.
+template <int Dim>
+struct BondRecord {
+    static constexpr std::size_t square = Dim * Dim, symmetric = Dim * (Dim + 1) / 2;
+    static constexpr std::size_t F = 0, G = square, K = 2 * square, H = K + symmetric,
+                                 c = H + symmetric, numbers = c + 1;
+};
+
+/// For the groups [first, last), whose records begin with that of the first one.
+template <int Dim>
+struct BondSweeps {
+    int lanes = 0;
+    /// F and N^-1 of every record; r into t. `x`: Dim by particle, also of those that fill the last group.
+    void (*fit)(const BondView<Dim>&, const double* x, double* records, std::size_t first,
+                std::size_t last) = nullptr;
+    /// t, by F, G, H and c; v_dot_i = sum_j t_ij. `whole`: H = 0 in all.
+    void (*forces)(const BondView<Dim>&, const double* records, bool whole, double* v_dot,
+                   std::size_t first, std::size_t last) = nullptr;
+    /// v_dot_i = (v_dot_i - sum_j t_ji)/m_i
+    void (*gather)(const BondView<Dim>&, const double* mass, double* v_dot, std::size_t first,
+                   std::size_t last) = nullptr;
+};
+
+template <int Dim, InstructionSet Level>
+BondSweeps<Dim> bond_sweeps(bool periodic);
+
+}  // namespace spam

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "material_vector_parts.hpp"
+#include "packed_particles.hpp"
+#include <spam/core/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particles<Dim>& particles,
+                               const HyperelasticMaterial<Dim>& material) {
+    valid_range<Dim>(scheme.range, particles.spacing, particles.size());
+    if (!(scheme.density > 0.0) || !std::isfinite(scheme.density))
+        throw InputError(fmt::format(
+            "density: {} at the start must be positive; sqrt(4/3) m is that of the triangular lattice",
+            scheme.density));
+    if (!(scheme.penalty >= 0.0) || !std::isfinite(scheme.penalty))
+        throw InputError(fmt::format("penalty: {} must be a number not below 0; try --penalty 1",
+                                     scheme.penalty));
+    if (scheme.penalty > 0.0 && !(material.stiffness() > 0.0))
+        throw InputError(fmt::format(
+            "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
+            "another material",
+            scheme.penalty, material.stiffness()));
+    if (!material.history().empty())
+        throw InputError(fmt::format(
+            "material: '{}' remembers its plastic flow from a reference configuration, and material "
+            "vectors have none; use --formulation total_lagrangian",
+            material.describe()));
+    if (!particles.reference_position.allFinite())
+        throw InputError("particles: a reference position is not finite");
+    return scheme;
+}
+
+template <int Dim>
+void read(const double* from, Mat<Dim>& t) {
+    std::copy_n(from, t.c.size(), t.c.begin());
+}
+template <int Dim>
+void read(const double* from, SymTensor<Dim>& t) {
+    std::copy_n(from, t.c.size(), t.c.begin());
+}
+
+}  // namespace
+
+template <int Dim>
+MaterialVectors<Dim>::~MaterialVectors() = default;
+
+template <int Dim>
+MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
+                                      const HyperelasticMaterial<Dim>& material,
+                                      const MaterialVectorScheme& scheme)
+    : Term<Dim>(among),
+      material_(material),
+      scheme_(validated(scheme, this->particles(), material)) {
+    const auto sweeps = at_level(instruction_set(), [&](auto level) {
+        return bond_sweeps<Dim, level>(this->box().periodic());
+    });
+    const Particles<Dim>& all = this->particles();
+    parts_ = std::make_unique<Parts>(
+        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps.lanes, all.body)});
+    Parts& p = *parts_;
+    p.table.update(all.reference_position, [](std::size_t, const Vec<Dim>& r) { return r; });
+    const std::size_t n = all.size(),
+                      full = p.table.groups() * static_cast<std::size_t>(sweeps.lanes);
+    p.numbers.resize(n);
+    std::iota(p.numbers.begin(), p.numbers.end(), 0U);
+    p.x.assign(full * Dim, 0.0);
+    p.heat.assign(n, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+        BondFit<Dim, double> sums;
+        for (const Bond& bond : bonds_at(all.reference_position.data(), k))
+            sums.add(bond.weight, bond.X, bond.X);
+        double trace = 0.0;
+        for (int a = 0; a < Dim; ++a) trace += sums.N(a, a);
+        p.N0 = std::max(p.N0, trace / Dim);
+    }
+    if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
+    p.stiffness = scheme.penalty * material.stiffness() / p.N0;
+    for (std::size_t k = 0; k < n; ++k) p.volume.push_back(all.mass[k] / scheme.density);
+}
+
+/// Positions as the sweeps want them: inside a periodic box, and some behind the last one.
+template <int Dim>
+void MaterialVectors<Dim>::load(const double* x) {
+    const Box<Dim>& box = this->box();
+    double* const to = parts_->x.data();
+    if (!box.periodic()) {
+        parallel_for(this->particles().size(), [=](std::size_t i) {
+            for (std::size_t a = 0; a < Dim; ++a) to[i * Dim + a] = x[i * Dim + a];
+        });
+        return;
+    }
+    parallel_for(this->particles().size(), [&](std::size_t i) {
+        for (std::size_t a = 0; a < Dim; ++a)
+            to[i * Dim + a] = box.periodic(static_cast<int>(a))
+                                  ? box.wrap(static_cast<int>(a), x[i * Dim + a])
+                                  : x[i * Dim + a];
+    });
+}
+
+/// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. False where a stress is not finite.
+template <int Dim>
+bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const ConstState<Dim>& state,
+                                 double* records, bool& whole) {
+    using Record = BondRecord<Dim>;
+    if (!material_.stresses({&parts_->numbers[first], count}, Record::numbers, records + Record::F,
+                            records + Record::G, state))
+        return false;
+    for (std::size_t i = 0; i < count; ++i) {
+        double* const record = records + i * Record::numbers;
+        SymTensor<Dim> K, H;
+        Mat<Dim> P;
+        read(record + Record::K, K);
+        read(record + Record::G, P);
+        const double V = parts_->volume[first + i];
+        record[Record::c] = V * parts_->stiffness;
+        const Wholeness spans = Wholeness::of(K, parts_->N0);
+        const Mat<Dim> G = (V * spans.th) * (P * K);
+        std::copy(G.c.begin(), G.c.end(), record + Record::G);
+        if (spans.slope > 0.0) {
+            whole = false;
+            Mat<Dim> F, root;
+            read(record + Record::F, F);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = 0; b < Dim; ++b) root(a, b) = K(a, b);
+            const Mat<Dim> square = root * K;
+            const double by = V * spans.slope * material_.energy(first + i, F, state);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = a; b < Dim; ++b) H(a, b) = by * square(a, b);
+        }
+        std::copy(H.c.begin(), H.c.end(), record + Record::H);
+    }
+    return true;
+}
+
+template <int Dim>
+std::string MaterialVectors<Dim>::rates(const Now& now) {
+    Parts& p = *parts_;
+    load(now.state.position().data());
+    const BondView<Dim> view = p.view();
+    const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
+    std::atomic<bool> finite = true;
+    const auto find = [&](std::size_t first, std::size_t last) {
+        constexpr std::size_t numbers = BondRecord<Dim>::numbers;
+        std::array<double, BondTable<Dim>::block * numbers> records;
+        const std::size_t k = first * lanes, filled = std::min(last * lanes, view.particles) - k;
+        std::fill(records.data() + filled * numbers,
+                  records.data() + (last - first) * lanes * numbers, 0.0);
+        p.sweeps.fit(view, p.x.data(), records.data(), first, last);
+        bool whole = true;
+        if (!close(k, filled, now.state, records.data(), whole)) finite = false;
+        p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
+    };
+    const double* const mass = this->particles().mass.data();
+    p.for_blocks(find, [&](std::size_t first, std::size_t last) {
+        p.sweeps.gather(view, mass, now.v_dot, first, last);
+    });
+    return finite ? std::string() : complaint(now.state);
+}
+
+/// Names the first particle whose stress has no meaning.
+template <int Dim>
+std::string MaterialVectors<Dim>::complaint(const ConstState<Dim>& state) const {
+    const auto finite = [](const Mat<Dim>& t) {
+        return std::all_of(t.c.begin(), t.c.end(), [](double x) { return std::isfinite(x); });
+    };
+    const double* const x = state.position().data();
+    for (const std::uint32_t& k : parts_->numbers) {
+        const Mat<Dim> F = fit(x, k).F;
+        Mat<Dim> P;
+        material_.stresses({&k, 1}, F.c.size(), F.c.data(), P.c.data(), state);
+        if (!finite(F) || !finite(P))
+            return fmt::format("the {} of particle {} is not finite",
+                               finite(F) ? "stress" : "deformation gradient",
+                               this->particles().id[k]);
+    }
+    return "a stress is not finite";
+}
+
+template <int Dim>
+std::size_t MaterialVectors<Dim>::pairs() const {
+    return parts_->table.bonds() / 2;
+}
+
+template <int Dim>
+std::size_t MaterialVectors<Dim>::list_builds() const {
+    return parts_->table.builds();
+}
+
+template <int Dim>
+void MaterialVectors<Dim>::remember(Archive& archive) {
+    archive(parts_->heat, parts_->table);
+}
+
+template <int Dim>
+std::string MaterialVectors<Dim>::describe() const {
+    return fmt::format("material vectors, {}, density {:.6g}, range {}, penalty kappa = {}",
+                       material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+}
+
+template class MaterialVectors<2>;
+template class MaterialVectors<3>;
+
+}  // namespace spam
