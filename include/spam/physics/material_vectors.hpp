@@ -113,7 +113,7 @@ struct FitSolver {
 struct Wholeness {
     double th, slope;
 
-    /// Whether F means anything in every direction; its rounding error is below 1e-9 then.
+    /// Whether F means anything in every direction; its error is below 1e-8 then.
     bool spans() const { return th > 1e-6; }
 
     template <int Dim>
