@@ -18,8 +18,9 @@
 //
 // The reference is molecular dynamics of the same particles joined by harmonic springs.
 // --formulation total_lagrangian sums over initial neighbours and keeps p, L, E and the shape; with
-// --formulation material_vectors a body that may meet new neighbours does. Every case reports turns_survived: turns until a row of invariants.csv has a shape error >= 0.5 or a
-// closest pair <= 0.3 spacings, the turns run if none has.
+// --formulation material_vectors a body that may meet new neighbours does. Every case reports
+// turns_survived: turns until a row of invariants.csv has a shape error >= 0.5 or a closest pair <= 0.3
+// spacings, the turns run if none has.
 // Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
 // With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
 #include "rotating_hexagon/hexagon.hpp"

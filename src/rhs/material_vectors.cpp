@@ -107,7 +107,8 @@ void MaterialVectors<Dim>::load(const double* x) {
     });
 }
 
-/// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. False where a stress is not finite.
+/// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. Returns false
+/// where a stress is not finite.
 template <int Dim>
 bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const ConstState<Dim>& state,
                                  double* records, bool& whole) {

@@ -76,7 +76,7 @@ bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
     const double* const x = state.position().data();
     return parallel_count(p.numbers.size(), [&](std::size_t k) -> std::size_t {
                const Fit before = fit(x, k);
-               if (Wholeness::of(before.K, p.N0).th == 0.0) return 0;
+               if (!Wholeness::of(before.K, p.N0).spans()) return 0;
                const std::optional<Mat<Dim>> G = material_.flow(before.F);
                if (!G) return 0;
                const Mat<Dim> back = inverse(*G);
@@ -99,7 +99,7 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
         const Fit now = fit(x, k);
         before[k] = energy_of(now, k, state);
         // Where neighbours do not span space there is no F^-1, and r is as good as any.
-        if (Wholeness::of(now.K, p.N0).th > 0.0 && std::abs(determinant(now.F)) > 1e-3)
+        if (Wholeness::of(now.K, p.N0).spans() && std::abs(determinant(now.F)) > 1e-3)
             back[k] = inverse(now.F);
         else
             for (int a = 0; a < Dim; ++a) back[k](a, a) = 1.0;

@@ -6,7 +6,9 @@
 #include <spam/diagnostics/history.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/shape.hpp>
+#include <spam/material/flowing_solid.hpp>
 #include <spam/material/polynomial_solid.hpp>
+#include <spam/neighbors/connected_parts.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/material_vectors.hpp>
@@ -151,4 +153,23 @@ BOOST_AUTO_TEST_CASE(two_hexagons_bounce) {
     BOOST_TEST(end.momentum.norm() < 1e-12);
     BOOST_TEST(end.angular_momentum.norm() < 1e-7);
     BOOST_TEST(law.heat() == 0.0);
+}
+
+/// Particles with one or two neighbours left, whose F says nothing in some direction, do not flow: else
+/// their vectors become infinite.
+BOOST_AUTO_TEST_CASE(a_hexagon_spun_to_pieces) {
+    const auto solid = PolynomialSolid::like(ElasticSolid::triangular_lattice());
+    MaterialVectorModel<2> model(make_particles<2>(triangular_hexagon(8), 1.0),
+                                 FlowingSolid{solid, 0.05, 0.05}, {rho});
+    const auto y0 = initial_state<2>(model, 1.0, 1.0, rigid_rotation(0.8 / 8));
+    Motion<2> motion(model, y0, {.method = "rk4", .dt = 0.1});
+    const auto start = measure_invariants(model, motion.y());
+    motion.advance_to(effort(150.0, 40.0));
+    const auto end = measure_invariants(model, motion.y());
+    const auto body = connected_parts<2>(motion.state().position(), 1.6, {});
+    BOOST_TEST(*std::max_element(body.begin(), body.end()) > 30);
+    BOOST_TEST(model.law.heat() > 0.1 * start.energy);
+    BOOST_TEST(std::abs(end.energy / start.energy - 1.0) < 1e-6);
+    BOOST_TEST(end.momentum.norm() < 1e-12);
+    BOOST_TEST(std::abs(end.angular_momentum[0] / start.angular_momentum[0] - 1.0) < 1e-8);
 }

@@ -113,6 +113,9 @@ struct FitSolver {
 struct Wholeness {
     double th, slope;
 
+    /// Whether F means anything in every direction; its error is below 1e-8 then.
+    bool spans() const { return th > 1e-6; }
+
     template <int Dim>
     static Wholeness of(const SymTensor<Dim>& inverse_N, double N0) {
         double trace = 0.0;
