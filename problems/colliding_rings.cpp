@@ -15,6 +15,7 @@
 //
 // Where the rings have parted, part of their kinetic energy is in vibrations: restitution is the speed at
 // which the centres part by the one at which they met.
+#include "formulation.hpp"
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/nearest_state.hpp>
 #include <spam/rhs/contact.hpp>
@@ -28,11 +29,6 @@
 namespace {
 
 using namespace spam;
-
-enum class Formulation { total_lagrangian, updated };
-std::string_view to_string(Formulation formulation) {
-    return formulation == Formulation::updated ? "updated" : "total_lagrangian";
-}
 
 const double rho = std::sqrt(4.0 / 3.0);   // stress-free; mass and spacing are 1
 const double eta = std::sqrt(3.0 / 16.0);  // = lambda

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a tapered bar is pulled apart from within, by molecules and by smooth particles, [HH07] 13; 10 s
+// spam-list: a tapered bar is pulled apart from within, by molecules and by smooth particles, [HH07] 13; 3 s
 //
 // Tension test, [HH07] 13: a bar of `columns` x `rows` particles of a triangular lattice, its heights 10 % less
 // at the middle, with a load on every particle that grows with time, under friction.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "../formulation.hpp"
 #include "beam.hpp"
 #include <spam/problem/nearest_state.hpp>
 #include <spam/spam.hpp>
@@ -8,11 +9,6 @@
 namespace cantilever {
 
 using namespace spam;
-
-enum class Formulation { total_lagrangian, updated };
-inline std::string_view to_string(Formulation formulation) {
-    return formulation == Formulation::updated ? "updated" : "total_lagrangian";
-}
 
 struct Parameters {
     Beam beam{};

@@ -2,16 +2,12 @@
 // What the parts of plastic_block share.
 #pragma once
 
+#include "../formulation.hpp"
 #include <spam/spam.hpp>
 
 namespace plastic_block {
 
 using namespace spam;
-
-enum class Formulation { updated, total_lagrangian };
-inline std::string_view to_string(Formulation formulation) {
-    return formulation == Formulation::updated ? "updated" : "total_lagrangian";
-}
 
 /// How the stress is kept on the yield surface.
 enum class Yielding {

@@ -2,6 +2,7 @@
 // What the parts of rotating_hexagon share.
 #pragma once
 
+#include "../formulation.hpp"
 #include <spam/problem/nearest_state.hpp>
 #include <spam/spam.hpp>
 
@@ -14,19 +15,6 @@ using namespace spam;
 enum class ModelKind { spam, md };
 inline std::string_view to_string(ModelKind kind) {
     return kind == ModelKind::spam ? "spam" : "md";
-}
-
-enum class Formulation { updated, total_lagrangian, material_vectors };
-inline std::string_view to_string(Formulation formulation) {
-    switch (formulation) {
-        case Formulation::total_lagrangian:
-            return "total_lagrangian";
-        case Formulation::material_vectors:
-            return "material_vectors";
-        case Formulation::updated:
-            break;
-    }
-    return "updated";
 }
 
 struct Parameters {

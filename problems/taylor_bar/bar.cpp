@@ -71,12 +71,10 @@ BarShape shape_of(const Bar& bar, std::span<const double> y) {
     const auto x = state.position();
     const double half = 0.5 * bar.spacing;
     const double outermost = X.topRows<2>().colwise().norm().maxCoeff();
-    BarShape shape{0.0, 0.0, state.field(field_kind::plastic_strain).maxCoeff(), false};
+    BarShape shape{0.0, 0.0, state.field(field_kind::plastic_strain).maxCoeff()};
     int of_rim = 0, of_end = 0;
-    double momentum = 0.0;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
         const auto& f = F[static_cast<std::size_t>(i)];
-        momentum += state.velocity()(2, i);
         if (X(2, i) > (bar.layers - 1) * bar.spacing) {
             shape.length += x(2, i) + half * f(2, 2);
             ++of_end;
@@ -93,7 +91,6 @@ BarShape shape_of(const Bar& bar, std::span<const double> y) {
     }
     shape.length /= of_end;
     shape.foot /= of_rim;
-    shape.turned_back = momentum > 0.0;
     return shape;
 }
 

@@ -43,10 +43,9 @@ Bar make_bar(const Parameters& p, int particles_per_radius);
 
 /// The faces of particles are half a spacing before them, stretched as they are.
 struct BarShape {
-    double length;     ///< mm, from the wall
-    double foot;       ///< largest radius, mm: the mean over the rim of the layer at the wall
-    double strain;     ///< largest plastic strain
-    bool turned_back;  ///< its centre of mass moves away from the wall
+    double length;  ///< mm, from the wall
+    double foot;    ///< largest radius, mm: the mean over the rim of the layer at the wall
+    double strain;  ///< largest plastic strain
 };
 BarShape shape_of(const Bar& bar, std::span<const double> y);
 

@@ -3,7 +3,7 @@
 // keeps: whatever its table holds, its forces are the slope of an energy that knows neither origin nor axes,
 // and changes of the table leave that energy as it is. Each property with a law that fails.
 #include "support/material_vector_oracle.hpp"
-#include "support/random_state.hpp"
+#include "support/turned_body.hpp"
 #include <spam/material/polynomial_solid.hpp>
 
 #include <Eigen/Geometry>
@@ -16,19 +16,7 @@ namespace {
 
 constexpr PolynomialSolid solid{0.7, 0.4};
 
-template <int Dim>
-using Matrix = Eigen::Matrix<double, Dim, Dim>;
-
 MaterialVectorScheme scheme(double penalty) { return {1.2, 2.6, penalty}; }
-
-template <int Dim>
-Matrix<Dim> rotation(double angle) {
-    if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
-    else
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -0.5).normalized())
-            .toRotationMatrix();
-}
 
 template <int Dim>
 MaterialVectorModel<Dim> model_of(double penalty) {
@@ -119,22 +107,6 @@ std::array<double, 2> residuals(const std::vector<double>& y, const std::vector<
         torques += torque.norm();
     }
     return {sum.norm() / size, turn.norm() / torques};
-}
-
-/// What turning and moving the body changes: the energy, and the forces seen in the body's axes.
-template <int Dim>
-double invariance_error(MaterialVectorModel<Dim>& model, std::vector<double> y) {
-    const double before = model.internal_energy(y);
-    auto expected = rates_of(model, y);
-    const Matrix<Dim> Q = rotation<Dim>(0.7);
-    for (auto* turned : {&y, &expected}) {
-        const State<Dim> s(model.layout(), *turned);
-        s.position() = (Q * s.position()).eval();
-        s.velocity() = (Q * s.velocity()).eval();
-    }
-    State<Dim>(model.layout(), y).position().array() += 3.7;
-    return std::max(std::abs(model.internal_energy(y) / before - 1.0),
-                    relative_difference(rates_of(model, y), expected));
 }
 
 /// Whether the table changed in a way that rates see.

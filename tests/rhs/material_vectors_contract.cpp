@@ -2,8 +2,8 @@
 // What a solid with material vectors owes the house: no thread count in its bits, restarts that go on with the
 // same bits while neighbours change, states without meaning named, bodies that do not see each other, bad
 // input refused in a line.
-#include "support/random_state.hpp"
 #include "support/refusal.hpp"
+#include "support/turned_body.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/diagnostics/total_energy.hpp>
@@ -25,15 +25,6 @@ namespace {
 
 constexpr PolynomialSolid solid{0.43, 0.43};
 const MaterialVectorScheme usual{1.2, 2.6, 1.0};
-
-template <int Dim>
-std::vector<double> moved(const Model<Dim>& model, double distance, unsigned seed) {
-    auto y = random_state(model, seed);
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> u(-distance, distance);
-    for (auto& x : State<Dim>(model.layout(), y).position().reshaped()) x += u(random);
-    return y;
-}
 
 /// A block that is sheared until all have other neighbours.
 struct Sheared {

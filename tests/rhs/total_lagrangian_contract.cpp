@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a total-Lagrangian solid owes the house: no history and no thread count in its bits, states
 // without meaning named, any hyperelastic law, bad input refused in a line.
-#include "support/random_state.hpp"
 #include "support/refusal.hpp"
+#include "support/turned_body.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
@@ -20,15 +20,6 @@ namespace {
 
 const StVenantKirchhoff solid{0.7, 0.4};
 const TotalLagrangianScheme usual{1.2, 2.6, 0.1};
-
-template <int Dim>
-std::vector<double> moved(const Model<Dim>& model, double distance, unsigned seed) {
-    auto y = random_state(model, seed);
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> u(-distance, distance);
-    for (auto& x : State<Dim>(model.layout(), y).position().reshaped()) x += u(random);
-    return y;
-}
 
 /// Energy (eta/2) (F:F - 2 - 2 ln J) + (lambda/2) (ln J)^2 in the plane, J = det F > 0.
 struct NeoHookean {
