@@ -88,8 +88,8 @@ void add_options(Problem& problem, Parameters& p) {
                          "the outermost particles of the plate move freely, or are held");
     options.number(
         "contact", p.contact.energy,
-        "energy e_c of a contact in place of adhesion; 0 for none, ball and plate are then "
-        "neighbours like any others",
+        "energy e_c of a contact in place of adhesion; 0 for none: ball and plate are then "
+        "neighbours like any others (of elements 0 means a contact of energy 1)",
         non_negative());
     options
         .number("contact-range", p.contact.range,

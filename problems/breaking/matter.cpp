@@ -111,7 +111,7 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
     options.choice<MatterKind>(
         "model", matter.kind, kinds,
         "molecular dynamics with a pair potential, or with potentials of the density; or smooth "
-        "particles of a solid that yields");
+        "particles or finite elements of a solid that yields");
     options.number("yield-stress", matter.yield_stress,
                    "stress Y at which a solid yields (default: 0.05)", positive());
     options.number("hardening", matter.hardening,
