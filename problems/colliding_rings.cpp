@@ -129,7 +129,7 @@ void report(Session& session, const RunRecord& run) {
     const bool known =
         run.complete && run.statistics.t_end >= 600.0 &&
         session.when_default({"radius", "inner-radius", "speed", "offset", "formulation", "range",
-                              "penalty", "contact", "contact-range"});
+                              "penalty", "contact-energy", "contact-range"});
     session.claim({"contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
                    "contact does not hold on to anything"},
                   known);
@@ -193,7 +193,7 @@ void add_options(Options& options, Parameters& p) {
         .only_when(
             {"formulation"}, [&p] { return p.formulation == Formulation::updated; },
             "has no meaning for --formulation total_lagrangian; leave it out");
-    options.number("contact", p.contact.energy, "energy e_c of the contact", positive());
+    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive());
     options.number("contact-range", p.contact.range,
                    "distance at which particles of different rings touch, at most a spacing",
                    positive());

@@ -105,7 +105,9 @@ class Material {
                                             std::size_t count, const ConstState<Dim>& state,
                                             double* to) const override {
             const double* const from = state.stress().data();
-            if constexpr (ReturningLaw<Law, Dim>) {
+            if constexpr (LawThatReturnsBlocks<Law, Dim>) {
+                law.return_block(t, state, first, count, to);
+            } else if constexpr (ReturningLaw<Law, Dim>) {
                 const Law own = law;
                 const auto returned = own.return_map(t, state);
                 for (std::size_t i = first; i < first + count; ++i)

@@ -40,6 +40,14 @@ concept ReturningLaw = LawWithHistory<Law, Dim> &&
     { law.return_map(t, state)(i, trial) } -> std::same_as<SymTensor<Dim>>;
 };
 
+/// One that returns the particles [first, first + count) at once, return_block(t, state, first, count, stress): the
+/// same stresses as return_map()'s, to rounding error, into their places of `stress`, which has those of all.
+template <class Law, int Dim>
+concept LawThatReturnsBlocks = ReturningLaw<Law, Dim> &&
+    requires(const Law law, double t, const ConstState<Dim>& state, std::size_t n, double* stress) {
+    law.return_block(t, state, n, n, stress);
+};
+
 /// One with more rates than those of its stress: rates(state, rate)(i, grad_v, stress) returns sigma_dot of
 /// particle i and sets its further rates; stress_rate() is not called then.
 template <class Law, int Dim>
