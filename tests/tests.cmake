@@ -255,6 +255,7 @@ spam_test(problem/remake property)
 # What users add, each in one file.
 spam_test(extend/external property)
 spam_test(extend/observer unit)
+spam_test(extend/stepping unit)
 spam_test(extend/history_material property)
 spam_test(extend/pair_law.lanes property)
 spam_add_sweeps(test.extend.pair_law.lanes extend/pair_law.lanes.cpp)
