@@ -224,6 +224,20 @@ if(NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
     PASS_REGULAR_EXPRESSION "needs_vector.hpp does not compile by itself")
 endif()
 
+# What is written in Python needs 3.11, for TOML.
+find_package(Python3 3.11 COMPONENTS Interpreter)
+function(spam_python_test path)
+  string(REPLACE "/" "." name ${path})
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/${path}.py)
+  set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT ${timeout}
+                                          SKIP_REGULAR_EXPRESSION "skipped: ")
+  if(NOT Python3_EXECUTABLE)
+    set_tests_properties(${name} PROPERTIES DISABLED TRUE)
+  endif()
+endfunction()
+spam_python_test(numbers/numbers)
+spam_python_test(docs/docs)
+
 set(readme_flags "${CMAKE_CXX_FLAGS}")
 if(SPAM_SANITIZE)
   string(APPEND readme_flags " -fsanitize=${SPAM_SANITIZE}")
@@ -241,6 +255,7 @@ spam_test(problem/remake property)
 # What users add, each in one file.
 spam_test(extend/external property)
 spam_test(extend/observer unit)
+spam_test(extend/stepping unit)
 spam_test(extend/history_material property)
 spam_test(extend/pair_law.lanes property)
 spam_add_sweeps(test.extend.pair_law.lanes extend/pair_law.lanes.cpp)

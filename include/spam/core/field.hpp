@@ -36,7 +36,9 @@ enum class Holder {
 ///     inline constexpr FieldKind damage{"damage", Rank::scalar, Role::history, "1"};
 struct FieldKind {
     std::string_view name;  ///< in messages, checkpoints, snapshots and the options --atol-NAME
+    /// How many numbers a particle has of it, and how they turn.
     Rank rank;
+    /// How it changes.
     Role role;
     std::string_view unit;  ///< in terms of mass, length, time: "m/l^3"; "1" for a pure number
     int place = 100;        ///< in y: by place, then in the order in which a model names them
@@ -45,14 +47,21 @@ struct FieldKind {
 /// A field of y, by its kind. Two of the same name are the same.
 class Field {
   public:
+    /// The field that `kind` declares; `kind` must live as long as the program.
     constexpr Field(const FieldKind& kind) : kind_(&kind) {}  // NOLINT: a kind is a field
 
+    /// As in messages, checkpoints, snapshots and options --atol-NAME.
     constexpr std::string_view name() const { return kind_->name; }
+    /// How many numbers it holds, and how they turn.
     constexpr Rank rank() const { return kind_->rank; }
+    /// Integrated, history or account.
     constexpr Role role() const { return kind_->role; }
+    /// In terms of mass m, length l and time t; "1" for a pure number.
     constexpr std::string_view unit() const { return kind_->unit; }
+    /// Its place in y: fields lie in ascending order.
     constexpr int place() const { return kind_->place; }
 
+    /// Numbers per particle (or of an account) in Dim dimensions.
     template <int Dim>
     constexpr std::size_t components() const {
         switch (rank()) {
@@ -94,7 +103,9 @@ class Field {
     /// Whether both were declared by the same FieldKind.
     constexpr bool same_kind(const Field& other) const { return kind_ == other.kind_; }
 
+    /// Those that most models carry; declared with their ranks and units in field_kind.
     static const Field position, velocity, density, stress, energy;
+    /// Accounts: what externals have given to all particles since the start.
     static const Field work, heat, impulse, angular_impulse;
     /// Heat given to the particles through the wall across direction a, the lower or the upper one: part of
     /// `heat`.
@@ -125,11 +136,11 @@ inline constexpr std::array wall_heat{
     FieldKind{"heat_back", Rank::scalar, Role::account, "m l^2/t^2", 209}};
 }  // namespace field_kind
 
-inline constexpr Field Field::position{field_kind::position};
-inline constexpr Field Field::velocity{field_kind::velocity};
-inline constexpr Field Field::density{field_kind::density};  ///< by continuity
-inline constexpr Field Field::stress{field_kind::stress};    ///< tension positive
-inline constexpr Field Field::energy{field_kind::energy};    ///< internal, by mass
+inline constexpr Field Field::position{field_kind::position};  ///< never wrapped
+inline constexpr Field Field::velocity{field_kind::velocity};  ///< v, not the averaged one
+inline constexpr Field Field::density{field_kind::density};    ///< by continuity
+inline constexpr Field Field::stress{field_kind::stress};      ///< tension positive
+inline constexpr Field Field::energy{field_kind::energy};      ///< internal, by mass
 inline constexpr Field Field::work{field_kind::work};        ///< done on the particles by externals
 inline constexpr Field Field::heat{field_kind::heat};        ///< given to them by externals
 inline constexpr Field Field::impulse{field_kind::impulse};  ///< time integral of external forces

@@ -17,7 +17,9 @@ namespace spam {
 template <int Dim>
 class FieldLayout {
   public:
+    /// One field in y.
     struct Block {
+        /// Which field it is.
         Field field;
         std::size_t components;  ///< per particle or element, or of the account
         std::size_t offset;      ///< first entry of the block in y
@@ -29,6 +31,7 @@ class FieldLayout {
         std::string name() const;
     };
 
+    /// Of so many particles; the fields in any order, each once. Scales are 1 until set_scale().
     FieldLayout(std::size_t particles, const std::vector<Field>& fields);
 
     /// One more field, at its place; nothing where y holds it already. Blocks behind it move: no y may
@@ -37,9 +40,12 @@ class FieldLayout {
     /// How many elements there are; before fields of theirs are added.
     void set_elements(std::size_t elements) { elements_ = elements; }
 
+    /// N
     std::size_t particles() const { return particles_; }
+    /// M; 0 where particles alone hold fields.
     std::size_t elements() const { return elements_; }
     std::size_t size() const { return size_; }  ///< entries of y
+    /// In the order of y.
     const std::vector<Block>& blocks() const { return blocks_; }
     /// nullptr where y does not carry the field.
     const Block* find(Field field, Holder holder = Holder::particle) const {
@@ -47,6 +53,7 @@ class FieldLayout {
             if (block.field.same_kind(field) && block.holder == holder) return &block;
         return find_by_name(field, holder);
     }
+    /// Whether y carries the field.
     bool has(Field field, Holder holder = Holder::particle) const {
         return find(field, holder) != nullptr;
     }
@@ -56,11 +63,15 @@ class FieldLayout {
 
     /// Which number entry k of y is.
     struct Entry {
+        /// Which field it belongs to.
         Field field;
+        /// Whether a particle or an element holds it; `particle` for accounts.
         Holder holder;
         std::size_t number;  ///< of the particle or element; 0 for accounts
+        /// Place among the components of the field, from 0.
         std::size_t component;
     };
+    /// What entry k is. Precondition: k < size().
     Entry entry(std::size_t k) const;
     /// The field and component of entry k: "velocity_y", "stress_xy", "density".
     std::string entry_name(std::size_t k) const;

@@ -23,7 +23,9 @@ struct Particles {
     double spacing = 1.0;                  ///< nearest-neighbour distance of the reference lattice
     std::vector<std::int32_t> material{};  ///< N, place in a term's list of materials; empty: all 0
 
+    /// N
     std::size_t size() const { return mass.size(); }
+    /// How many bodies there are: the largest number in `body`, and one more.
     std::int32_t bodies() const {
         std::int32_t n = 0;
         for (const auto b : body) n = b >= n ? b + 1 : n;

@@ -14,10 +14,14 @@ struct Population {
     /// A part of a new particle: an old one, where the new one lies from it, and which share of the new
     /// one's mass comes from it.
     struct Part {
+        /// Number of the old particle.
         std::uint32_t particle;
+        /// Of the new particle's mass, 0 to 1.
         double share;
+        /// From the old particle to the new one, in units of length.
         Point<Dim> offset;
     };
+    /// The new set.
     Particles<Dim> particles;
     std::vector<std::vector<Part>> parts;  ///< by new particle; shares of each sum to 1
     std::vector<std::uint32_t> removed;    ///< old particles that none is made of
@@ -29,6 +33,7 @@ struct Population {
 template <int Dim>
 class Repopulation {
   public:
+    /// Of `before`, which must outlive it.
     explicit Repopulation(const Particles<Dim>& before);
 
     /// Particle i in offsets.cols() >= 2 of equal mass, at these places (Dim x children) from its own; their
@@ -36,8 +41,10 @@ class Repopulation {
     void split(std::size_t i, const Points<Dim>& offsets);
     /// Two or more particles in one, at their centre of mass. Throws InputError for different materials.
     void merge(const std::vector<std::size_t>& particles);
+    /// Takes particle i away. Throws InputError where it is split, merged or removed already.
     void remove(std::size_t i);
 
+    /// The new set, and what each of its particles is made of; remake() carries a state over.
     Population<Dim> finish() const;
 
   private:

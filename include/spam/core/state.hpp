@@ -31,6 +31,7 @@ class StateView {
                            Eigen::Matrix<double, Rows, -1>>>;
 
   public:
+    /// Of `y`, layout.size() numbers; both must outlive the view. It copies nothing.
     StateView(const FieldLayout<Dim>& layout, std::span<Scalar> y)
         : layout_(&layout),
           y_(y),
@@ -65,10 +66,15 @@ class StateView {
         return elements;
     }
 
+    /// Dim x N, length; never wrapped into a periodic box. Here and below: precondition has(field).
     Block<Dim> position() const { return block<Dim>(Field::position); }
+    /// Dim x N, length/time.
     Block<Dim> velocity() const { return block<Dim>(Field::velocity); }
+    /// 1 x N, mass/length^Dim; in y only where the scheme integrates it (else Model::density).
     Block<1> density() const { return block<1>(Field::density); }
+    /// D(D+1)/2 x N, tension positive; of solids only.
     Block<symmetric_size(Dim)> stress() const { return block<symmetric_size(Dim)>(Field::stress); }
+    /// 1 x N, internal energy per mass, length^2/time^2.
     Block<1> energy() const { return block<1>(Field::energy); }
     /// Any field: components x N, or components x 1 of an account.
     Block<Eigen::Dynamic> field(Field field) const {
@@ -87,7 +93,9 @@ class StateView {
         return b == nullptr ? nullptr : y_.data() + b->offset + b->components * first_;
     }
 
+    /// Whether y carries the field for what is looked at (particles or elements).
     bool has(Field field) const { return layout_->has(field, holder_); }
+    /// Where each field lies in y.
     const FieldLayout<Dim>& layout() const { return *layout_; }
 
   private:

@@ -21,7 +21,7 @@ std::string suggestion(std::string_view word, std::span<const std::string> candi
 std::optional<double> number_in(std::string_view word);
 std::optional<int> whole_number_in(std::string_view word);
 
-/// `text` as one line: control characters as \n, \t, \x1b, so that a message stays a message.
+/// `text` as one line: control characters as `\n`, `\t`, `\x1b`, so that a message stays a message.
 std::string one_line(std::string_view text);
 
 }  // namespace spam

@@ -10,11 +10,15 @@ namespace spam {
 
 /// How one invariant fared against what the scheme promises.
 struct Drift {
+    /// "mass", "momentum", "angular momentum", "energy".
     std::string name;
+    /// What the scheme promises of it.
     Promise promise;
     double change;  ///< largest change over the run, in parts of `scale`
     double limit;   ///< largest change with which the promise counts as kept
+    /// What changes are divided by, in the units of the invariant (measure_drifts).
     double scale = 1.0;
+    /// Whether the promise was kept; true where none was given.
     bool kept() const { return promise == Promise::not_kept || change <= limit; }
 };
 

@@ -46,6 +46,7 @@ class External {
     /// Whether it is a potential of positions: then no work is booked, and energy_at() is the energy of one
     /// particle in it, at x (mass length^2/time^2).
     virtual bool potential() const { return false; }
+    /// The energy of one particle at x in the potential, mass length^2/time^2; 0 where there is none.
     virtual double energy_at(const Particles<Dim>&, std::size_t /*particle*/,
                              const Point<Dim>& /*x*/) const {
         return 0.0;

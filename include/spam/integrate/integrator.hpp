@@ -55,17 +55,22 @@ struct Ode {
 /// How to integrate: a method of integration_methods() (methods.hpp), with fixed steps where `dt` is
 /// set and adaptive ones where not. What is not set is the method's own choice.
 struct IntegratorOptions {
+    /// A name of integration_methods().
     std::string method = "rk4";
+    /// Fixed step, in units of time; unset: steps are adaptive.
     std::optional<double> dt;
+    /// Relative tolerance of adaptive steps.
     double rtol = 1e-8;
     double atol = 1e-10;  ///< times the scale of each field
     struct FieldTolerance {
         std::string field;  ///< a block of the ode
         double atol;        ///< in place of atol times scale
     };
+    /// Fields with an absolute tolerance of their own, in their units.
     std::vector<FieldTolerance> field_atol{};
-    double min_step = 1e-12;  ///< an adaptive step below this stops the run
-    std::optional<double> max_step{}, initial_step{};
+    double min_step = 1e-12;               ///< an adaptive step below this stops the run
+    std::optional<double> max_step{};      ///< no adaptive step is longer
+    std::optional<double> initial_step{};  ///< the first one; unset: the method's own choice
     std::string controller{};        ///< of ARKODE's steps, one of arkode_controllers(); empty: pid
     std::optional<double> safety{};  ///< of ARKODE's steps: part of the one that would just do
     bool relaxation = false;  ///< ARKODE rescales every adaptive step so that it keeps the energy
@@ -74,6 +79,7 @@ struct IntegratorOptions {
     bool adaptive() const;  ///< precondition: valid
     /// Of a field whose typical magnitude is `scale`.
     double absolute_tolerance(std::string_view field, double scale) const;
+    /// "rk4, fixed step dt = 0.1"; for the banner.
     std::string describe() const;
 
     /// Throws InputError naming the offending option, the allowed values and the fix.

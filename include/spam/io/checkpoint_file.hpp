@@ -37,7 +37,7 @@ class CheckpointWriter {
     void bytes(std::string_view path, std::span<const std::byte> values);
 
     /// Puts the checkpoint, sealed by a digest of all its bytes, in place of `target`: at once or
-    /// not at all, and on the disk when this returns. A temporary <target>.tmp is used. Throws
+    /// not at all, and on the disk when this returns. A temporary TARGET.tmp is used. Throws
     /// OutputError (file and the system's reason); the earlier file is then as it was. May be
     /// called again; nothing can be added then (std::logic_error).
     void save(const std::filesystem::path& target) const;

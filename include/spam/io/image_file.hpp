@@ -17,7 +17,7 @@ struct ImageField {
     Eigen::MatrixXd values;
 };
 
-/// Fields on a regular grid at time t for ParaView: <name>.vti, image data with point arrays (raw
+/// Fields on a regular grid at time t for ParaView: NAME.vti, image data with point arrays (raw
 /// appended, in the byte order of the machine) and field data TimeValue, box_low, box_high, periodic
 /// (3 each), the box being as large as the grid where it is free. A plane is one node thick. Throws InputError when a field has not
 /// one column a node, OutputError when it cannot be written.

@@ -13,7 +13,9 @@ namespace spam {
 
 /// Which numbers an option accepts. `words` completes "must be ...".
 struct Allowed {
+    /// Whether a number is accepted.
     std::function<bool(double)> holds;
+    /// What is accepted, in words.
     std::string words;
 };
 Allowed any_number();
@@ -27,6 +29,7 @@ Allowed between(double least, double most);
 /// InputError: one line with the option, the value, what is allowed and a hint.
 class Options {
   public:
+    /// Of a program; `summary` is the first line of --help.
     Options(std::string program, std::string summary);
     ~Options();
     Options(Options&&) noexcept;
@@ -39,10 +42,14 @@ class Options {
     /// An option just added, for the rules that it comes with (below).
     class Added {
       public:
+        /// Made by number(), text(), flag() and choice().
         Added(Options& options, std::string name) : options_(options), name_(std::move(name)) {}
+        /// Options::only_when of this option.
         const Added& only_when(std::vector<std::string> by, std::function<bool()> holds,
                                std::string why) const;
+        /// Options::need of this option.
         const Added& needs(const std::string& other) const;
+        /// Options::exclude of this option.
         const Added& excludes(std::vector<std::string> others) const;
         /// `word` stands for no number, which is the default of an optional one.
         const Added& or_word(const std::string& word) const;
@@ -52,16 +59,20 @@ class Options {
         std::string name_;
     };
 
-    // `target` holds the default and receives the value; it must outlive parse().
-    // A number is a double or an int, or an optional one without default.
+    // Here and below `target` holds the default and receives the value; it must outlive parse().
+    /// A double or an int, or an optional one without default, which must hold what `allowed` says. Here and below: `help` is its line in --help.
     template <class Target>
     Added number(std::string name, Target& target, std::string help, Allowed allowed);
+    /// A whole number.
     template <class Target>
     Added integer(std::string name, Target& target, std::string help, Allowed allowed) {
         return number(std::move(name), target, std::move(help), std::move(allowed));
     }
+    /// Any words.
     Added text(std::string name, std::string& target, std::string help);
+    /// On when given without a value; in a file true or false.
     Added flag(std::string name, bool& target, std::string help);
+    /// One of `names`: `set` receives its place, `get` tells the default's.
     Added choice(std::string name, std::vector<std::string> names, std::string help,
                  std::function<void(std::size_t)> set, std::function<std::size_t()> get);
 

@@ -14,32 +14,46 @@ namespace spam {
 /// expected| <= tolerance must hold; otherwise nothing is claimed. What is not a finite number never
 /// holds: a problem leaves out what its case does not have.
 struct Check {
+    /// As in result.json: words joined by _.
     std::string name;
+    /// What was measured, in the units of the run.
     double value;
+    /// What it must be; unset where nothing is claimed.
     std::optional<double> expected;
+    /// Largest |value - expected| that holds.
     double tolerance = 0.0;
     std::string source;  ///< where the expectation comes from, e.g. "[HHM04] VIII"
 
+    /// Whether |value - expected| <= tolerance, or nothing is claimed of a finite value.
     bool holds() const;
 };
 
 /// What a run cost, as written to statistics.json.
 struct RunStatistics {
+    /// Name of the problem.
     std::string problem;
+    /// N of the first run.
     std::size_t particles = 0;
+    /// Time reached.
     double t_end = 0.0;
+    /// Accepted.
     std::size_t steps = 0;
+    /// Tried and given up, their error being too large.
     std::size_t rejected_steps = 0;
+    /// Right-hand sides evaluated.
     std::size_t rhs_evaluations = 0;
     std::size_t events = 0;  ///< between steps: reflections of pairs
+    /// Of the clock, output included.
     double wall_seconds = 0.0;
     std::size_t pair_interactions = 0;  ///< undirected pairs summed over, all right-hand sides
     /// What kept adaptive steps short; nothing where steps were fixed.
     struct Limit {
+        /// A field of y.
         std::string field;
         std::size_t steps;   ///< that it limited
         double error_share;  ///< its part of their errors' sum of squares, summed over all steps
     };
+    /// By field, of adaptive steps.
     std::vector<Limit> limited_by;
     std::string stopped;            ///< empty for a complete run
     std::vector<Drift> invariants;  ///< of one run; a sum of runs has none

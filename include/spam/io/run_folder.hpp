@@ -14,7 +14,7 @@
 namespace spam {
 
 /// Where a run leaves its results. Never overwrites: an existing folder with contents is refused,
-/// or with `force` moved aside to <path>.old-1, -2, ... first. Held (FolderLock) as long as this or a
+/// or with `force` moved aside to PATH.old-1, -2, ... first. Held (FolderLock) as long as this or a
 /// copy lives: a folder where another run is at work is refused in every case.
 class RunFolder {
   public:

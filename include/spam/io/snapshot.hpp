@@ -11,7 +11,7 @@
 
 namespace spam {
 
-/// Writes <name>.pvd, a list of files and the times they show, for ParaView. Throws OutputError.
+/// Writes NAME.pvd, a list of files and the times they show, for ParaView. Throws OutputError.
 void write_file_series(const RunFolder& folder, std::string_view name,
                        const std::vector<std::pair<double, std::string>>& files);
 

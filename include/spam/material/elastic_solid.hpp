@@ -28,10 +28,12 @@ struct ElasticSolid {
     /// c_L
     double sound_speed(double density) const { return std::sqrt((lambda + 2.0 * eta) / density); }
 
+    /// One line with both constants.
     std::string describe() const {
         return fmt::format("elastic solid, lambda = {:.6g}, eta = {:.6g}", lambda, eta);
     }
 
+    /// sigma_dot (stress/time) for (grad v)_ab = d v_b/d x_a and the stress, tension positive. T is double or Lanes.
     template <int Dim, class T>
     SymTensor<Dim, T> stress_rate(const Mat<Dim, T>& grad_v,
                                   const SymTensor<Dim, T>& stress) const {

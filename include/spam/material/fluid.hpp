@@ -108,13 +108,18 @@ class AnyEquationOfState {
 
 /// What a fluid is made of: what it is at rest, and friction and conduction where it has them.
 struct Fluid {
+    /// Pressure, temperature and sound speed of density and energy.
     AnyEquationOfState state;
+    /// Friction; none where unset.
     std::optional<NewtonViscosity> viscosity{};
+    /// Conduction of heat; none where unset.
     std::optional<FourierConduction> conduction{};
     /// Whether both are found from differences of pairs (physics/pair_friction.hpp), not from gradients.
     bool by_pairs = false;
 
+    /// Whether it has friction or conduction.
     bool diffuses() const { return viscosity || conduction; }
+    /// One line.
     std::string describe() const {
         std::string words = state.describe();
         if (viscosity) words += "; " + viscosity->describe();

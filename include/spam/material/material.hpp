@@ -19,6 +19,7 @@ namespace spam {
 template <int Dim>
 class Material {
   public:
+    /// A copy of `law`, any struct with a stress_rate() (stress_law.hpp).
     template <StressLaw<Dim> Law>
     Material(const Law& law) : loop_(std::make_shared<LoopOver<Law>>(law)) {}
 
@@ -38,6 +39,7 @@ class Material {
                        double* stress) const {
         loop_->return_stress(t, first, count, state, stress);
     }
+    /// One line, the law's own.
     std::string describe() const { return loop_->describe(); }
 
     /// The further fields of the law, which y holds for it; none where it has no memory.

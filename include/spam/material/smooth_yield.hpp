@@ -10,8 +10,8 @@ namespace spam {
 
 /// Yielding in rate form, smooth enough for every method and every multistep one: with n the deviator of length
 /// one and D the rate of strain,
-///     sigma_dot = elastic - 2 eta l n,   l = <n:D> max(0, (q/Y - 1 + width)/width),
-/// so that q approaches Y from below and nothing is returned after steps. <x> = max(x, 0). The plastic strain
+///     sigma_dot = elastic - 2 eta l n,   l = ⟨n:D⟩ max(0, (q/Y - 1 + width)/width),
+/// so that q approaches Y from below and nothing is returned after steps. ⟨x⟩ = max(x, 0). The plastic strain
 /// grows by l sqrt(2/3) in space, l/sqrt(2) in the plane: stress times its rate is Y times that. A limit of its
 /// own: with `width` it differs from the sharp surface by the strain that q takes from (1 - width) Y to Y.
 /// Explicit steps must be shorter than 2.8 width Y/(2 eta k |n:D|) (RK4; k as in RadialVonMises).

@@ -81,7 +81,7 @@ class YieldingSolid {
     }
 
     /// sigma_zz_dot = lambda div v.
-    auto rates(const ConstState<dim>&, const State<dim>& rate) const requires Surface::across {
+    auto rates(const ConstState<dim>&, const State<dim>& rate) const requires(Surface::across) {
         return [elastic = surface_.elastic(), zz_dot = rate.find(field_kind::stress_zz)](
                    std::size_t i, const Mat<dim>& grad_v, const SymTensor<dim>& stress) {
             zz_dot[i] = elastic.lambda * grad_v.trace();

@@ -34,20 +34,26 @@ class Box {
         }
     }
 
+    /// Whether direction `a` (0 to Dim - 1) has a period.
     bool periodic(int a) const { return length_[at(a)] > 0.0; }
+    /// Whether any direction has one.
     bool periodic() const {
         for (int a = 0; a < Dim; ++a)
             if (periodic(a)) return true;
         return false;
     }
+    /// The period in direction `a`, as rounded; 0 where the direction is free.
     double length(int a) const { return length_[at(a)]; }
 
     /// The side across direction a, the lower one or the upper one. Throws InputError for a wall across a
     /// periodic direction, one that moves across itself or slips and moves, a temperature that is not above
     /// 0, and a lower wall that is not below the upper one.
     void set_wall(int a, bool upper, const Wall<Dim>& wall);
+    /// The side across direction `a`, the lower one or the upper one; WallKind::open where none was set.
     const Wall<Dim>& wall(int a, bool upper) const { return walls_[at(a)][upper ? 1 : 0]; }
+    /// Whether one of the two sides across direction `a` is a wall.
     bool walled(int a) const { return !wall(a, false).open() || !wall(a, true).open(); }
+    /// Whether any side is.
     bool walled() const {
         for (int a = 0; a < Dim; ++a)
             if (walled(a)) return true;
@@ -60,6 +66,7 @@ class Box {
                 if (!side.open() && side.passes_energy()) return true;
         return false;
     }
+    /// Whether a wall moves along itself.
     bool moving_walls() const {
         for (const auto& sides : walls_)
             for (const Wall<Dim>& side : sides)

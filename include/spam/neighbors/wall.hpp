@@ -21,11 +21,14 @@ enum class WallKind {
 /// the wall. Insulated, unless a temperature is given.
 template <int Dim>
 struct Wall {
+    /// What the side does to particles before it.
     WallKind kind = WallKind::open;
     double at = 0.0;                           ///< its coordinate
     Point<Dim> velocity = Point<Dim>::Zero();  ///< of no_slip, along the wall
+    /// Of what is behind the wall, in the units of the run, above 0; without one the wall is insulated.
     std::optional<double> temperature = std::nullopt;
 
+    /// Whether there is no wall at all.
     bool open() const { return kind == WallKind::open; }
     /// Whether energy passes it: friction heats and moves matter, a temperature warms or cools it.
     bool passes_energy() const { return kind == WallKind::no_slip || temperature.has_value(); }

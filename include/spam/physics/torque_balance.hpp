@@ -14,8 +14,8 @@
 ///     torque_pair      s_ij = R where T_ij < 0, 1/R where T_ij > 0
 ///     torque_particle  s_ij = (s_i + s_j)/2, s_i = R or 1/R by the sign of T_i = 1/2 sum_j T_ij; it
 ///                      jumps where a T_i changes sign
-/// Bodies: connected parts, each with its own R. With u = <v> the term X depends on the frame (sum m u differs from sum m v), so that scheme
-/// is not Galilean covariant; with v or <v>_Monaghan X vanishes and it is.
+/// Bodies: connected parts, each with its own R. With u = ⟨v⟩ the term X depends on the frame (sum m u differs from sum m v), so that scheme
+/// is not Galilean covariant; with v or ⟨v⟩_Monaghan X vanishes and it is.
 namespace spam {
 
 /// Sums over the pairs of particle i: of its positive torques and of minus its negative ones (every
@@ -101,7 +101,7 @@ struct TorqueScale {
 };
 
 /// R and 1/R, with R > 0 the root of P/R - M R + X = 0: positive torques P, minus the negative ones M,
-/// and X = sum m u x v (zero unless the transport velocity is <v>). Where all torques have one sign
+/// and X = sum m u x v (zero unless the transport velocity is ⟨v⟩). Where all torques have one sign
 /// that is the limit: they are scaled to cancel X, or away, as in a fragment of two particles. Where
 /// there are none it is 1.
 inline TorqueScale torque_balance(double P, double M, double X) {

@@ -25,7 +25,7 @@ struct PlainTransport {
     }
 };
 
-/// <v>: u_i = sum_j m_j v_j w_ij / sum_j m_j w_ij, self included, [HHM04] IV. The paper divides by
+/// ⟨v⟩: u_i = sum_j m_j v_j w_ij / sum_j m_j w_ij, self included, [HHM04] IV. The paper divides by
 /// rho_i, which is the same for summed density only.
 template <int Dim>
 struct AverageTransport {
@@ -50,7 +50,7 @@ struct AverageTransport {
     }
 };
 
-/// <v>_Monaghan: u_i = v_i + sum_j m_j (v_j - v_i) w_ij / rho_ij, [HHM04] IV. Keeps sum m u = sum m
+/// ⟨v⟩_Monaghan: u_i = v_i + sum_j m_j (v_j - v_i) w_ij / rho_ij, [HHM04] IV. Keeps sum m u = sum m
 /// v and sum m u x v = 0.
 template <int Dim, class MeanDensity>
 struct MonaghanTransport {

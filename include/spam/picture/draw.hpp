@@ -12,7 +12,7 @@
 
 namespace spam {
 
-/// Pictures through gnuplot: <folder>/<name>.gp and <name>.dat are always written, <name>.png is
+/// Pictures through gnuplot: FOLDER/NAME.gp and NAME.dat are always written, NAME.png is
 /// drawn when gnuplot is installed. All return false when it could not be drawn and throw
 /// OutputError when script or data cannot be written.
 

@@ -8,7 +8,7 @@
 
 namespace spam {
 
-/// <name>.mp4 from the pictures frame_*.png in the folder, in the order of their names, by ffmpeg, in
+/// NAME.mp4 from the pictures frame_*.png in the folder, in the order of their names, by ffmpeg, in
 /// place of an older one. Returns why there is none ("ffmpeg is not installed", "ffmpeg failed"), or nothing.
 std::string make_film(const RunFolder& folder, std::string_view name, int frames_per_second);
 

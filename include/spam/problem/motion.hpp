@@ -27,9 +27,13 @@ class Motion {
     Motion(const Motion&) = delete;  // the integrator refers to it
     Motion& operator=(const Motion&) = delete;
 
+    /// Time reached.
     double t() const { return integrator_->t(); }
+    /// The state there, model().layout().size() numbers; valid as long as the motion, changed by every step.
     std::span<const double> y() const { return y_.span(); }
+    /// Fields of y by name.
     ConstState<Dim> state() const { return {model_.layout(), y_.span()}; }
+    /// The model that moves.
     Model<Dim>& model() { return model_; }
 
     /// One accepted step, not past `t_stop`; returns the new time. Throws GuardStop with the reason where
@@ -40,10 +44,13 @@ class Motion {
     /// Changes y between two steps. `change` returns whether it did: the integrator then begins anew.
     bool edit(const std::function<bool(std::span<double> y)>& change);
 
+    /// Steps, rejected steps and right-hand sides so far.
     const Integrator::Statistics& statistics() const { return integrator_->statistics(); }
     /// Pairs that all right-hand sides so far have summed over.
     std::size_t pair_interactions() const { return pairs_; }
+    /// What the integrator sees of the model.
     const Ode& ode() const { return ode_; }
+    /// The method itself.
     Integrator& integrator() { return *integrator_; }
 
     /// What model and integrator know beyond y; reading, they go on from y as the archive's did.

@@ -15,7 +15,9 @@ namespace spam {
 /// A further column of invariants.csv: its name and how to measure it.
 template <int Dim>
 struct Column {
+    /// Of the column: words joined by _; none that invariants.csv has already.
     std::string name;
+    /// Called at every row with the state there; what it returns should be finite.
     std::function<double(const Model<Dim>& model, std::span<const double> y)> measure;
 };
 
@@ -23,6 +25,7 @@ struct Column {
 /// of its observers in the order in which they were added. What they refer to must outlive the run.
 template <int Dim>
 struct Observer {
+    /// y, model.layout().size() numbers.
     using State = std::span<const double>;
     /// Measured at every row of invariants.csv.
     std::vector<Column<Dim>> columns{};

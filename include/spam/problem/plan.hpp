@@ -18,20 +18,27 @@ namespace spam {
 /// --output-every, --snapshot-every or --checkpoint-every say otherwise.
 template <int Dim>
 struct Plan {
+    /// Time at which the run ends.
     double t_end = 0.0;
+    /// Time between rows of invariants.csv.
     double output_every = 0.0;
+    /// Time between configurations.
     double snapshot_every = 0.0;
+    /// Time between checkpoints.
     double checkpoint_every = 0.0;
     /// Of rk4, where --dt is not given, for a case among others that needs a step of its own; else
     /// Session::prefer_step(), which case.toml tells of.
     std::optional<double> step{};
     /// t_end stays what it is: --t-end is meant for other cases of the session.
     bool own_end = false;
+    /// What watches the run, in the order of the calls.
     std::vector<Observer<Dim>> observers{};
     /// Checked after every row. Off unless the session's options say otherwise.
     DriftLimits guard{};
 
+    /// Adds an observer.
     void observe(Observer<Dim> observer) { observers.push_back(std::move(observer)); }
+    /// Adds columns to invariants.csv.
     void record(std::vector<Column<Dim>> columns) { observe({.columns = std::move(columns)}); }
     /// Whether an observer may change the state or the bodies.
     bool may_change() const {
@@ -42,9 +49,13 @@ struct Plan {
 
 /// What a run left behind.
 struct RunRecord {
+    /// Of the case; empty where there is one only.
     std::string label;
+    /// The rows of invariants.csv.
     History history{{}};
+    /// What it cost.
     RunStatistics statistics;
+    /// What became of every invariant.
     std::vector<Drift> drifts;
     std::vector<std::pair<double, Remark>> remarks;  ///< by time
     std::vector<double> y;                           ///< the last accepted state
@@ -55,9 +66,13 @@ struct RunRecord {
 /// is shared with whoever looks at it afterwards.
 template <int Dim>
 struct Case {
+    /// What moves.
     std::shared_ptr<Model<Dim>> model;
+    /// Where it starts, model->layout().size() numbers; empty where `start` says it.
     std::vector<double> y0;
+    /// How far it goes, and what is recorded.
     Plan<Dim> plan;
+    /// Name of its folder; words joined by _.
     std::string label{};
     /// y0 where it follows from how the case before ended; y0 is then empty, and the case is begun only
     /// where the one before is complete. Asked again when a run is gone on with: the same record must give

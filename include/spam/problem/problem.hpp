@@ -19,11 +19,21 @@ struct SessionMemory;
 
 /// Options every problem has.
 struct CommonOptions {
+    /// --out: the result folder.
     std::string out;
-    bool force = false, dry_run = false, smoke = false, quiet = false, no_plots = false;
-    std::optional<int> threads;  ///< unset: as many as gain
-    std::optional<double> t_end, output_every, snapshot_every, checkpoint_every;
+    bool force = false;                      ///< --force: an existing folder is moved aside
+    bool dry_run = false;                    ///< --dry-run: says what would be done
+    bool smoke = false;                      ///< --smoke: a version of seconds, for tests
+    bool quiet = false;                      ///< --quiet: errors only
+    bool no_plots = false;                   ///< --no-plots
+    std::optional<int> threads;              ///< unset: as many as gain
+    std::optional<double> t_end;             ///< --t-end; unset: what the problem plans
+    std::optional<double> output_every;      ///< --output-every, between rows of invariants.csv
+    std::optional<double> snapshot_every;    ///< --snapshot-every
+    std::optional<double> checkpoint_every;  ///< --checkpoint-every
+    /// --restart: a result folder or a checkpoint; empty without.
     std::string restart;
+    /// --guard and --limit-...: what happens where an invariant changes by more than is promised.
     DriftLimits guard{DriftAction::warn, {}, {}, {}};
 };
 
@@ -42,7 +52,9 @@ class Problem {
 
     /// Adds the scheme and kernel options; `standard` holds their defaults.
     void use_scheme(const Scheme& standard = {});
+    /// Of the options that use_scheme() adds.
     static const std::vector<std::string>& scheme_option_names();
+    /// Of --guard and its limits.
     static const std::vector<std::string>& guard_option_names();
 
     /// Parses, runs `body`, completes the results. Returns the exit status.

@@ -26,8 +26,11 @@ class Session {
   public:
     ~Session();
 
+    /// Whether the user set this option (command line or file).
     bool given(std::string_view option) const { return problem_.options_.given(option); }
+    /// Values of the options that every problem has.
     const CommonOptions& common() const { return problem_.common_; }
+    /// The scheme that the options say; the standard one without use_scheme().
     const Scheme& scheme() const { return problem_.scheme_; }
     /// Throws InputError where the options of the integrator mean nothing.
     const IntegratorOptions& integrator() const {
@@ -90,9 +93,11 @@ class Session {
     /// are not given to this the session does so itself at the end, with the label of the case.
     void check_promises(const RunRecord& record, const std::string& prefix = "");
 
+    /// For lines of a problem's own.
     Terminal& terminal() { return terminal_; }
     /// The folder of pictures; precondition: a run has begun and plots() is true.
     RunFolder plots_folder() const { return folder_->inside("plots"); }
+    /// Whether pictures are wanted, and there is a folder for them.
     bool plots() const { return folder_ && !problem_.common_.no_plots; }
     /// Says once that pictures could not be drawn.
     void note_drawn(bool drawn);

@@ -27,6 +27,7 @@ struct Remark {
 template <int Dim>
 class Model {
   public:
+    /// Of these particles in this box; `fields` are those of y, for N particles.
     Model(Particles<Dim> particles, const Box<Dim>& box, const std::vector<Field>& fields)
         : particles_(std::move(particles)),
           box_(box),
@@ -53,6 +54,7 @@ class Model {
     /// What changes y between steps; for one run, and no longer than the model.
     virtual std::vector<Event> events() const { return {}; }
 
+    /// How well the equations keep each invariant, in this box.
     virtual Promises promises() const = 0;
     virtual std::string describe() const = 0;  ///< one line for banner and dry run
 
@@ -102,9 +104,13 @@ class Model {
     /// Why the latest rates are NaN; empty when they are not.
     const std::string& failure() const { return failure_; }
 
+    /// Mass, id, body and reference position, in the order of y.
     const Particles<Dim>& particles() const { return particles_; }
+    /// Periods and walls.
     const Box<Dim>& box() const { return box_; }
+    /// Where each field lies in y; to be changed (set_scale) before a state is integrated.
     FieldLayout<Dim>& layout() { return layout_; }
+    /// The same to read only.
     const FieldLayout<Dim>& layout() const { return layout_; }
 
   protected:

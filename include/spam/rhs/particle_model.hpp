@@ -15,7 +15,9 @@ namespace spam {
 template <int Dim>
 class ParticleModel : public Model<Dim> {
   public:
+    /// Laws between particles, in the order in which they were added.
     using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
+    /// Laws from outside, likewise.
     using Externals = std::vector<std::unique_ptr<External<Dim>>>;
 
     /// Without a term nothing moves but by externals. Walls of the box (neighbors/wall.hpp) act by images of
@@ -45,6 +47,7 @@ class ParticleModel : public Model<Dim> {
         take(std::move(term));
         return law;
     }
+    /// In the order in which they are called.
     const Terms& terms() const { return terms_; }
     /// The first term that is a Law; null where there is none.
     template <class Law>
@@ -56,11 +59,14 @@ class ParticleModel : public Model<Dim> {
 
     /// Adds an external behind those there are. y grows by the accounts (external.hpp).
     void add(std::unique_ptr<External<Dim>> external);
+    /// In the order in which they are applied.
     const Externals& externals() const { return externals_; }
 
+    /// Those of the terms in their order, added up, then externals in theirs; see Model::rates.
     void rates(double t, std::span<const double> y, std::span<double> y_dot) final;
     /// With the potentials of externals.
     double internal_energy(std::span<const double> y) const final;
+    /// Of the term that has elements; empty where none has.
     std::span<const Quadrilateral> quadrilaterals() const final;
     /// Of the first term that has its own, else what is in y; empty unless those of all are known.
     std::vector<double> density(std::span<const double> y) const final;
@@ -69,16 +75,27 @@ class ParticleModel : public Model<Dim> {
     std::vector<Event> events() const final;
     /// The weakest of the terms' promises; what externals give is in the accounts.
     Promises promises() const final;
+    /// Terms and externals in one line.
     std::string describe() const final;
+    /// Why leapfrog cannot advance it (Model::inseparable), externals asked as well.
     std::string inseparable() const final;
+    /// The sum of those of terms and externals, 1/time.
     double fastest_damping() const final;
+    /// The sum of those of the terms, mass length/time^2.
     double neighbour_forces(std::span<const double> y) const final;
+    /// Whether the rates of every term are continuous.
     bool smooth() const final;
+    /// In the latest right-hand side; terms among all particles have the same pairs, those among some add up.
     std::size_t pairs() const final;
+    /// The largest of the terms, in units of length.
     double reach() const final;
+    /// Remarks of all terms on an accepted state.
     std::vector<Remark> watch(double t, std::span<const double> y) final;
+    /// N numbers; terms are told.
     void set_bodies(std::vector<std::int32_t> bodies) final;
+    /// Bodies, and what every term remembers.
     void remember(Archive& archive) final;
+    /// Whether a term settles, or the box has walls.
     bool settles() const final;
     /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n, where
     /// externals have potentials with the velocity that keeps the energy.

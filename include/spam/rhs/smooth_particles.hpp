@@ -46,9 +46,12 @@ class SmoothParticles final : public Term<Dim> {
     /// fluids, of one without a sound speed at rest, and in a box that is open somewhere or not full.
     SmoothParticles(const Selection<Dim>& among, std::vector<Material<Dim>> solids,
                     const Scheme& scheme);
+    /// The same of fluids.
     SmoothParticles(const Selection<Dim>& among, std::vector<Fluid> fluids, const Scheme& scheme);
+    /// Of one solid.
     SmoothParticles(const Selection<Dim>& among, const Material<Dim>& solid, const Scheme& scheme)
         : SmoothParticles(among, std::vector<Material<Dim>>{solid}, scheme) {}
+    /// Of one fluid.
     SmoothParticles(const Selection<Dim>& among, const Fluid& fluid, const Scheme& scheme)
         : SmoothParticles(among, std::vector<Fluid>{fluid}, scheme) {}
     ~SmoothParticles() override;
@@ -96,15 +99,20 @@ class SmoothParticles final : public Term<Dim> {
     void remember(Archive& archive) override;
     bool settle(double t, const State<Dim>& state) override;
 
+    /// The choices it was made with.
     const Scheme& scheme() const { return scheme_; }
     /// R and 1/R of each body (of all with Balance::global) in the latest rates(); empty where torques
     /// are left free.
     std::span<const TorqueScale> torque_scales() const;
 
     // Of fluids, as the functions of FluidModel (below). Precondition: the particles are fluid.
+    /// The first of them.
     const Fluid& fluid() const;
+    /// N; NaN outside the law.
     std::vector<double> pressure(std::span<const double> y) const;
+    /// N; NaN outside the law. Precondition: the law is thermal.
     std::vector<double> temperature(std::span<const double> y) const;
+    /// FluidModel::state()
     std::vector<double> start(const Points<Dim>& position, const Points<Dim>& velocity, double T);
 
   private:
@@ -150,14 +158,18 @@ extern template class SmoothParticles<3>;
 template <int Dim>
 class SmoothParticleModel final : public ParticleModel<Dim> {
   public:
+    /// `material`: a stress law, or a Material. Throws InputError as SmoothParticles does.
     SmoothParticleModel(Particles<Dim> particles, const Material<Dim>& material,
                         const Scheme& scheme, const Box<Dim>& box = {})
         : ParticleModel<Dim>(std::move(particles), box),
           law(this->template add_term<SmoothParticles<Dim>>(material, scheme)) {}
 
+    /// The choices it was made with.
     const Scheme& scheme() const { return law.scheme(); }
+    /// R and 1/R of each body in the latest rates(); empty where torques are left free.
     std::span<const TorqueScale> torque_scales() const { return law.torque_scales(); }
 
+    /// Its one term.
     SmoothParticles<Dim>& law;
 };
 
@@ -165,15 +177,19 @@ class SmoothParticleModel final : public ParticleModel<Dim> {
 template <int Dim>
 class FluidModel final : public ParticleModel<Dim> {
   public:
+    /// `fluid`: an equation of state, or a Fluid with friction and conduction. Throws InputError as SmoothParticles does.
     FluidModel(Particles<Dim> particles, const Fluid& fluid, const Scheme& scheme,
                const Box<Dim>& box = {})
         : ParticleModel<Dim>(std::move(particles), box),
           law(this->template add_term<SmoothParticles<Dim>>(fluid, scheme)) {}
 
+    /// The fluid it was made of.
     const Fluid& fluid() const { return law.fluid(); }
+    /// The choices it was made with.
     const Scheme& scheme() const { return law.scheme(); }
     /// N each; NaN outside the law. Precondition of temperature(): fluid().state.thermal.
     std::vector<double> pressure(std::span<const double> y) const { return law.pressure(y); }
+    /// N; NaN outside the law. Precondition: fluid().state.thermal.
     std::vector<double> temperature(std::span<const double> y) const { return law.temperature(y); }
     /// y at `position` (Dim x N) with these velocities, densities summed there where y carries them, and
     /// the energy of temperature T (thermal law) or the cold energy (T is then not read), else none.
@@ -183,6 +199,7 @@ class FluidModel final : public ParticleModel<Dim> {
         return law.start(position, velocity, T);
     }
 
+    /// Its one term.
     SmoothParticles<Dim>& law;
 };
 
