@@ -101,6 +101,7 @@ if(SPAM_BUILD_VIEW)
     add_dependencies(test.view.${test} spam-view)
   endforeach()
 endif()
+include(${CMAKE_CURRENT_SOURCE_DIR}/python/tests.cmake)
 # All of libspam as a shared object, from what was compiled for the static library: what
 # -DBUILD_SHARED_LIBS=ON links, and what a module of an interpreter holds.
 add_library(spam_module MODULE builds/module.cpp)
