@@ -179,6 +179,25 @@ if(NOT SPAM_LEVELS STREQUAL "generic" AND CMAKE_BUILD_TYPE STREQUAL "Release"
   set_tests_properties(rhs.instructions_gate PROPERTIES WILL_FAIL TRUE)
 endif()
 
+# The same in every build: one installation will do.
+if(SPAM_BUILD_PROBLEMS AND SPAM_BUILD_VIEW AND NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
+  list(LENGTH problems number)
+  add_test(NAME front_door.installed COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
+    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/installed -DCXX=${CMAKE_CXX_COMPILER} -DPROBLEMS=${number}
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/front_door/installed.cmake)
+  set_tests_properties(front_door.installed PROPERTIES LABELS problem TIMEOUT 300)
+endif()
+
+find_program(SHELLCHECK NAMES shellcheck)
+file(GLOB_RECURSE scripts ${PROJECT_SOURCE_DIR}/src/*.bash)
+add_test(NAME style.shell COMMAND ${SHELLCHECK} -x ${PROJECT_SOURCE_DIR}/spam ${scripts}
+  ${PROJECT_SOURCE_DIR}/.ci/run ${CMAKE_CURRENT_SOURCE_DIR}/front_door/cmake_stub
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(style.shell PROPERTIES LABELS style)
+if(NOT SHELLCHECK)
+  set_tests_properties(style.shell PROPERTIES DISABLED TRUE)
+endif()
+
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 add_test(NAME style.format COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
                                    -DCLANG_FORMAT=${CLANG_FORMAT}

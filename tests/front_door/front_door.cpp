@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The front door ./spam in a tree of its own, with a stub in place of cmake: one signal ends a build at
 // once and leaves nothing behind, a wrong option is refused before a build, and a program that is up to
-// date runs for users who may not write.
+// date runs for users who may not write. Installed it runs what lies beside it.
 #include "support/process.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -18,6 +18,9 @@ class Tree : public Scratch {
     explicit Tree(const std::string& seconds) {
         fs::permissions(path(), fs::perms(0755));
         fs::copy(SPAM_SOURCE "/spam", *this / "spam");
+        fs::create_directories(*this / "src/front_door");
+        fs::copy(SPAM_SOURCE "/src/front_door", *this / "src/front_door",
+                 fs::copy_options::recursive);
         fs::create_directory(*this / "stubs");
         fs::copy(SPAM_SOURCE "/tests/front_door/cmake_stub", *this / "stubs/cmake");
         for (const char* file : {"CMakeLists.txt", "CMakePresets.json", "include/a.hpp",
@@ -111,4 +114,58 @@ BOOST_AUTO_TEST_CASE(view_is_built_and_gets_its_words) {
         run(tree.call({"view", "--no-install", "drop-out", "--max-mb", "5"}), tree.launch());
     BOOST_TEST(outcome.status == 0, outcome.err);
     BOOST_TEST(outcome.out == "ran drop-out --max-mb 5\n");
+}
+
+BOOST_AUTO_TEST_CASE(installed_it_runs_what_lies_beside_it) {
+    const Scratch prefix;
+    const fs::path programs = prefix / "libexec/spam";
+    prefix.write("libexec/spam/problems.txt", "drop   a drop (5 s)\n");
+    prefix.write("libexec/spam/drop",
+                 "#!/bin/sh\n[ $1 = --version ] && echo 'drop: spam 1.2.3' || echo \"drop $*\"\n");
+    prefix.write("libexec/spam/spam-view", "#!/bin/sh\necho \"view $*\"\nexit 2\n");
+    fs::copy(SPAM_SOURCE "/spam", programs / "spam");
+    for (const char* program : {"drop", "spam-view"})
+        fs::permissions(programs / program, fs::perms(0755));
+    fs::create_directory(prefix / "bin");
+    fs::create_symlink("../libexec/spam/spam", prefix / "bin/spam");
+    const auto call = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), (prefix / "bin/spam").string());
+        return run(words, {.folder = prefix.path()});
+    };
+    const auto before = prefix.listing();
+    BOOST_TEST(call({"list"}).out == contents_of(programs / "problems.txt"));
+    BOOST_TEST(call({"--version"}).out == "spam 1.2.3\n");
+    BOOST_TEST(call({"run", "drop", "--smoke"}).out == "drop --smoke\n");
+    const Outcome viewed = call({"view", "drop-out"});
+    BOOST_TEST(viewed.out == "view drop-out\n");
+    BOOST_TEST(viewed.status == 2);
+    const Outcome misspelt = call({"run", "dorp"});
+    BOOST_TEST(misspelt.status == 2);
+    BOOST_TEST(has(misspelt.err, "did you mean drop?"), misspelt.err);
+    BOOST_TEST(!has(call({"help"}).out, "bench"));
+    for (const char* verb : {"test", "bench"}) {
+        const Outcome refused = call({verb});
+        BOOST_TEST(refused.status == 2);
+        BOOST_TEST(has(refused.err, "where SPAM is installed; there are run view list help\n"),
+                   refused.err);
+    }
+    BOOST_TEST((prefix.listing() == before), "something was written");
+
+    fs::remove(programs / "problems.txt");
+    const Outcome alone = call({"list"});
+    BOOST_TEST(alone.status == 2);
+    BOOST_TEST(has(alone.err, "neither"), alone.err);
+}
+
+BOOST_AUTO_TEST_CASE(every_verb_is_in_the_help) {
+    const Tree tree("0");
+    const Outcome help = run(tree.call({"help"}), tree.launch());
+    int verbs = 0;
+    for (const auto& entry : fs::directory_iterator(SPAM_SOURCE "/src/front_door/verbs")) {
+        const std::string line = "\n  ./spam " + entry.path().stem().string();
+        BOOST_TEST(has(help.out, line.c_str()), line);
+        ++verbs;
+    }
+    BOOST_TEST(verbs >= 2);
+    BOOST_TEST(has(run(tree.call({"--version"}), tree.launch()).out, "spam "));
 }

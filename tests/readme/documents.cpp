@@ -122,11 +122,19 @@ Words words_of(const std::string& code) {
     return words;
 }
 
+/// What the front door understands: its own verbs, and those that have a file.
+std::set<std::string> verbs_of_spam() {
+    std::set<std::string> verbs{"run", "view", "list", "help", "--version", "..."};
+    for (const auto& entry : fs::directory_iterator(root / "src/front_door/verbs"))
+        verbs.insert(entry.path().stem().string());
+    return verbs;
+}
+
 /// What a piece of code names that does not exist: a verb of ./spam, a problem, an option of it (of any
 /// problem where none is named).
 Words unknown_in(const std::string& code,
                  const std::map<std::string, std::set<std::string>>& options) {
-    static const std::set<std::string> verbs{"run", "view", "test", "list", "bench", "help", "..."};
+    static const std::set<std::string> verbs = verbs_of_spam();
     Words words = words_of(code), unknown;
     if (words.empty()) return {};
     if (words[0] == "./spam") {

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2034,SC2154,SC2164  # read by ./spam, under set -e
+#|  ./spam test [--preset release|dev|tsan|coverage] [ctest options]
+#|                                    build everything and run the tests
+
+readonly test_packages=(libboost-test-dev)
+readonly ci_packages=(clang-format valgrind shellcheck) # for the tests of style and of instruction counts
+readonly sanitizer_packages=(clang libclang-rt-dev libomp-dev)
+
+verb_test() { # [--no-install] [--preset P] [ctest options...]
+    local options=() packages=("${test_packages[@]}") jobs status=0
+    while (($#)); do
+        case $1 in
+        --no-install) install=no ;;
+        --preset=*) preset=${1#*=} ;;
+        --preset)
+            preset=${2-}
+            shift $(($# > 1))
+            ;;
+        *) options+=("$1") ;;
+        esac
+        shift
+    done
+    case $preset in
+    release | coverage) ;;
+    dev | tsan) packages+=("${sanitizer_packages[@]}") ;;
+    *) refuse "test: no preset '$preset'; there are release, dev, tsan and coverage" ;;
+    esac
+    if in_ci; then packages+=("${ci_packages[@]}"); fi
+    set_up "${packages[@]}" -- SPAM_BUILD_TESTS=ON -- all
+    jobs=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
+    cd -- "$root"
+    watched ctest --preset "$preset" --output-on-failure -j "$jobs" "${options[@]}" || status=$?
+    ((status == 0)) || say "test failed (ctest --preset $preset: status $status)
+  log:     $root/build/$preset/Testing/Temporary/LastTest.log
+  to do:   the failed ones again: ./spam test --preset $preset --rerun-failed"
+    exit "$status"
+}

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# An installation as a user meets it, under a prefix with a blank: one word on PATH, problems that run, and what
+# find_package(spam) says when it cannot help.
+#   BUILD: build tree to install from; WORK: a folder of its own; CXX: the compiler; PROBLEMS: their number
+file(REMOVE_RECURSE ${WORK})
+set(prefix "${WORK}/a prefix")
+
+function(call expected)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status
+                  OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status STREQUAL expected)
+    message(FATAL_ERROR "'${ARGN}' ended with ${status}, not ${expected}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(MAKE_DIRECTORY ${WORK})
+call(0 ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+file(GLOB on_path RELATIVE ${prefix}/bin ${prefix}/bin/*)
+if(NOT on_path STREQUAL "spam")
+  message(FATAL_ERROR "on PATH there would be: ${on_path}")
+endif()
+call(0 ${prefix}/bin/spam list)
+string(REGEX MATCHALL "\n" lines "${output}")
+list(LENGTH lines count)
+if(NOT count EQUAL PROBLEMS)
+  message(FATAL_ERROR "${count} of ${PROBLEMS} problems are listed:\n${output}")
+endif()
+call(0 ${prefix}/bin/spam run kernels --smoke --no-plots)
+call(0 ${prefix}/bin/spam --version)
+if(NOT output MATCHES "^spam [0-9]")
+  message(FATAL_ERROR "no version: ${output}")
+endif()
+call(2 ${prefix}/bin/spam test)
+
+# refused(<languages> <arguments of find_package> <what must be said>)
+function(refused languages arguments words)
+  file(WRITE ${WORK}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(stranger LANGUAGES ${languages})
+find_package(spam ${arguments})\n")
+  file(REMOVE_RECURSE ${WORK}/build)
+  call(1 ${CMAKE_COMMAND} -S . -B build -G Ninja "-DCMAKE_PREFIX_PATH=${prefix}"
+         -DCMAKE_CXX_COMPILER=${CXX})
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  if(NOT output MATCHES "${words}")
+    message(FATAL_ERROR "find_package(spam ${arguments}) did not say '${words}':\n${output}")
+  endif()
+endfunction()
+refused("C CXX" "0.99 REQUIRED" "compatible with requested version \"0.99\"")
+refused("CXX" "0.1 REQUIRED" "SUNDIALS needs C beside C[+][+]")
+file(REMOVE_RECURSE ${WORK})
