@@ -73,7 +73,7 @@ class Read(unittest.TestCase):
     def test_finite_elements(self):
         program("ball_plate")
         results = spam.run("ball_plate", smoke=True, no_plots=True, out=work("plate"),
-                           formulation="elements")
+                           model="elements")
         snapshot = next(iter(results.cases.values())).snapshots[-1]
         corners = snapshot.position[snapshot.elements]
         self.assertGreater(len(corners), 10)
