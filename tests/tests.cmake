@@ -187,6 +187,10 @@ if(SPAM_BUILD_PROBLEMS AND SPAM_BUILD_VIEW AND NOT SPAM_SANITIZE AND NOT SPAM_CO
   set_tests_properties(front_door.installed PROPERTIES LABELS problem TIMEOUT 300)
 endif()
 
+add_test(NAME package.agree COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
+                                    -P ${CMAKE_CURRENT_SOURCE_DIR}/package/agree.cmake)
+set_tests_properties(package.agree PROPERTIES LABELS style)
+
 find_program(SHELLCHECK NAMES shellcheck)
 file(GLOB_RECURSE scripts ${PROJECT_SOURCE_DIR}/src/*.bash)
 add_test(NAME style.shell COMMAND ${SHELLCHECK} -x ${PROJECT_SOURCE_DIR}/spam ${scripts}
