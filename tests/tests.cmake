@@ -183,15 +183,23 @@ endif()
 if(SPAM_BUILD_PROBLEMS AND SPAM_BUILD_VIEW AND NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
   list(LENGTH problems number)
   add_test(NAME front_door.installed COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
-    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/installed -DCXX=${CMAKE_CXX_COMPILER} -DPROBLEMS=${number}
+    -DSOURCE=${PROJECT_SOURCE_DIR} -DSHARED=${BUILD_SHARED_LIBS} -DPROBLEMS=${number}
+    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/installed -DCXX=${CMAKE_CXX_COMPILER}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/front_door/installed.cmake)
   set_tests_properties(front_door.installed PROPERTIES LABELS problem TIMEOUT 300)
 endif()
+
+add_test(NAME package.agree COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
+                                    -P ${CMAKE_CURRENT_SOURCE_DIR}/package/agree.cmake)
+set_tests_properties(package.agree PROPERTIES LABELS style)
 
 find_program(SHELLCHECK NAMES shellcheck)
 file(GLOB_RECURSE scripts ${PROJECT_SOURCE_DIR}/src/*.bash)
 add_test(NAME style.shell COMMAND ${SHELLCHECK} -x ${PROJECT_SOURCE_DIR}/spam ${scripts}
   ${PROJECT_SOURCE_DIR}/.ci/run ${CMAKE_CURRENT_SOURCE_DIR}/front_door/cmake_stub
+  ${PROJECT_SOURCE_DIR}/src/package/debian/man_pages
+  ${PROJECT_SOURCE_DIR}/src/package/debian/tests/consumer
+  ${PROJECT_SOURCE_DIR}/src/package/debian/tests/problems
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(style.shell PROPERTIES LABELS style)
 if(NOT SHELLCHECK)
