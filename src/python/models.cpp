@@ -140,10 +140,13 @@ struct MakeRemembering {
             model = std::make_shared<TotalLagrangianModel<Dim>>(
                 std::move(particles), StVenantKirchhoff::like(elastic),
                 TotalLagrangianScheme{density, range, penalty}, box);
-        else
+        else if constexpr (Dim > 1)
             model = std::make_shared<MaterialVectorModel<Dim>>(
                 std::move(particles), PolynomialSolid::like(elastic),
                 MaterialVectorScheme{density, range, penalty}, box);
+        else
+            throw InputError(
+                "x: material vectors have two or three dimensions; give (n, 2) or (n, 3)");
         return py::cast(
             held_solid<Dim>(std::move(model), common, std::move(pending), density, elastic.eta));
     }

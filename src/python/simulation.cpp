@@ -7,6 +7,7 @@
 #include <spam/problem/integrator_settings.hpp>
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
 #include <cmath>
 
