@@ -8,5 +8,11 @@ namespace spam::python {
 
 void bind_process(pybind11::module_& module);
 void bind_setup(pybind11::module_& module);
+void bind_materials(pybind11::module_& module);
+void bind_externals(pybind11::module_& module);
+void bind_scheme(pybind11::module_& module);
+void bind_models(pybind11::module_& module);
+void bind_simulation(pybind11::module_& module);
+void bind_integrate(pybind11::module_& module);
 
 }  // namespace spam::python

@@ -30,4 +30,10 @@ PYBIND11_MODULE(_core, module) {
     });
     spam::python::bind_process(module);
     spam::python::bind_setup(module);
+    spam::python::bind_materials(module);
+    spam::python::bind_externals(module);
+    spam::python::bind_scheme(module);
+    spam::python::bind_models(module);
+    spam::python::bind_simulation(module);
+    spam::python::bind_integrate(module);
 }
