@@ -200,6 +200,7 @@ add_test(NAME style.shell COMMAND ${SHELLCHECK} -x ${PROJECT_SOURCE_DIR}/spam ${
   ${PROJECT_SOURCE_DIR}/src/package/debian/man_pages
   ${PROJECT_SOURCE_DIR}/src/package/debian/tests/consumer
   ${PROJECT_SOURCE_DIR}/src/package/debian/tests/problems
+  ${PROJECT_SOURCE_DIR}/src/package/debian/tests/python
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(style.shell PROPERTIES LABELS style)
 if(NOT SHELLCHECK)
