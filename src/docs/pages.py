@@ -4,7 +4,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 # Documents that are pages as they are.
@@ -61,6 +60,8 @@ class Writer:
             return self.pages[file] + (f"#{anchor}" if anchor else "")
         if file == self.root / "README.md":
             return "index.md"
+        if not file.exists():
+            raise SystemExit(f"spam: docs: a link leads nowhere: {link} in a text of {folder}")
         if not file.is_file() or not file.is_relative_to(self.root):
             return None
         copy = Path("files") / file.relative_to(self.root)
@@ -75,7 +76,7 @@ class Writer:
             target = self.target(match[3], folder)
             return match[2] if target is None else f"{match[1]}[{match[2]}]({target})"
 
-        parts = re.split(r"(?ms)(^```.*?^```$)", text)
+        parts = re.split(r"((?ms:^```.*?^```$)|`[^`\n]+`)", text)
         parts[::2] = [re.sub(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)", relink, part) for part in parts[::2]]
         return "".join(parts)
 
@@ -90,35 +91,17 @@ class Writer:
 
         text = self.relinked(file.read_text(encoding="utf-8"), file.parent)
         text = TAKE.sub(take, text)
-        for name, make in generated.items():
-            if f"<!-- {name} -->" in text:
-                text = text.replace(f"<!-- {name} -->", make(self))
+        for pattern, make in generated.items():
+            text = re.sub(pattern, lambda match, make=make: make(self, *match.groups()), text)
         return text
 
 
-def gallery(writer, here, players):
-    """A picture, a command and its time for every problem, by gallery.toml and the problems' own lines."""
-    groups = tomllib.loads((here / "gallery.toml").read_text(encoding="utf-8"))["group"]
-    lines, left = [], {file.stem for file in (writer.root / "problems").glob("*.cpp")}
-    for group in groups:
-        lines += [f"## {group['title']}", ""]
-        for name, picture in group["problems"].items():
-            if name not in left:
-                raise SystemExit(f"spam: docs: gallery.toml: no problem '{name}', or twice")
-            left.remove(name)
-            source = (writer.root / "problems" / f"{name}.cpp").read_text(encoding="utf-8")
-            what, _, time = re.search(r"(?m)^// spam-list: *(.*)$", source)[1].rpartition("; ")
-            lines += [f"### {name}", "", f"{what[:1].upper()}{what[1:]}. About {time}.", "", "```sh",
-                      f"./spam run {name}", "```", ""]
-            target = writer.target(picture, writer.root)
-            if target is None:
-                raise SystemExit(f"spam: docs: gallery.toml: no picture '{picture}' for {name}")
-            lines += [f"![{what.replace('[', '(').replace(']', ')')}]({target})", ""]
-            if name in players:
-                lines += [f'<p><a href="players/{name}.html">Play it</a></p>', ""]
-    if left:
-        raise SystemExit(f"spam: docs: gallery.toml: nothing of {', '.join(sorted(left))}")
-    return "\n".join(lines)
+def problem(writer, name, players):
+    """What a problem is, its command and its time: by the line `// spam-list:` of its source."""
+    source = (writer.root / "problems" / f"{name}.cpp").read_text(encoding="utf-8")
+    what, _, time = re.search(r"(?m)^// spam-list: *(.*)$", source)[1].rpartition("; ")
+    play = f'\n\n<p><a href="players/{name}.html">Play it</a></p>' if name in players else ""
+    return f"{what[:1].upper()}{what[1:]}. About {time}.\n\n```sh\n./spam run {name}\n```{play}"
 
 
 def numbers(writer):
@@ -134,7 +117,7 @@ def write(root, here, source, players):
     for name, player in players.items():
         shutil.copyfile(player, source / "_extra" / "players" / f"{name}.html")
     writer = Writer(root, here, source)
-    generated = {"gallery": lambda w: gallery(w, here, players), "numbers": numbers}
+    generated = {"<!-- problem (\\w+) -->": lambda w, name: problem(w, name, players), "<!-- numbers -->": numbers}
     for file in here.glob("*.md"):
         writer.write(file.name, writer.page_of(file, generated))
     for name, page in WHOLE.items():
