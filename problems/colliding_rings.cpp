@@ -51,10 +51,10 @@ Points<2> ring(const Parameters& p) {
 }
 
 [[noreturn]] void refuse(const Parameters& p) {
-    throw InputError(fmt::format(
-        "inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
-        "leave two spacings or more between the two",
-        p.radius, p.inner_radius));
+    throw InputError(
+        fmt::format("inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
+                    "leave two spacings or more between the two",
+                    p.radius, p.inner_radius));
 }
 
 /// The left ring, and its mirror image: what the one loses on its way the other loses as well.
