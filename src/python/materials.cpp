@@ -113,7 +113,7 @@ py::class_<Law> gas(py::module_& module, const char* name, const char* doc) {
 }
 
 void bind_fluids(py::module_& module) {
-    gas<LucyGas>(module, "LucyGas", "P = rho^2/2, [HH01]").def(py::init<>());
+    gas<LucyGas>(module, "LucyGas", "P = rho^2/2, the gas of [HH01].").def(py::init<>());
     gas<IdealGas>(module, "IdealGas", "P = 2/D rho e, temperature 2/D m e.")
         .def(py::init([](int dimensions, double mass) {
                  expect(dimensions >= 1 && dimensions <= 3, "dimensions", dimensions, "1, 2 or 3");
