@@ -50,9 +50,17 @@ Points<2> ring(const Parameters& p) {
     return disk(Eigen::all, kept);
 }
 
+[[noreturn]] void refuse(const Parameters& p) {
+    throw InputError(
+        fmt::format("inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
+                    "leave two spacings or more between the two",
+                    p.radius, p.inner_radius));
+}
+
 /// The left ring, and its mirror image: what the one loses on its way the other loses as well.
 Particles<2> two_rings(const Parameters& p) {
     Points<2> left = ring(p);
+    if (left.cols() == 0) refuse(p);
     left.row(0).array() -= p.radius + 1.0;
     left.row(1).array() -= 0.5 * p.offset;
     const auto one = make_particles<2>(left, 1.0);
@@ -63,11 +71,7 @@ Particles<2> two_rings(const Parameters& p) {
 
 std::unique_ptr<ParticleModel<2>> make_model(const Parameters& p) {
     auto model = std::make_unique<ParticleModel<2>>(two_rings(p));
-    if (model->particles().bodies() != 2)
-        throw InputError(fmt::format(
-            "inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
-            "leave two spacings or more between the two",
-            p.radius, p.inner_radius));
+    if (model->particles().bodies() != 2) refuse(p);
     const std::size_t n = model->particles().size() / 2;
     const auto solid = ElasticSolid::triangular_lattice();
     for (const std::size_t first : {std::size_t{0}, n})

@@ -3,7 +3,10 @@
 
 #include <spam/core/error.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace spam::python {
@@ -64,15 +67,22 @@ Function function_of(py::function f) {
             }};
 }
 
-template <int Dim>
-double FunctionLaw<Dim>::sound_speed(double) const {
-    return speed.value_or(nan);
+double SoundSpeed::at(double density) const {
+    double speed = number;
+    if (f) {
+        const py::gil_scoped_acquire interpreter;
+        speed = (*f)(density).cast<double>();
+    }
+    if (!std::isfinite(speed) || speed <= 0.0)
+        throw InputError(fmt::format(
+            "sound_speed: {} at density {} is not allowed; use a positive number", speed, density));
+    return speed;
 }
 
-template <int Dim>
-void FunctionLaw<Dim>::stress_rates(std::span<const Mat<Dim>> grad_v,
-                                    std::span<const SymTensor<Dim>> stress,
-                                    std::span<SymTensor<Dim>> rate) const {
+template <int Dim, bool sounds>
+void FunctionLaw<Dim, sounds>::stress_rates(std::span<const Mat<Dim>> grad_v,
+                                            std::span<const SymTensor<Dim>> stress,
+                                            std::span<SymTensor<Dim>> rate) const {
     const auto m = static_cast<py::ssize_t>(rate.size());
     const py::ssize_t components = symmetric_size(Dim);
     const bool well = asked(*pending, [&] {
@@ -100,9 +110,12 @@ void FunctionForce<Dim>::add(const typename External<Dim>::Now& now, Eigen::Inde
     if (!well) v_dot.middleCols(first, m).setConstant(nan);
 }
 
-template struct FunctionLaw<1>;
-template struct FunctionLaw<2>;
-template struct FunctionLaw<3>;
+template struct FunctionLaw<1, false>;
+template struct FunctionLaw<1, true>;
+template struct FunctionLaw<2, false>;
+template struct FunctionLaw<2, true>;
+template struct FunctionLaw<3, false>;
+template struct FunctionLaw<3, true>;
 template class FunctionForce<1>;
 template class FunctionForce<2>;
 template class FunctionForce<3>;

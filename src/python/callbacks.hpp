@@ -37,16 +37,24 @@ using SharedPending = std::shared_ptr<Pending>;
 using Function = std::shared_ptr<const py::function>;
 Function function_of(py::function f);
 
+/// A sound speed: one number, or a function of the density.
+struct SoundSpeed {
+    double number = 0.0;
+    Function f{};
+    /// Throws InputError for what is no positive number. Called where models are made.
+    double at(double density) const;
+};
+
 /// sigma_dot of many particles at a time by f(grad_v (m, D, D), stress (m, D(D+1)/2)), as many as stresses.
-template <int Dim>
+/// `sounds`: whether it tells a sound speed.
+template <int Dim, bool sounds>
 struct FunctionLaw {
     Function f;
     SharedPending pending;
-    std::optional<double> speed;  ///< of sound
-    std::string words;
+    SoundSpeed speed;
 
-    std::string describe() const { return words; }
-    double sound_speed(double) const;
+    std::string describe() const { return "a stress law of Python"; }
+    double sound_speed(double density) const requires sounds { return speed.at(density); }
     void stress_rates(std::span<const Mat<Dim>> grad_v, std::span<const SymTensor<Dim>> stress,
                       std::span<SymTensor<Dim>> rate) const;
 };
@@ -55,14 +63,13 @@ struct FunctionLaw {
 using StressFunction = void (*)(std::int64_t n, const double* grad_v, const double* stress,
                                 double* rate);
 
-template <int Dim>
+template <int Dim, bool sounds>
 struct AddressLaw {
     StressFunction f;
-    double speed;
-    std::string words;
+    SoundSpeed speed;
 
-    std::string describe() const { return words; }
-    double sound_speed(double) const { return speed; }
+    std::string describe() const { return "a compiled stress law"; }
+    double sound_speed(double density) const requires sounds { return speed.at(density); }
     void stress_rates(std::span<const Mat<Dim>> grad_v, std::span<const SymTensor<Dim>> stress,
                       std::span<SymTensor<Dim>> rate) const {
         static_assert(sizeof(Mat<Dim>) == sizeof(double) * Dim * Dim);

@@ -22,9 +22,8 @@ struct VonMisesSolid {
 struct OwnLaw {
     Function f;
     std::uintptr_t address = 0;
-    std::optional<double> speed;
-    std::string words;
-    double modulus;
+    std::optional<SoundSpeed> speed;
+    double modulus = 1.0;
 };
 
 using Solid = std::variant<ElasticSolid, VonMisesSolid, OwnLaw>;

@@ -32,10 +32,26 @@ ElasticSolid elastic(double lam, double eta) {
     return {lam, eta};
 }
 
-OwnLaw own(std::optional<double> speed, double modulus, const std::string& words) {
-    if (speed) expect(*speed > 0.0, "sound_speed", *speed, "a number above 0");
+/// None, a number, or a function of the density.
+using SpeedChoice = std::variant<std::monostate, double, py::function>;
+
+OwnLaw own(const SpeedChoice& speed, double modulus) {
     expect(modulus > 0.0, "modulus", modulus, "a typical modulus above 0");
-    return {nullptr, 0, speed, words, modulus};
+    OwnLaw law{nullptr, 0, std::nullopt, modulus};
+    if (const auto* number = std::get_if<double>(&speed)) {
+        expect(*number > 0.0, "sound_speed", *number, "a number above 0");
+        law.speed = SoundSpeed{*number};
+    } else if (const auto* f = std::get_if<py::function>(&speed)) {
+        law.speed = SoundSpeed{0.0, function_of(*f)};
+    }
+    return law;
+}
+
+template <int Dim, bool sounds>
+Material<Dim> own_material(const OwnLaw& law, const SharedPending& pending) {
+    const SoundSpeed speed = law.speed.value_or(SoundSpeed{});
+    if (law.f) return FunctionLaw<Dim, sounds>{law.f, pending, speed};
+    return AddressLaw<Dim, sounds>{reinterpret_cast<StressFunction>(law.address), speed};
 }
 
 template <class Law>
@@ -68,23 +84,24 @@ void bind_solids(py::module_& module) {
         "grad_v (m, D, D) with grad_v[:, a, b] = d v_b/d x_a, stress and sigma_dot (m, D(D+1)/2): xx; xx, yy,\n"
         "xy; xx, yy, zz, xy, xz, yz. It must not depend on which particles are asked for together. An\n"
         "exception of f ends the run and arrives unchanged; NaN stops the run (GuardStop).\n"
-        "`sound_speed` (length/time) is needed by schemes with viscosity; `modulus`, a typical one, is the\n"
+        "`sound_speed` (length/time), a number or a function of the density, is needed by schemes with\n"
+        "viscosity; `modulus`, a typical one, is the\n"
         "scale of the absolute tolerance of stresses.")
-        .def(py::init([](py::function f, std::optional<double> speed, double modulus) {
-                 OwnLaw law = own(speed, modulus, "a stress law of Python");
+        .def(py::init([](py::function f, const SpeedChoice& speed, double modulus) {
+                 OwnLaw law = own(speed, modulus);
                  law.f = function_of(std::move(f));
                  return law;
              }),
-             "f"_a, "sound_speed"_a = std::nullopt, "modulus"_a = 1.0)
+             "f"_a, "sound_speed"_a = py::none(), "modulus"_a = 1.0)
         .def_static(
             "from_address",
-            [](std::uintptr_t address, std::optional<double> speed, double modulus) {
+            [](std::uintptr_t address, const SpeedChoice& speed, double modulus) {
                 if (address == 0) throw InputError("address: 0 is no address of a function");
-                OwnLaw law = own(speed, modulus, "a compiled stress law");
+                OwnLaw law = own(speed, modulus);
                 law.address = address;
                 return law;
             },
-            "address"_a, "sound_speed"_a = std::nullopt, "modulus"_a = 1.0,
+            "address"_a, "sound_speed"_a = py::none(), "modulus"_a = 1.0,
             "The same by the address of void f(int64 n, double* grad_v, double* stress, double* rate), such as\n"
             "numba.cfunc(...).address: called from several threads at once, without the interpreter. Keep the\n"
             "function alive as long as models use it.");
@@ -96,7 +113,7 @@ py::class_<Law> gas(py::module_& module, const char* name, const char* doc) {
 }
 
 void bind_fluids(py::module_& module) {
-    gas<LucyGas>(module, "LucyGas", "P = rho^2/2, [HH01]").def(py::init<>());
+    gas<LucyGas>(module, "LucyGas", "P = rho^2/2, the gas of [HH01].").def(py::init<>());
     gas<IdealGas>(module, "IdealGas", "P = 2/D rho e, temperature 2/D m e.")
         .def(py::init([](int dimensions, double mass) {
                  expect(dimensions >= 1 && dimensions <= 3, "dimensions", dimensions, "1, 2 or 3");
@@ -151,11 +168,9 @@ void bind_fluids(py::module_& module) {
 template <int Dim>
 Material<Dim> material_of(const Solid& solid, const SharedPending& pending) {
     if (const auto* law = std::get_if<ElasticSolid>(&solid)) return *law;
-    if (const auto* law = std::get_if<OwnLaw>(&solid)) {
-        if (law->f) return FunctionLaw<Dim>{law->f, pending, law->speed, law->words};
-        return AddressLaw<Dim>{reinterpret_cast<StressFunction>(law->address),
-                               law->speed.value_or(std::nan("")), law->words};
-    }
+    if (const auto* law = std::get_if<OwnLaw>(&solid))
+        return law->speed ? own_material<Dim, true>(*law, pending)
+                          : own_material<Dim, false>(*law, pending);
     const auto& law = std::get<VonMisesSolid>(solid);
     if constexpr (Dim == 1)
         throw InputError(

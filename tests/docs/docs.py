@@ -1,7 +1,135 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pages of documentation: they build without a warning, links lead somewhere, nothing is fetched."""
+"""The pages of documentation: they build without a warning, links lead somewhere, nothing is fetched from elsewhere,
+examples are those that tests compile, and members without docstring are named."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
 import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "src" / "docs"
+sys.path.insert(0, str(DOCS))
+import build  # noqa: E402
+import links  # noqa: E402
+import members  # noqa: E402
+import pages  # noqa: E402
+
+# The distribution's own, which has the modules that the distribution installs.
+PYTHON = "/usr/bin/python3"
+
+
+def run(*words, **more):
+    return subprocess.run([PYTHON, "-B", DOCS / "build.py", *words], capture_output=True, text=True, check=False, **more)
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+
+class Site(InFolder):
+    def test_the_pages_build_without_a_complaint(self):
+        if not Path(PYTHON).exists():
+            self.skipTest("there is no " + PYTHON)
+        done = run("--out", self.folder)
+        if done.returncode == 5:
+            self.skipTest(done.stderr.strip())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for page in ("start", "equations", "schemes", "methods", "results", "recipes", "gallery", "problems", "numbers",
+                     "reference"):
+            self.assertTrue((self.folder / "html" / f"{page}.html").is_file(), page)
+        equations = (self.folder / "html" / "equations.html").read_text(encoding="utf-8")
+        self.assertIn("_static/mathjax/MathJax.js", equations)
+        self.assertTrue((self.folder / "html" / "_static" / "mathjax" / "MathJax.js").is_file())
+        self.assertIn(r"\dot\sigma", equations)
+
+    def test_a_missing_tool_is_one_line(self):
+        if not Path(PYTHON).exists():
+            self.skipTest("there is no " + PYTHON)
+        done = run("--out", self.folder, env={**os.environ, "PATH": str(self.folder)})
+        self.assertEqual((done.returncode, done.stderr), (5, "spam: docs: there is no doxygen; install doxygen\n"))
+
+
+class Reference(InFolder):
+    def test_every_public_member_has_a_docstring(self):
+        if not shutil.which("doxygen"):
+            self.skipTest("there is no doxygen; install doxygen")
+        self.assertEqual(build.doxygen(self.folder), [])
+        reference = (DOCS / "reference.md").read_text(encoding="utf-8")
+        self.assertGreaterEqual(len(re.findall(r"doxygen(?:class|struct)}", reference)), 15)
+        self.assertEqual(members.undocumented(self.folder / "xml", reference), [])
+
+    def test_a_member_without_docstring_is_named(self):
+        if not shutil.which("doxygen"):
+            self.skipTest("there is no doxygen; install doxygen")
+        (self.folder / "box.hpp").write_text("namespace spam {\n/// A box.\nclass Box {\n  public:\n    /// Its length.\n"
+                                             "    double length();\n    double width();\n};\n}\n")
+        settings = (f"INPUT = {self.folder}\nOUTPUT_DIRECTORY = {self.folder}\nGENERATE_XML = YES\nGENERATE_HTML = NO\n"
+                    "GENERATE_LATEX = NO\nQUIET = YES\nWARNINGS = NO\n")
+        subprocess.run(["doxygen", "-"], input=settings, capture_output=True, text=True, check=True)
+        reference = "```{doxygenclass} spam::Box\n```\n```{doxygenclass} spam::Ball\n```\n"
+        complaints = members.undocumented(self.folder / "xml", reference)
+        self.assertEqual(len(complaints), 2, complaints)
+        self.assertIn("Box::width has no docstring", complaints[0])
+        self.assertIn("no class Ball", complaints[1])
+
+
+class Links(InFolder):
+    def test_links_that_lead_nowhere_and_pages_that_fetch(self):
+        (self.folder / "a.html").write_text('<h1 id="top">A</h1><a href="b.html#here">b</a><a href="#top">up</a>'
+                                            '<a href="https://example.org">elsewhere</a><img src="a.html">')
+        (self.folder / "b.html").write_text('<p id="here">B</p><a href="c.html">c</a><a href="a.html#bottom">a</a>'
+                                            '<script src="https://example.org/x.js"></script>')
+        self.assertEqual(links.broken(self.folder),
+                         ["b.html: fetches https://example.org/x.js", "b.html: c.html leads nowhere",
+                          "b.html: a.html#bottom: no such place in a.html"])
+
+
+class Pages(InFolder):
+    def test_a_section_ends_at_the_next_heading_of_its_level(self):
+        text = "# A\n## B\none\n### C\n```sh\n# no heading\n```\ntwo\n## D\nthree\n"
+        self.assertEqual(pages.section(text, "B"), "one\n### C\n```sh\n# no heading\n```\ntwo")
+        with self.assertRaises(SystemExit):
+            pages.section(text, "E")
+
+    def test_links_follow_their_text(self):
+        writer = pages.Writer(ROOT, DOCS, self.folder)
+        text = "[a](../README.md#limits), [b](README.md#checkpoints), [c](../LICENSE), [d](https://example.org), " \
+               "[e](../include), `[f](g)` in\n```cpp\n[&](x)\n```\n"
+        self.assertEqual(writer.relinked(text, ROOT / "problems"),
+                         "[a](start.md#limits), [b](problems.md#checkpoints), [c](files/LICENSE.txt), "
+                         "[d](https://example.org), e, `[f](g)` in\n```cpp\n[&](x)\n```\n")
+        self.assertTrue((self.folder / "files" / "LICENSE.txt").is_file())
+
+    def test_the_gallery_has_every_problem_once_with_a_picture(self):
+        text = (DOCS / "gallery.md").read_text(encoding="utf-8")
+        shown = re.findall(r"### (\w+)\n\n<!-- problem (\w+) -->\n\n!\[[^\]]+]\((\S+)\)\n", text)
+        self.assertEqual([heading for heading, _, _ in shown], [name for _, name, _ in shown])
+        self.assertEqual(sorted(name for _, name, _ in shown),
+                         sorted(file.stem for file in (ROOT / "problems").glob("*.cpp")))
+        for _, name, picture in shown:
+            self.assertTrue((DOCS / picture).is_file(), name)
+
+    def test_examples_are_those_that_tests_compile(self):
+        recipes = (DOCS / "recipes.md").read_text(encoding="utf-8")
+        compiled = (ROOT / "tests" / "tests.cmake").read_text(encoding="utf-8")
+        included = re.findall(r"literalinclude} (\S+)\.cpp", recipes)
+        self.assertGreaterEqual(len(included), 5)
+        for example in included:
+            self.assertTrue((ROOT / "tests" / f"{example}.cpp").is_file(), example)
+            self.assertIn(f"spam_test({example} ", compiled)
+        code = re.sub(r"```\{literalinclude}.*?```", "", recipes, flags=re.DOTALL)
+        self.assertNotIn("```", code, "code that no test has seen")
 
 
 if __name__ == "__main__":
-    unittest.main()
+    tests = unittest.main(exit=False).result
+    if tests.wasSuccessful() and tests.skipped:
+        print("skipped: " + "; ".join(sorted({why for _, why in tests.skipped})))
+    sys.exit(not tests.wasSuccessful())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A bar under tension, as a user runs it: what is known of it and what is refused.
 #include "problem/found.hpp"
+#include "support/effort.hpp"
 
 #include <cmath>
 
@@ -12,6 +13,7 @@ BOOST_AUTO_TEST_CASE(molecules_part_in_two) {
     BOOST_TEST(std::abs(found.value.at("load_at_parting") - 0.42) < 0.03);
     BOOST_TEST(found.value.at("pieces") >= 2.0);
     BOOST_TEST(found.value.at("second_piece") > 250.0);
+    if (!effort(true, false)) return;  // four times as long
     // Loaded slowly they part where the rows are as strong as their bonds: 5.30/15, and a little later.
     const Results slow("tension_test", {"--model", "pair_md", "--load-rate", "0.001"},
                        "load_at_parting");

@@ -74,9 +74,11 @@ class Read(unittest.TestCase):
         program("ball_plate")
         results = spam.run("ball_plate", smoke=True, no_plots=True, out=work("plate"),
                            model="elements")
-        snapshot = next(iter(results.cases.values())).snapshots[-1]
+        snapshots = next(iter(results.cases.values())).snapshots
+        snapshot = snapshots[0]  # before anything is broken, and turned inside out
         corners = snapshot.position[snapshot.elements]
         self.assertGreater(len(corners), 10)
+        self.assertEqual(len(snapshots[-1].elements), len(corners))
         a, b = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
         self.assertTrue((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] > 0).all(), "counterclockwise")
         self.assertTrue(all(len(f) == len(corners) for f in snapshot.element_fields.values()))

@@ -5,7 +5,7 @@ import io
 
 import numpy as np
 
-from .errors import contents, refuse
+from .errors import contents, needed, refuse
 
 _SEAL = 56  # "SPAMckpt" | format | length | SHA-256 of all before
 _FORMAT = 1
@@ -44,8 +44,7 @@ def _word(dataset):
 def read_checkpoint(path):
     """The cases of a checkpoint by label. Needs python3-h5py. Raises InputError of one line where the file
     is not a whole checkpoint of a known format."""
-    import h5py
-
+    h5py = needed("h5py", "python3-h5py")
     data = contents(path, "checkpoint")
     seal = data[-_SEAL:]
     if len(data) < _SEAL or seal[:8] != b"SPAMckpt":

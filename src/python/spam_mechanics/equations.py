@@ -6,7 +6,7 @@ import time
 import numpy as np
 
 from . import _core
-from .errors import GuardStop, InputError
+from .errors import GuardStop, InputError, needed
 
 
 class Solution:
@@ -70,8 +70,7 @@ class WorkPrecision:
 
     def to_pandas(self):
         """A pandas.DataFrame. Needs python3-pandas."""
-        import pandas
-
+        pandas = needed("pandas", "python3-pandas")
         return pandas.DataFrame(self.rows, columns=self.names)
 
 

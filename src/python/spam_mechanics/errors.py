@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What can go wrong, by the same kinds as in the library and its programs."""
+import importlib
 
 
 class InputError(ValueError):
@@ -19,6 +20,14 @@ class OutputError(OSError):
 
 class SetUpError(RuntimeError):
     """A problem could not be installed or built. The front door `spam`: exit status 5."""
+
+
+def needed(module, package):
+    """A module that only some functions need; ImportError says what to install."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        raise ImportError(f"{module} is not installed; install {package}", name=module) from None
 
 
 def one_line(text, most=160):

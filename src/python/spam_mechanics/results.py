@@ -8,7 +8,7 @@ from typing import Optional
 import numpy as np
 
 from .checkpoints import read_checkpoint
-from .errors import InputError, one_line, refuse, text_of
+from .errors import InputError, needed, one_line, refuse, text_of
 from .snapshots import Snapshot, listed
 from .tables import Table, read_events, read_table
 
@@ -73,8 +73,7 @@ class Case:
     def to_xarray(self):
         """An xarray.Dataset of all snapshots over (time, particle, axis, other_axis); the coordinate
         `particle` is the id. Particles that are not there at a time are NaN. Needs python3-xarray."""
-        import xarray
-
+        xarray = needed("xarray", "python3-xarray")
         snapshots = self.snapshots[:]
         if not snapshots:
             raise InputError(f"{one_line(self.folder)}: there are no snapshots")
@@ -186,7 +185,10 @@ def read(folder):
         refuse(folder, "is empty; name the result folder of a run")
     if "case.toml" not in entries and "snapshots.pvd" not in entries:
         refuse(folder, "is no result folder of spam: it has neither case.toml nor snapshots.pvd")
-    return Results(folder)
+    try:
+        return Results(folder)
+    except OSError as error:
+        refuse(error.filename or folder, f"cannot be read ({error.strerror})")
 
 
 def _cases(folder):

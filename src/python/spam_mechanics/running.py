@@ -11,7 +11,8 @@ from .results import read
 
 
 def _command(problem):
-    """How to start a problem: from $SPAM_PROBLEMS, by the front door of the source tree or the installed one."""
+    """How to start a problem: from $SPAM_PROBLEMS, else by the front door of the source tree, of the same prefix, or
+    in PATH."""
     folder = os.environ.get("SPAM_PROBLEMS")
     if folder:
         program = pathlib.Path(folder) / problem
@@ -22,13 +23,15 @@ def _command(problem):
         raise InputError(f"run: no problem '{problem}' in SPAM_PROBLEMS = {one_line(folder)}; there are "
                          f"{', '.join(known) or 'none'}")
     above = pathlib.Path(__file__).resolve().parents
-    door = above[3] / "spam" if len(above) > 3 else None
-    if door is None or not (door.is_file() and (above[3] / "problems").is_dir()):
-        installed = shutil.which("spam")
-        if installed is None:
-            raise InputError("run: the front door 'spam' is not in PATH; install SPAM's problems, or name the "
-                             "folder of their programs in SPAM_PROBLEMS")
-        door = installed
+    if len(above) > 3 and (above[3] / "spam").is_file() and (above[3] / "problems").is_dir():
+        door = above[3] / "spam"
+    elif len(above) > 4 and (above[4] / "bin/spam").exists():
+        door = above[4] / "bin/spam"
+    else:
+        door = shutil.which("spam")
+    if door is None:
+        raise InputError("run: the front door 'spam' is not in PATH; install SPAM's problems, or name the "
+                         "folder of their programs in SPAM_PROBLEMS")
     return [str(door), "run", problem]
 
 

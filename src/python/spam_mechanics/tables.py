@@ -2,7 +2,7 @@
 """Columns of numbers against time: invariants.csv, and the rows of a run in memory."""
 import numpy as np
 
-from .errors import InputError, one_line, refuse, text_of
+from .errors import InputError, needed, one_line, refuse, text_of
 
 
 class Table:
@@ -51,8 +51,7 @@ class Table:
 
     def to_pandas(self):
         """A pandas.DataFrame with the times as its index. Needs python3-pandas."""
-        import pandas
-
+        pandas = needed("pandas", "python3-pandas")
         return pandas.DataFrame({n: self[n] for n in self.names if n != "t"},
                                 index=pandas.Index(self.t, name="t"))
 

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pages in Markdown for Sphinx, from those of this folder and from the documents of the repository."""
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+# Documents that are pages as they are.
+WHOLE = {"problems/README.md": "problems.md", "src/integrate/README.md": "methods.md",
+         "tests/bench/README.md": "bench.md", "src/README.md": "code.md",
+         ".github/CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md"}
+TAKE = re.compile(r"<!-- take (\S+) \"([^\"]+)\" -->")
+
+
+def slug(heading):
+    """The anchor of a heading: small letters, hyphens for blanks, no punctuation."""
+    return "".join("-" if c in " -" else c.lower() for c in heading if c.isalnum() or c in " -_")
+
+
+def section(text, heading):
+    """The section under a heading, up to the next one of its level."""
+    lines = text.splitlines()
+    starts = [n for n, line in enumerate(lines) if re.fullmatch(r"#+ " + re.escape(heading), line)]
+    if len(starts) != 1:
+        raise SystemExit(f"spam: docs: there is no section '{heading}' to take")
+    level, start, fenced = len(lines[starts[0]].split()[0]), starts[0] + 1, False
+    for end in range(start, len(lines)):
+        fenced ^= lines[end].startswith("```")
+        mark = re.match(r"#+ ", lines[end])
+        if mark and not fenced and len(mark[0].strip()) <= level:
+            return "\n".join(lines[start:end])
+    return "\n".join(lines[start:])
+
+
+class Writer:
+    """Writes pages into `source`; links are those of the place that a text comes from."""
+
+    def __init__(self, root, here, source):
+        self.root, self.source = root, source
+        self.pages = {(root / name).resolve(): page for name, page in WHOLE.items()}
+        self.pages |= {file.resolve(): file.name for file in here.glob("*.md")}
+        self.sections = {}  # (document, anchor): page that has taken it
+        for file in sorted(here.glob("*.md")):
+            for name, heading in TAKE.findall(file.read_text(encoding="utf-8")):
+                document = (root / name).resolve()
+                anchors = [slug(heading)] + [slug(h) for h in re.findall(
+                    r"(?m)^#+ (.*)$", section(document.read_text(encoding="utf-8"), heading))]
+                self.sections |= {(document, anchor): file.name for anchor in anchors}
+
+    def target(self, link, folder):
+        """Where a link of a text from `folder` leads on the pages; None: to nothing there."""
+        if re.match(r"[a-z]+:|#|mailto:", link):
+            return link
+        path, _, anchor = link.partition("#")
+        file = (folder / path).resolve()
+        if (file, anchor) in self.sections:
+            return f"{self.sections[file, anchor]}#{anchor}"
+        if file in self.pages:
+            return self.pages[file] + (f"#{anchor}" if anchor else "")
+        if file == self.root / "README.md":
+            return "index.md"
+        if not file.exists():
+            raise SystemExit(f"spam: docs: a link leads nowhere: {link} in a text of {folder}")
+        if not file.is_file() or not file.is_relative_to(self.root):
+            return None
+        copy = Path("files") / file.relative_to(self.root)
+        if file.suffix not in (".png", ".svg"):
+            copy = copy.with_name(copy.name + ".txt")
+        (self.source / copy).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, self.source / copy)
+        return str(copy)
+
+    def relinked(self, text, folder):
+        def relink(match):
+            target = self.target(match[3], folder)
+            return match[2] if target is None else f"{match[1]}[{match[2]}]({target})"
+
+        parts = re.split(r"((?ms:^```.*?^```$)|`[^`\n]+`)", text)
+        parts[::2] = [re.sub(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)", relink, part) for part in parts[::2]]
+        return "".join(parts)
+
+    def write(self, page, text):
+        (self.source / page).write_text(text, encoding="utf-8")
+
+    def page_of(self, file, generated):
+        """A page of this folder with the sections that it takes, and what is generated."""
+        def take(match):
+            document = self.root / match[1]
+            return self.relinked(section(document.read_text(encoding="utf-8"), match[2]), document.parent)
+
+        text = self.relinked(file.read_text(encoding="utf-8"), file.parent)
+        text = TAKE.sub(take, text)
+        for pattern, make in generated.items():
+            text = re.sub(pattern, lambda match, make=make: make(self, *match.groups()), text)
+        return text
+
+
+def problem(writer, name, players):
+    """What a problem is, its command and its time: by the line `// spam-list:` of its source."""
+    source = (writer.root / "problems" / f"{name}.cpp").read_text(encoding="utf-8")
+    what, _, time = re.search(r"(?m)^// spam-list: *(.*)$", source)[1].rpartition("; ")
+    play = f'\n\n<p><a href="players/{name}.html">Play it</a></p>' if name in players else ""
+    return f"{what[:1].upper()}{what[1:]}. About {time}.\n\n```sh\n./spam run {name}\n```{play}"
+
+
+def numbers(writer):
+    tool = writer.root / "src" / "numbers" / "numbers.py"
+    return subprocess.run([sys.executable, "-B", tool, "--list"], stdout=subprocess.PIPE, text=True, check=True).stdout
+
+
+def write(root, here, source, players):
+    """All pages, into the folder `source`."""
+    source.mkdir(parents=True)
+    (source / "_static").mkdir()
+    (source / "_extra" / "players").mkdir(parents=True)
+    for name, player in players.items():
+        shutil.copyfile(player, source / "_extra" / "players" / f"{name}.html")
+    writer = Writer(root, here, source)
+    generated = {"<!-- problem (\\w+) -->": lambda w, name: problem(w, name, players), "<!-- numbers -->": numbers}
+    for file in here.glob("*.md"):
+        writer.write(file.name, writer.page_of(file, generated))
+    for name, page in WHOLE.items():
+        document = root / name
+        writer.write(page, writer.relinked(document.read_text(encoding="utf-8"), document.parent))
+    for example in (root / "tests" / "extend").iterdir():  # for literalinclude
+        (source / "extend").mkdir(exist_ok=True)
+        shutil.copyfile(example, source / "extend" / example.name)
+
+
+PLAYERS = {"rotating_hexagon": [], "colliding_rings": [], "fragmenting_bar": [], "taylor_green": []}
+
+
+def make_players(root, out):
+    """Runs problems and makes a page of each that plays it. Returns the pages by problem."""
+    players = {}
+    for name, options in PLAYERS.items():
+        results = out / "runs" / name
+        for command in (["run", name, *options, "--out", results, "--force", "--quiet", "--no-plots"],
+                        ["view", results, "--out", out / "runs" / f"{name}.html"]):
+            done = subprocess.run([root / "spam", *command], stdout=subprocess.DEVNULL, check=False)
+            if done.returncode not in (0, 1):
+                sys.exit(done.returncode)
+        players[name] = out / "runs" / f"{name}.html"
+    return players
