@@ -86,18 +86,24 @@ void add_options(Problem& problem, Parameters& p) {
         between(1.0, 1e4));
     options.choice<Ends>("ends", p.ends, {Ends::free, Ends::held},
                          "the outermost particles of the plate move freely, or are held");
-    options.number(
-        "contact", p.contact.energy,
-        "energy e_c of a contact in place of adhesion; 0 for none: ball and plate are then "
-        "neighbours like any others (of elements 0 means a contact of energy 1)",
-        non_negative());
+    options
+        .choice<ContactKind>(
+            "contact", p.contact_kind, {ContactKind::none, ContactKind::repulsive},
+            "with none, particles of ball and plate are neighbours like any others, and stick "
+            "together; with repulsive they only push each other away, as elements always do")
+        .only_when(
+            {"model"}, [&p] { return p.matter.kind != MatterKind::elements; },
+            "has no meaning with {by}, whose ball and plate always repel each other; leave it "
+            "out");
+    const auto repel = [&p] { return p.repulsion().has_value(); };
+    const std::string why = "has no meaning without a contact; give --contact repulsive";
+    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive())
+        .only_when({"contact", "model"}, repel, why);
     options
         .number("contact-range", p.contact.range,
                 "distance at which particles of ball and plate touch, at most a spacing",
                 positive())
-        .only_when(
-            {"contact"}, [&p] { return p.contact.energy > 0.0; },
-            "has no meaning without a contact; give --contact 1, or leave it out");
+        .only_when({"contact", "model"}, repel, why);
     breaking::add_matter_options(
         problem, p.matter,
         {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam, MatterKind::elements});

@@ -50,9 +50,17 @@ Points<2> ring(const Parameters& p) {
     return disk(Eigen::all, kept);
 }
 
+[[noreturn]] void refuse(const Parameters& p) {
+    throw InputError(
+        fmt::format("inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
+                    "leave two spacings or more between the two",
+                    p.radius, p.inner_radius));
+}
+
 /// The left ring, and its mirror image: what the one loses on its way the other loses as well.
 Particles<2> two_rings(const Parameters& p) {
     Points<2> left = ring(p);
+    if (left.cols() == 0) refuse(p);
     left.row(0).array() -= p.radius + 1.0;
     left.row(1).array() -= 0.5 * p.offset;
     const auto one = make_particles<2>(left, 1.0);
@@ -63,11 +71,7 @@ Particles<2> two_rings(const Parameters& p) {
 
 std::unique_ptr<ParticleModel<2>> make_model(const Parameters& p) {
     auto model = std::make_unique<ParticleModel<2>>(two_rings(p));
-    if (model->particles().bodies() != 2)
-        throw InputError(fmt::format(
-            "inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
-            "leave two spacings or more between the two",
-            p.radius, p.inner_radius));
+    if (model->particles().bodies() != 2) refuse(p);
     const std::size_t n = model->particles().size() / 2;
     const auto solid = ElasticSolid::triangular_lattice();
     for (const std::size_t first : {std::size_t{0}, n})
@@ -129,7 +133,7 @@ void report(Session& session, const RunRecord& run) {
     const bool known =
         run.complete && run.statistics.t_end >= 600.0 &&
         session.when_default({"radius", "inner-radius", "speed", "offset", "formulation", "range",
-                              "penalty", "contact", "contact-range"});
+                              "penalty", "contact-energy", "contact-range"});
     session.claim({"contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
                    "contact does not hold on to anything"},
                   known);
@@ -193,7 +197,7 @@ void add_options(Options& options, Parameters& p) {
         .only_when(
             {"formulation"}, [&p] { return p.formulation == Formulation::updated; },
             "has no meaning for --formulation total_lagrangian; leave it out");
-    options.number("contact", p.contact.energy, "energy e_c of the contact", positive());
+    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive());
     options.number("contact-range", p.contact.range,
                    "distance at which particles of different rings touch, at most a spacing",
                    positive());

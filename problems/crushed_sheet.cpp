@@ -102,7 +102,7 @@ void report(Session& session, const Parameters& p, const RunRecord& run) {
     const bool released = run.complete && run.statistics.t_end >= 0.99 * p.t_end();
     const bool known =
         session.when_default({"columns", "rows", "speed", "width", "yield-stress", "hardening",
-                              "amplitude", "range", "penalty", "contact", "contact-range"});
+                              "amplitude", "range", "penalty", "contact-energy", "contact-range"});
     session.check({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
                    "no two particles that touch are nearer than half a spacing"});
     if (crushed)
@@ -202,7 +202,7 @@ void add_options(Options& options, Parameters& p) {
     options.number("range", p.range, "distance at which Lucy's weight function vanishes",
                    between(1.2, 6.0));
     options.number("penalty", p.penalty, "penalty kappa against zero-energy modes", non_negative());
-    options.number("contact", p.contact.energy, "energy e_c of the contact", positive());
+    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive());
     options.number("contact-range", p.contact.range,
                    "distance at which folds of the sheet touch, at most a spacing", positive());
 }

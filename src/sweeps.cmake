@@ -22,6 +22,9 @@ function(spam_add_sweeps target)
     # the instructions of a pair.
     target_compile_options(${objects} PRIVATE -fno-math-errno -ffp-contract=fast
       "$<$<CXX_COMPILER_ID:GNU>:-fschedule-insns;-fsched-pressure;-fno-gcse>")
+    # What is compiled for the sanitizers (-O1) spends most of its time here.
+    target_compile_options(${objects} PRIVATE $<$<CONFIG:Debug>:-O2>
+      "$<$<AND:$<CONFIG:Debug>,$<CXX_COMPILER_ID:Clang>>:SHELL:-mllvm -inline-threshold=4000>")
     if(NOT level STREQUAL generic)
       target_compile_options(${objects} PRIVATE -march=x86-64-${level})
     endif()

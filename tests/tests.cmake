@@ -12,6 +12,7 @@ spam_test(physics/density_potentials property)
 spam_test(physics/lattice_strength property)
 spam_test(kernel/weight_functions property GSL::gsl GSL::gslcblas)
 spam_test(material/elastic_solid property)
+spam_test(material/batch_law unit)
 spam_test(material/returns property)
 spam_test(material/yielding property)
 spam_test(material/equations_of_state property)
@@ -100,6 +101,7 @@ if(SPAM_BUILD_VIEW)
     add_dependencies(test.view.${test} spam-view)
   endforeach()
 endif()
+include(${CMAKE_CURRENT_SOURCE_DIR}/python/tests.cmake)
 # All of libspam as a shared object, from what was compiled for the static library: what
 # -DBUILD_SHARED_LIBS=ON links, and what a module of an interpreter holds.
 add_library(spam_module MODULE builds/module.cpp)
@@ -181,15 +183,24 @@ endif()
 if(SPAM_BUILD_PROBLEMS AND SPAM_BUILD_VIEW AND NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
   list(LENGTH problems number)
   add_test(NAME front_door.installed COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
-    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/installed -DCXX=${CMAKE_CXX_COMPILER} -DPROBLEMS=${number}
+    -DSOURCE=${PROJECT_SOURCE_DIR} -DSHARED=${BUILD_SHARED_LIBS} -DPROBLEMS=${number}
+    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/installed -DCXX=${CMAKE_CXX_COMPILER}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/front_door/installed.cmake)
   set_tests_properties(front_door.installed PROPERTIES LABELS problem TIMEOUT 300)
 endif()
+
+add_test(NAME package.agree COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
+                                    -P ${CMAKE_CURRENT_SOURCE_DIR}/package/agree.cmake)
+set_tests_properties(package.agree PROPERTIES LABELS style)
 
 find_program(SHELLCHECK NAMES shellcheck)
 file(GLOB_RECURSE scripts ${PROJECT_SOURCE_DIR}/src/*.bash)
 add_test(NAME style.shell COMMAND ${SHELLCHECK} -x ${PROJECT_SOURCE_DIR}/spam ${scripts}
   ${PROJECT_SOURCE_DIR}/.ci/run ${CMAKE_CURRENT_SOURCE_DIR}/front_door/cmake_stub
+  ${PROJECT_SOURCE_DIR}/src/package/debian/man_pages
+  ${PROJECT_SOURCE_DIR}/src/package/debian/tests/consumer
+  ${PROJECT_SOURCE_DIR}/src/package/debian/tests/problems
+  ${PROJECT_SOURCE_DIR}/src/package/debian/tests/python
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(style.shell PROPERTIES LABELS style)
 if(NOT SHELLCHECK)

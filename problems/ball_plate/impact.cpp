@@ -73,10 +73,16 @@ constexpr KnownElements known_elements[] = {{0.25, 1.0, Ends::held, -0.03, 0.012
 /// Everything but the speed and the seed.
 bool is_known(const Session& session, const RunRecord& run) {
     auto options = Problem::scheme_option_names();
-    options.insert(options.end(),
-                   {"radius", "columns", "rows", "gap", "travel", "ends", "contact", "yield-stress",
-                    "hardening", "failure-strain", "strength", "surface-tension", "core",
-                    "core-range", "disorder", "kernel", "range", "t-end"});
+    options.insert(options.end(), {"radius",        "columns",
+                                   "rows",          "gap",
+                                   "travel",        "ends",
+                                   "contact",       "contact-energy",
+                                   "contact-range", "yield-stress",
+                                   "hardening",     "failure-strain",
+                                   "strength",      "surface-tension",
+                                   "core",          "core-range",
+                                   "disorder",      "kernel",
+                                   "range",         "t-end"});
     return session.when_default(options) && run.complete;
 }
 
@@ -95,6 +101,9 @@ void claim(Session& session, const std::string& name, double value, const Known 
 }  // namespace
 
 std::string_view to_string(Ends ends) { return ends == Ends::free ? "free" : "held"; }
+std::string_view to_string(ContactKind kind) {
+    return kind == ContactKind::none ? "none" : "repulsive";
+}
 
 std::vector<double> speeds_of(MatterKind kind) {
     if (kind == MatterKind::pair_md) return {1.0, 2.0, 4.0, 8.0};
@@ -120,16 +129,14 @@ Impact make_elements(const Parameters& p, double speed) {
     twin.hardening = p.matter.hardening;
     twin.failure_strain = p.matter.failure_strain.value_or(twin.failure_strain);
     twin.held = p.ends == Ends::held;
-    if (p.contact.energy > 0.0) twin.contact = p.contact;
+    twin.contact = *p.repulsion();
     auto made = ball_plate_elements::make_impact(twin);
     return {speed, std::move(made.model), std::move(made.y0)};
 }
 
 Impact make_impact(const Session& session, const Parameters& p, double speed) {
     if (p.matter.kind == MatterKind::elements) return make_elements(p, speed);
-    std::optional<ContactScheme> contact;
-    if (p.contact.energy > 0.0) contact = p.contact;
-    Impact impact{speed, make_model(session, p.matter, ball_and_plate(p), contact), {}};
+    Impact impact{speed, make_model(session, p.matter, ball_and_plate(p), p.repulsion()), {}};
     if (p.ends == Ends::held) hold_ends(p, *impact.model);
     const auto& particles = impact.model->particles();
     Points<2> x = particles.reference_position;

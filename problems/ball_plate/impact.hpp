@@ -13,6 +13,10 @@ using namespace breaking;
 enum class Ends { free, held };
 std::string_view to_string(Ends ends);
 
+/// How particles of ball and plate act on each other: like neighbours of one body, or by repulsion alone.
+enum class ContactKind { none, repulsive };
+std::string_view to_string(ContactKind kind);
+
 struct Parameters {
     Matter matter;
     double speed = 1.0;
@@ -22,7 +26,14 @@ struct Parameters {
     double gap = 1.1;
     std::optional<double> travel;  ///< by default that of the lecture's numbers
     Ends ends = Ends::free;
-    ContactScheme contact{.energy = 0.0};  ///< without energy they stick together
+    ContactKind contact_kind = ContactKind::none;
+    ContactScheme contact{.energy = 1.0};  ///< of ContactKind::repulsive
+
+    /// Elements have no neighbours but those of their mesh: ball and plate meet by a contact or not at all.
+    std::optional<ContactScheme> repulsion() const {
+        if (contact_kind == ContactKind::none && matter.kind != MatterKind::elements) return {};
+        return contact;
+    }
 
     double travelled() const {
         return travel.value_or(matter.kind == MatterKind::pair_md    ? 75.0

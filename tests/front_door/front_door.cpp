@@ -82,6 +82,18 @@ BOOST_AUTO_TEST_CASE(wrong_options_are_refused_before_a_build) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(python_without_a_script_is_refused_before_a_build) {
+    const Tree tree("100");
+    for (const auto& [words, said] :
+         {std::pair{std::vector<std::string>{"python"}, "which script?"},
+          {{"python", "nowhere.py"}, "no script 'nowhere.py'"}}) {
+        const Outcome outcome = run(tree.call(words), tree.launch());
+        BOOST_TEST(outcome.status == 2);
+        BOOST_TEST(has(outcome.err, said), outcome.err);
+    }
+    BOOST_TEST(!fs::exists(tree / "build"));
+}
+
 BOOST_AUTO_TEST_CASE(a_program_that_is_up_to_date_runs_without_leave_to_write) {
     const Tree tree("0");
     BOOST_TEST(run(tree.call({"run", "--no-install", "drop"}), tree.launch()).status == 0);

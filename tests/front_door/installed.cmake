@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # An installation as a user meets it, under a prefix with a blank: one word on PATH, problems that run, and what
 # find_package(spam) says when it cannot help.
-#   BUILD: build tree to install from; WORK: a folder of its own; CXX: the compiler; PROBLEMS: their number
+#   BUILD: build tree to install from; SOURCE: the project; WORK: a folder of its own; CXX: the compiler;
+#   PROBLEMS: their number; SHARED: whether libspam is
 file(REMOVE_RECURSE ${WORK})
 set(prefix "${WORK}/a prefix")
 
@@ -32,6 +33,24 @@ if(NOT output MATCHES "^spam [0-9]")
   message(FATAL_ERROR "no version: ${output}")
 endif()
 call(2 ${prefix}/bin/spam test)
+# What the packages of Debian take is there; what belongs to a shared libspam is there with one.
+file(GLOB lists ${SOURCE}/src/package/debian/*.install)
+list(LENGTH lists count)
+if(count LESS 3)
+  message(FATAL_ERROR "${count} lists of what packages take")
+endif()
+foreach(list IN LISTS lists)
+  file(STRINGS ${list} patterns)
+  foreach(pattern IN LISTS patterns)
+    string(REGEX REPLACE "^usr/" "${prefix}/" there "${pattern}")
+    file(GLOB found "${there}")
+    string(REPLACE "/lib/*/" "/lib/" there "${there}")  # without an architecture's folder
+    file(GLOB found_here "${there}")
+    if(NOT found AND NOT found_here AND (SHARED OR NOT pattern MATCHES "libspam[.]so|python"))
+      message(FATAL_ERROR "${list}: there is no ${pattern}")
+    endif()
+  endforeach()
+endforeach()
 
 # refused(<languages> <arguments of find_package> <what must be said>)
 function(refused languages arguments words)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Returns to von Mises' surfaces against the closest point, found by Newton's method in all six components
 // without knowing what they simplify to.
+#include <spam/material/plane_stress_return.hpp>
 #include <spam/material/von_mises.hpp>
 
 #include <Eigen/LU>
@@ -153,4 +154,32 @@ BOOST_AUTO_TEST_CASE(a_yield_stress_that_is_not_linear_is_met) {
     const auto p = SpaceVonMises::parts(found.stress, 0.0);
     BOOST_TEST(found.strain > 0.0);
     BOOST_TEST(std::abs(p.q - curved(found.strain, space.elastic_energy(p.mean, p.q))) < 1e-15);
+}
+
+/// Many at once, with a rest that fills no register; those that do not yield keep every bit.
+BOOST_AUTO_TEST_CASE(blocks_return_as_particles_do) {
+    constexpr std::size_t count = 77;
+    for (const double H : {0.0, 0.3}) {
+        const LinearHardening flow{Y, H};
+        std::mt19937 random(11);
+        std::normal_distribution<double> normal(0.0, 0.02);
+        std::vector<double> strain(count), trial(3 * count), returned(3 * count);
+        for (double& x : strain) x = std::abs(normal(random));
+        for (double& x : trial) x = normal(random);
+        return_plane_stress(stress, flow, count, strain.data(), trial.data(), returned.data());
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SymTensor<2> one{{trial[3 * i], trial[3 * i + 1], trial[3 * i + 2]}};
+            const auto alone = stress.returned(
+                one, 0.0, H, [&](double d, double) { return flow.yield_stress({strain[i] + d}); });
+            kept += alone.strain == 0.0 ? 1 : 0;
+            for (std::size_t c = 0; c < 3; ++c)
+                if (alone.strain == 0.0)
+                    BOOST_TEST(returned[3 * i + c] == trial[3 * i + c]);
+                else
+                    BOOST_TEST(std::abs(returned[3 * i + c] - alone.stress.c[c]) < 1e-16);
+        }
+        BOOST_TEST(kept > 5U);
+        BOOST_TEST(kept < count - 20U);
+    }
 }

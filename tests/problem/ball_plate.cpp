@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(smooth_particles_keep_as_much_as_in_another_program) {
 // Nothing holds on to the ball, which keeps more of its speed than one that sticks to the plate.
 BOOST_AUTO_TEST_CASE(a_contact_in_place_of_adhesion) {
     const double sticking = value_of({"--speed", "0.25"}, "ball_speed"),
-                 touching = value_of({"--speed", "0.25", "--contact", "1"}, "ball_speed");
+                 touching = value_of({"--speed", "0.25", "--contact", "repulsive"}, "ball_speed");
     BOOST_TEST(touching == 0.116, boost::test_tools::tolerance(0.05));
     BOOST_TEST(touching > sticking);
 }
@@ -66,9 +66,12 @@ BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
     };
     const std::vector<Bad> all{
         {{"--failure-strain", "0"}, {"failure-strain", "0", "above 0"}},
-        {{"--contact", "0.2", "--contact-range", "1.2"}, {"contact-range: 1.2", "spacing"}},
+        {{"--contact", "repulsive", "--contact-range", "1.2"}, {"contact-range: 1.2", "spacing"}},
         {{"--contact-range", "0.9"}, {"contact-range", "without a contact"}},
-        {{"--contact", "-1"}, {"contact", "-1"}},
+        {{"--contact-energy", "2"}, {"contact-energy", "without a contact"}},
+        {{"--contact", "repulsive", "--contact-energy", "-1"}, {"contact-energy", "-1"}},
+        {{"--contact", "glue"}, {"contact", "glue", "repulsive"}},
+        {{"--contact", "none", "--model", "elements"}, {"contact", "--model elements"}},
         {{"--transport", "average"}, {"transport", "core", "--transport plain"}},
         {{"--compare", "--speed", "2"}, {"speed", "compare"}},
         {{"--speed", "0"}, {"speed", "0", "above 0"}},

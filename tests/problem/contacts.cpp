@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
     };
     const std::vector<Bad> all{
         {{"--contact-range", "1.2"}, {"contact-range: 1.2", "not above the spacing"}},
-        {{"--contact", "0"}, {"contact", "above 0"}},
+        {{"--contact-energy", "0"}, {"contact-energy", "above 0"}},
         {{"--inner-radius", "15.9"}, {"inner-radius", "no ring"}},
         {{"--inner-radius", "17"}, {"inner-radius", "no ring"}},
         {{"--range", "1"}, {"range: 1"}},

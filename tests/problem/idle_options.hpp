@@ -109,7 +109,8 @@ inline const std::map<std::string, std::string> another_value{
     {"rho0", "0.9"},
     {"core", "0.2"},
     {"core-range", "0.9"},
-    {"contact", "0.15"},
+    {"contact", "repulsive"},
+    {"contact-energy", "0.15"},
     {"contact-range", "0.95"},
     {"inner-radius", "4"},
     {"length", "0.3"},
@@ -228,7 +229,8 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"tension_test", {"--model", "embedded_atom"}},
     {"ball_plate", {}},
     {"ball_plate", {"--model", "pair_md"}},
-    {"ball_plate", {"--model", "embedded_atom", "--contact", "0.1"}},
+    {"ball_plate", {"--model", "embedded_atom", "--contact", "repulsive"}},
+    {"ball_plate", {"--model", "elements"}},
 };
 
 }  // namespace spam::test

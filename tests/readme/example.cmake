@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A stranger's project: the README's example, word for word, against the installed library.
-#   BUILD: build tree to install from; SOURCE: the project; WORK: a folder of its own; FLAGS: for C++
+#   BUILD: build tree to install from (absent: SPAM is installed); SOURCE: the project; WORK: a folder of its
+#   own; FLAGS: for C++; OPTIONS: more for cmake
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
@@ -34,9 +35,11 @@ endfunction()
 
 extract(cpp my_plate.cpp)
 extract(cmake CMakeLists.txt)
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+if(BUILD)
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+endif()
 run(${CMAKE_COMMAND} -S . -B build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+    -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}" ${OPTIONS})
 run(${CMAKE_COMMAND} --build build)
 run(build/my_plate --speed 0.02 --smoke)
 foreach(file case.toml run.log invariants.csv statistics.json result.json snapshots.pvd)

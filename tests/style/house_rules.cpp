@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string> rooms{"core",    "kernel",   "material", "neighbors", "boundary",
                                      "physics", "external", "rhs",      "integrate", "diagnostics",
                                      "setup",   "analysis", "io",       "picture",   "problem",
-                                     "study",   "view"};
+                                     "study",   "view",     "python"};
 
 /// kernel and material are neighbours on one floor: both include only core.
 /// integrate knows vectors and callables, not particles: only core as well.
@@ -48,7 +48,8 @@ std::vector<fs::path> sources(const std::vector<std::string>& folders) {
     for (const auto& folder : folders)
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPAM_SOURCE) / folder))
             if (const auto e = entry.path().extension();
-                e == ".hpp" || e == ".cpp" || (e == ".js" && !is_from_elsewhere(entry.path())))
+                e == ".hpp" || e == ".cpp" || e == ".py" || e == ".pyi" ||
+                (e == ".js" && !is_from_elsewhere(entry.path())))
                 result.push_back(entry.path());
     return result;
 }
@@ -58,6 +59,10 @@ std::vector<std::string> lines_of(const fs::path& path) {
     std::vector<std::string> lines;
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     return lines;
+}
+
+bool is_cpp(const fs::path& path) {
+    return path.extension() == ".hpp" || path.extension() == ".cpp";
 }
 
 /// The room a file of include/spam or src lives in, empty outside.
@@ -87,7 +92,7 @@ BOOST_AUTO_TEST_CASE(rooms_include_only_rooms_before_them) {
     int checked = 0;
     for (const auto& path : sources({"include", "src"})) {
         const auto room = room_of(path);
-        if (room.empty()) continue;
+        if (room.empty() || !is_cpp(path)) continue;  // tools in other languages include nothing
         BOOST_TEST(is_room(room), path << " is in no known room");
         for (const auto& line : wrong_includes(room, lines_of(path)))
             BOOST_TEST(false, path << ": " << room << " must not know: " << line);
@@ -123,9 +128,11 @@ BOOST_AUTO_TEST_CASE(sundials_is_called_in_two_places) {
 BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
     for (const auto& path : sources({"include", "src", "problems", "tests"})) {
         const auto lines = lines_of(path);
-        BOOST_TEST(
-            (!lines.empty() && lines.front() == "// SPDX-License-Identifier: GPL-3.0-or-later"),
-            path << " lacks its SPDX line");
+        const auto e = path.extension();
+        const std::string comment = e == ".py" || e == ".pyi" ? "#" : "//";
+        BOOST_TEST((!lines.empty() &&
+                    lines.front() == comment + " SPDX-License-Identifier: GPL-3.0-or-later"),
+                   path << " lacks its SPDX line");
     }
 }
 

@@ -5,6 +5,7 @@
 #include <spam/material/stress_law.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,9 +20,11 @@ namespace spam {
 template <int Dim>
 class Material {
   public:
-    /// A copy of `law`, any struct with a stress_rate() (stress_law.hpp).
-    template <StressLaw<Dim> Law>
-    Material(const Law& law) : loop_(std::make_shared<LoopOver<Law>>(law)) {}
+    /// A copy of `law`, any struct with a stress_rate() or, for many particles at a time, stress_rates()
+    /// (stress_law.hpp).
+    template <class Law>
+    requires(StressLaw<Law, Dim> || BatchStressLaw<Law, Dim>) Material(const Law& law)
+        : loop_(std::make_shared<LoopOver<Law>>(law)) {}
 
     /// sigma_dot of the particles with these numbers from their velocity gradients, as many, and from `stress`,
     /// D(D+1)/2 numbers for each of all particles: that in `state`, or what it is returned to. Sets the
@@ -82,12 +85,31 @@ class Material {
             for (std::size_t c = 0; c < components; ++c) all[components * i + c] = stress.c[c];
         }
 
+        void run(std::span<const std::uint32_t> particles, std::span<const Mat<Dim>> grad_v,
+                 const double* from, const ConstState<Dim>& state,
+                 const State<Dim>& rate) const override {
+            if constexpr (BatchStressLaw<Law, Dim>)
+                run_batches(particles, grad_v, from, rate.stress().data());
+            else
+                run_each(particles, grad_v, from, rate.stress().data(), state, rate);
+        }
+        void run_batches(std::span<const std::uint32_t> particles, std::span<const Mat<Dim>> grad_v,
+                         const double* from, double* to) const {
+            std::array<SymTensor<Dim>, batch_of_stresses> stress, rate;
+            while (!particles.empty()) {
+                const std::size_t n = std::min(particles.size(), batch_of_stresses);
+                for (std::size_t k = 0; k < n; ++k) stress[k] = stress_at(from, particles[k]);
+                law.stress_rates(grad_v.first(n), {stress.data(), n}, {rate.data(), n});
+                for (std::size_t k = 0; k < n; ++k) store(rate[k], to, particles[k]);
+                particles = particles.subspan(n);
+                grad_v = grad_v.subspan(n);
+            }
+        }
         // flatten: a law is a small function, a call would cost as much as it does
-        [[gnu::flatten]] void run(std::span<const std::uint32_t> particles,
-                                  std::span<const Mat<Dim>> grad_v, const double* from,
-                                  [[maybe_unused]] const ConstState<Dim>& state,
-                                  const State<Dim>& rate) const override {
-            double* const to = rate.stress().data();
+        [[gnu::flatten]] void run_each(std::span<const std::uint32_t> particles,
+                                       std::span<const Mat<Dim>> grad_v, const double* from,
+                                       double* to, [[maybe_unused]] const ConstState<Dim>& state,
+                                       const State<Dim>& rate) const {
             const Law own = law;  // a copy that the stores below cannot be suspected to change
             const auto each = [&](const auto& rate_of) {
                 for (std::size_t k = 0; k < particles.size(); ++k) {
@@ -107,7 +129,9 @@ class Material {
                                             std::size_t count, const ConstState<Dim>& state,
                                             double* to) const override {
             const double* const from = state.stress().data();
-            if constexpr (ReturningLaw<Law, Dim>) {
+            if constexpr (LawThatReturnsBlocks<Law, Dim>) {
+                law.return_block(t, state, first, count, to);
+            } else if constexpr (ReturningLaw<Law, Dim>) {
                 const Law own = law;
                 const auto returned = own.return_map(t, state);
                 for (std::size_t i = first; i < first + count; ++i)

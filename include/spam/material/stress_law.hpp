@@ -5,6 +5,8 @@
 #include <spam/core/tensor.hpp>
 
 #include <concepts>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,18 @@ concept StressLaw = requires(const Law law, Mat<Dim> grad_v, SymTensor<Dim> stre
     { law.stress_rate(grad_v, stress) } -> std::same_as<SymTensor<Dim>>;
     { law.describe() } -> std::convertible_to<std::string>;
 };
+
+/// One for many particles at a time, where a call for each would cost more than the law itself (a law from
+/// another language): fills as many rates as there are gradients and stresses, at most `batch_of_stresses`. Called
+/// from several threads; must not throw. NaN: no rate, the run stops there.
+template <class Law, int Dim>
+concept BatchStressLaw = requires(const Law law, std::span<const Mat<Dim>> grad_v,
+                                  std::span<const SymTensor<Dim>> stress,
+                                  std::span<SymTensor<Dim>> rate) {
+    law.stress_rates(grad_v, stress, rate);
+    { law.describe() } -> std::convertible_to<std::string>;
+};
+inline constexpr std::size_t batch_of_stresses = 256;
 
 /// One with a memory: `history` names the fields that y holds for it (Role::history, or Role::integrated where
 /// `rates` finds their rates), and `settle` looks at particle i after every accepted step and may change its
@@ -38,6 +52,14 @@ concept ReturningLaw = LawWithHistory<Law, Dim> &&
     requires(const Law law, double t, std::size_t i, const ConstState<Dim>& state,
              SymTensor<Dim> trial) {
     { law.return_map(t, state)(i, trial) } -> std::same_as<SymTensor<Dim>>;
+};
+
+/// One that returns the particles [first, first + count) at once, return_block(t, state, first, count, stress): the
+/// same stresses as return_map()'s, to rounding error, into their places of `stress`, which has those of all.
+template <class Law, int Dim>
+concept LawThatReturnsBlocks = ReturningLaw<Law, Dim> &&
+    requires(const Law law, double t, const ConstState<Dim>& state, std::size_t n, double* stress) {
+    law.return_block(t, state, n, n, stress);
 };
 
 /// One with more rates than those of its stress: rates(state, rate)(i, grad_v, stress) returns sigma_dot of

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/plane_stress_multiplier.hpp>
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <type_traits>
@@ -136,6 +138,11 @@ struct PlaneStressVonMises {
     ElasticSolid elastic() const { return {2.0 * lambda * eta / (lambda + 2.0 * eta), eta}; }
     double modulus() const { return 3.0 * eta; }
     static const char* name() { return "plane stress"; }
+    /// How fast g makes p and the two others fall: E/(3 (1 - nu)), with E = eta (3 lambda + 2 eta)/(lambda + eta)
+    /// and nu = lambda/(2 (lambda + eta)), and 2 eta.
+    std::array<double, 2> falls() const {
+        return {2.0 * eta * (3.0 * lambda + 2.0 * eta) / (3.0 * (lambda + 2.0 * eta)), 2.0 * eta};
+    }
 
     template <class YieldStress>
     ReturnedStress<dim> returned(const SymTensor<dim>& trial, double, double slope,
@@ -147,9 +154,7 @@ struct PlaneStressVonMises {
         };
         const double first = Y(0.0, elastic_energy(1.0, 1.0));
         if (!(p2 + s2 > first * first)) return {trial, 0.0, 0.0};
-        // E/(3 (1 - nu)), with E = eta (3 lambda + 2 eta)/(lambda + eta), nu = lambda/(2 (lambda + eta)).
-        const double a = 2.0 * eta * (3.0 * lambda + 2.0 * eta) / (3.0 * (lambda + 2.0 * eta));
-        const double b = 2.0 * eta;
+        const double a = falls()[0], b = falls()[1];
         double g = 0.0, f = 1.0, h = 1.0, q = 0.0;
         const auto go_to = [&](double to) {
             g = to;
@@ -163,16 +168,10 @@ struct PlaneStressVonMises {
                 return q - Y(2.0 / 3.0 * x * q, elastic_energy(f, h));
             }));
         } else {
-            // Newton's method for 1/q = (1 - 2 H g/3)/Y: without a mean stress both sides are linear in g.
-            const double right = 2.0 / 3.0 * slope / first;
-            go_to(0.0);
-            for (int k = 0; k < 50; ++k) {
-                const double fall = a * f * f * f * p2 + b * h * h * h * s2;  // -q dq/dg
-                const double step =
-                    (1.0 / first - right * g - 1.0 / q) / (fall / (q * q * q) + right);
-                go_to(g + step);
-                if (!(std::abs(step) > 1e-9 * g)) break;  // its square is left
+            PlaneStressMultiplier<double> root{p2, s2, first, a, b, 2.0 / 3.0 * slope};
+            while (root.advance()) {
             }
+            go_to(root.g);
         }
         ReturnedStress<dim> r;
         r.stress(0, 0) = f * p + h * d;

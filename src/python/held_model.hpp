@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "choices.hpp"
+#include <spam/rhs/particle_model.hpp>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace spam::python {
+
+/// A model as Python holds it: the library's own, and what a state of it starts from. Particles come and go in
+/// the order in which they were given; inside they lie in that of the library, `id` says which is which.
+template <int Dim>
+class HeldModel {
+  public:
+    /// Makes y from velocities (Dim x N, in the order of the library) and a temperature.
+    using Start =
+        std::function<std::vector<double>(const Points<Dim>& velocity, double temperature)>;
+
+    HeldModel(std::shared_ptr<ParticleModel<Dim>> its_model, Start start, SharedPending its_pending)
+        : model(std::move(its_model)),
+          pending(std::move(its_pending)),
+          start_(std::move(start)) {}
+
+    const std::shared_ptr<ParticleModel<Dim>> model;
+    const SharedPending pending;
+    const void* moved_by = nullptr;  ///< the latest Simulation: one model has one motion at a time
+
+    std::size_t size() const { return model->particles().size(); }
+
+    /// y at the start; velocities (N, D) in the order given by the user, or None: at rest.
+    std::vector<double> start(const py::object& velocity, double temperature);
+    /// y that somebody gives. Scales for tolerances are those of start(), where it has been called.
+    std::vector<double> checked(const py::object& y0);
+
+    /// While one is alive nobody else computes with the model: a right-hand side has one memory.
+    class Use {
+      public:
+        explicit Use(HeldModel& held);
+        ~Use() { held_.busy_ = false; }
+        Use(const Use&) = delete;
+        Use& operator=(const Use&) = delete;
+
+      private:
+        HeldModel& held_;
+    };
+    /// Leave in between, for functions of Python that are called during a run.
+    class Break {
+      public:
+        explicit Break(HeldModel& held) : held_(held) { held_.busy_ = false; }
+        ~Break() { held_.busy_ = true; }
+        Break(const Break&) = delete;
+        Break& operator=(const Break&) = delete;
+
+      private:
+        HeldModel& held_;
+    };
+
+    /// dy/dt (t, y), an array of its own.
+    Doubles rates(double t, const py::object& y);
+
+  private:
+    Start start_;
+    bool scaled_ = false;
+    std::atomic<bool> busy_{false};
+};
+
+}  // namespace spam::python

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <cstddef>
+
+/// What a module shares with the process that has loaded it: threads, signals, forks.
+namespace spam::python {
+
+/// Before every computation over so many particles: threads of OpenMP for the calling thread (0: the runtime's
+/// own number; it counts them per thread). After a fork the threads of the parent are gone and a parallel loop would
+/// wait for them for ever: then throws std::runtime_error, which says what to do.
+void enter(std::size_t particles, int threads);
+
+/// A number of threads that somebody asks for: 0 to 4096. Throws InputError.
+int checked_threads(int threads);
+
+/// Ends a long computation soon after Ctrl-C. Call where the interpreter is not held; looks for signals by the
+/// clock, every 50 ms, and throws py::error_already_set (KeyboardInterrupt, or what a handler raised).
+class Signals {
+  public:
+    void look() {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - latest_ < std::chrono::milliseconds(50)) return;
+        latest_ = now;
+        ask();
+    }
+
+  private:
+    static void ask();
+    std::chrono::steady_clock::time_point latest_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace spam::python

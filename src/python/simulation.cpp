@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulation.hpp"
+
+#include "../problem/run.hpp"
+#include "process.hpp"
+#include <spam/core/error.hpp>
+#include <spam/problem/integrator_settings.hpp>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+
+namespace spam::python {
+namespace {
+
+double number_of(const py::object& value, const char* what) {
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (number == -1.0 && PyErr_Occurred()) {
+        if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw py::error_already_set();
+        PyErr_Clear();
+        throw InputError(fmt::format("{}: returned {}, which is no number", what,
+                                     std::string(py::str(py::type::of(value).attr("__name__")))));
+    }
+    return number;
+}
+
+}  // namespace
+
+/// Of computing: one at a time, by the latest Simulation of the model, in this process.
+template <int Dim>
+class Simulation<Dim>::Turn {
+  public:
+    explicit Turn(Simulation& simulation) : simulation_(simulation), use_(*simulation.held_) {
+        if (simulation.held_->moved_by != &simulation)
+            throw std::runtime_error(
+                "the model goes on in another Simulation, which was made of it later; make a model for each");
+        if (simulation.at_work_)
+            throw std::runtime_error(
+                "the simulation is running; this call comes from inside its run");
+        enter(simulation.held_->size(), simulation.threads_);
+        simulation.at_work_ = true;
+    }
+    ~Turn() { simulation_.at_work_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+  private:
+    Simulation& simulation_;
+    typename HeldModel<Dim>::Use use_;
+};
+
+template <int Dim>
+Simulation<Dim>::Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::object& y0,
+                            const IntegratorOptions& options, double t0, int threads)
+    : held_(std::move(model)),
+      options_(options),
+      threads_(checked_threads(threads)),
+      motion_(*held_->model, held_->checked(y0), options, t0) {
+    held_->moved_by = this;
+}
+
+template <int Dim>
+void Simulation<Dim>::watch(double t) {
+    for (const Remark& remark : held_->model->watch(t, motion_.y())) {
+        remarks_.emplace_back(t, remark);
+        if (remark.stop)
+            throw GuardStop(fmt::format("{} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
+    }
+}
+
+/// Of a step that has been accepted although a function failed in it nothing is kept back: it ends here.
+template <int Dim>
+void Simulation<Dim>::look_after(double t, Signals& signals) {
+    if (held_->pending->failed()) throw GuardStop("a function of Python has failed");
+    watch(t);
+    signals.look();
+}
+
+template <int Dim>
+double Simulation<Dim>::step(double t_stop) {
+    if (!(t_stop > t()))
+        throw InputError(fmt::format("t_stop: {} is not after t = {}", t_stop, t()));
+    const Turn turn(*this);
+    Signals signals;
+    try {
+        const py::gil_scoped_release others;
+        motion_.step(t_stop);
+        look_after(t(), signals);
+    } catch (const GuardStop&) {
+        held_->pending->raise();
+        throw;
+    }
+    return t();
+}
+
+template <int Dim>
+Observers Simulation<Dim>::observers(const RunRequest& request, Signals& signals) {
+    const auto calls = [this](const py::object& f) -> std::function<void(double)> {
+        if (f.is_none()) return {};
+        return [this, call = f.ptr()](double) {
+            const py::gil_scoped_acquire interpreter;
+            const typename HeldModel<Dim>::Break pause(*held_);
+            py::reinterpret_borrow<py::object>(call)();
+        };
+    };
+    const auto asks = [this](const py::object& f) -> std::function<bool(double)> {
+        if (f.is_none()) return {};
+        return [this, call = f.ptr()](double) {
+            const py::gil_scoped_acquire interpreter;
+            const typename HeldModel<Dim>::Break pause(*held_);
+            const py::object answer = py::reinterpret_borrow<py::object>(call)();
+            const int truth = PyObject_IsTrue(answer.ptr());
+            if (truth < 0) throw py::error_already_set();
+            return truth == 1;
+        };
+    };
+    Observers observers;
+    observers.output = [this, on_row = calls(request.on_row)](double t) {
+        recorder_->add(t, motion_.statistics().last_step, motion_.y());
+        if (on_row) on_row(t);
+    };
+    observers.snapshot = calls(request.on_snapshot);
+    observers.step = [this, &signals](double t) { look_after(t, signals); };
+    observers.revise = asks(request.revise);
+    observers.enough = asks(request.enough);
+    return observers;
+}
+
+template <int Dim>
+void Simulation<Dim>::run(const RunRequest& request) {
+    if (!std::isfinite(request.t_end) || request.t_end <= t())
+        throw InputError(fmt::format("t_end: {} is not after t = {}", request.t_end, t()));
+    for (const double interval : {request.every, request.snapshot_every})
+        if (!std::isfinite(interval) || interval <= 0.0)
+            throw InputError(
+                fmt::format("every: {} is not allowed; use a positive time", interval));
+    refuse_endless(options_, request.t_end - t());
+    const Turn turn(*this);
+    plan_ = {};
+    std::vector<Column<Dim>> columns;
+    for (const auto& [name, f] : request.columns)
+        columns.push_back({name, [this, call = f.ptr(), what = "columns: " + name](
+                                     const Model<Dim>&, std::span<const double>) {
+                               const py::gil_scoped_acquire interpreter;
+                               const typename HeldModel<Dim>::Break pause(*held_);
+                               return number_of(py::reinterpret_borrow<py::object>(call)(),
+                                                what.c_str());
+                           }});
+    plan_.record(std::move(columns));
+    recorder_ = std::make_unique<Recorder<Dim>>(*held_->model, plan_, nullptr);
+    remarks_.clear();
+    Signals signals;
+    const Schedule schedule{.t_end = request.t_end,
+                            .output_every = request.every,
+                            .snapshot_every = request.snapshot_every,
+                            .start = t()};
+    try {
+        const Observers all = observers(request, signals);
+        const py::gil_scoped_release others;
+        drive(motion_.integrator(), schedule, all);
+    } catch (const GuardStop&) {
+        held_->pending->raise();
+        throw;
+    }
+}
+
+template <int Dim>
+void Simulation<Dim>::replace(const py::dict& fields) {
+    std::vector<double> y(motion_.y().begin(), motion_.y().end());
+    for (const auto& [key, value] : fields) {
+        const std::string name = py::str(key);
+        const auto& blocks = held_->model->layout().blocks();
+        const auto block = std::find_if(blocks.begin(), blocks.end(),
+                                        [&](const auto& one) { return one.name() == name; });
+        if (block == blocks.end()) throw InputError(fmt::format("edit: y has no field '{}'", name));
+        const Doubles given = doubles_of(value, name);
+        if (static_cast<std::size_t>(given.size()) != block->size)
+            throw InputError(fmt::format("{}: has {} numbers, and should have {}", name,
+                                         given.size(), block->size));
+        std::copy_n(given.data(), block->size,
+                    y.begin() + static_cast<std::ptrdiff_t>(block->offset));
+    }
+    // Inside a run the driver lets the integrator begin anew, after revise().
+    if (!at_work_ && held_->moved_by != this)
+        throw std::runtime_error("the model goes on in another Simulation; make a model for each");
+    motion_.edit([&](std::span<double> now) {
+        std::copy(y.begin(), y.end(), now.begin());
+        return true;
+    });
+}
+
+template <int Dim>
+py::object Simulation<Dim>::rows() const {
+    if (!recorder_) return py::none();
+    const History& history = recorder_->history();
+    const auto columns = static_cast<py::ssize_t>(history.names().size());
+    Doubles all({static_cast<py::ssize_t>(history.rows().size()), columns});
+    double* to = all.mutable_data();
+    for (const auto& row : history.rows()) to = std::copy(row.begin(), row.end(), to);
+    return py::make_tuple(py::cast(history.names()), all);
+}
+
+template <int Dim>
+py::list Simulation<Dim>::drifts() const {
+    py::list drifts;
+    if (!recorder_) return drifts;
+    for (const Drift& one : recorder_->drifts(promise_limit(options_, *held_->model)))
+        drifts.append(py::make_tuple(one.name, std::string(to_string(one.promise)), one.scale,
+                                     one.limit, one.change, one.kept()));
+    return drifts;
+}
+
+template <int Dim>
+py::list Simulation<Dim>::remarks() const {
+    py::list list;
+    for (const auto& [t, remark] : remarks_)
+        list.append(py::make_tuple(t, remark.what, remark.value));
+    return list;
+}
+
+template <int Dim>
+py::dict Simulation<Dim>::statistics() const {
+    const auto& s = motion_.statistics();
+    return py::dict(py::arg("steps") = s.steps, py::arg("rejected_steps") = s.rejected_steps,
+                    py::arg("rhs_evaluations") = s.rhs_evaluations, py::arg("events") = s.events,
+                    py::arg("last_step") = s.last_step,
+                    py::arg("pair_interactions") = motion_.pair_interactions());
+}
+
+template class Simulation<1>;
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace spam::python

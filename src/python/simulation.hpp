@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "../problem/recorder.hpp"
+#include "held_model.hpp"
+#include <spam/integrate/driver.hpp>
+#include <spam/problem/motion.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace spam::python {
+
+/// What a run is asked for. Functions of Python without arguments; None where there is none.
+struct RunRequest {
+    double t_end, every, snapshot_every;
+    std::vector<std::pair<std::string, py::function>> columns;
+    py::object on_row, on_snapshot, revise, enough;
+};
+
+/// A model on its way, as Python drives it. The interpreter is free while it computes.
+template <int Dim>
+class Simulation {
+  public:
+    Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::object& y0,
+               const IntegratorOptions& options, double t0, int threads);
+
+    double t() const { return motion_.t(); }
+    /// The N_Vector itself.
+    std::span<const double> y() const { return motion_.y(); }
+    const HeldModel<Dim>& held() const { return *held_; }
+
+    /// One accepted step, not past t_stop. Throws GuardStop, or what a function of Python has raised.
+    double step(double t_stop);
+    /// Rows until t_end. Whatever ends it, rows() are those so far, and y is the last accepted state.
+    void run(const RunRequest& request);
+    /// Fields that take the place of those in y; the integrator then begins anew.
+    void replace(const py::dict& fields);
+
+    py::object rows() const;   ///< (names, (rows, columns)); None before the first run
+    py::list drifts() const;   ///< (name, promise, scale, limit, change, kept)
+    py::list remarks() const;  ///< (t, what, value)
+    py::dict statistics() const;
+
+  private:
+    /// What must hold before anything is computed.
+    class Turn;
+    void look_after(double t, class Signals& signals);
+    void watch(double t);
+    Observers observers(const RunRequest& request, Signals& signals);
+
+    std::shared_ptr<HeldModel<Dim>> held_;
+    IntegratorOptions options_;
+    int threads_;
+    bool at_work_ = false;
+    Motion<Dim> motion_;
+    Plan<Dim> plan_;
+    std::unique_ptr<Recorder<Dim>> recorder_;
+    std::vector<std::pair<double, Remark>> remarks_;
+};
+
+/// From the keywords that all of them share. Throws InputError.
+IntegratorOptions options_of(const std::string& method, const py::dict& options);
+
+}  // namespace spam::python

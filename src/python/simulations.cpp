@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Room problem: a model that is stepped.
+#include "bindings.hpp"
+#include "simulation.hpp"
+#include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
+#include <spam/integrate/methods.hpp>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+
+namespace spam::python {
+
+using namespace py::literals;
+
+IntegratorOptions options_of(const std::string& method, const py::dict& given) {
+    IntegratorOptions options;
+    options.method = method;
+    const auto number = [&](const char* name, auto& into) {
+        if (!given.contains(name) || py::object(given[name]).is_none()) return;
+        const py::object value = given[name];
+        const double x = PyFloat_AsDouble(value.ptr());
+        if (x == -1.0 && PyErr_Occurred()) {
+            PyErr_Clear();
+            throw InputError(fmt::format("{}: is no number", name));
+        }
+        if (!std::isfinite(x)) throw InputError(fmt::format("{}: {} is not finite", name, x));
+        into = x;
+    };
+    number("dt", options.dt);
+    number("rtol", options.rtol);
+    number("atol", options.atol);
+    number("min_step", options.min_step);
+    number("max_step", options.max_step);
+    number("initial_step", options.initial_step);
+    number("safety", options.safety);
+    std::optional<double> most;
+    number("max_steps", most);
+    if (most) {
+        if (*most < 1.0 || *most != std::floor(*most))
+            throw InputError(fmt::format("max_steps: {} is not allowed; use 1 or more", *most));
+        options.max_steps = static_cast<std::size_t>(*most);
+    }
+    if (given.contains("controller") && !py::object(given["controller"]).is_none())
+        options.controller = py::str(given["controller"]);
+    if (given.contains("relaxation")) options.relaxation = py::bool_(given["relaxation"]);
+    static const std::vector<std::string> known{"dt",         "rtol",         "atol",   "min_step",
+                                                "max_step",   "initial_step", "safety", "max_steps",
+                                                "controller", "relaxation"};
+    for (const auto& [key, value] : given) {
+        const std::string name = py::str(key);
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw InputError(fmt::format("'{}' is no option of an integrator{}", one_line(name),
+                                         suggestion(name, known)));
+    }
+    options.validate();
+    return options;
+}
+
+namespace {
+
+template <int Dim>
+void bind(py::module_& module, const char* name) {
+    using One = Simulation<Dim>;
+    py::class_<One, std::shared_ptr<One>>(module, name, "Use spam_mechanics.Simulation.")
+        .def(py::init([](std::shared_ptr<HeldModel<Dim>> model, const py::object& y0,
+                         const std::string& method, const py::dict& options, double t0,
+                         int threads) {
+            if (!std::isfinite(t0))
+                throw InputError(fmt::format("t0: {} is not a finite time", t0));
+            return std::make_shared<One>(std::move(model), y0, options_of(method, options), t0,
+                                         threads);
+        }))
+        .def_property_readonly("t", &One::t)
+        .def_property_readonly("y",
+                               [](const py::object& self) {
+                                   const auto y = self.cast<const One&>().y();
+                                   return view_of(y.data(), y.size(), 1, true, self);
+                               })
+        .def("view",
+             [](const py::object& self, const std::string& field) {
+                 const auto& one = self.cast<const One&>();
+                 for (const auto& block : one.held().model->layout().blocks())
+                     if (block.name() == field)
+                         return view_of(one.y().data() + block.offset,
+                                        block.size / block.components, block.components,
+                                        block.field.rank() == Rank::scalar, self);
+                 throw py::attribute_error("y has no field '" + one_line(field) + "'");
+             })
+        .def("step", &One::step)
+        .def("run",
+             [](One& self, double t_end, double every, double snapshot_every,
+                std::vector<std::pair<std::string, py::function>> columns, py::object on_row,
+                py::object on_snapshot, py::object revise, py::object enough) {
+                 self.run({t_end, every, snapshot_every, std::move(columns), on_row, on_snapshot,
+                           revise, enough});
+             })
+        .def("replace", &One::replace)
+        .def("rows", &One::rows)
+        .def("drifts", &One::drifts)
+        .def("remarks", &One::remarks)
+        .def("statistics", &One::statistics);
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+    bind<1>(module, "Simulation1");
+    bind<2>(module, "Simulation2");
+    bind<3>(module, "Simulation3");
+    module.def(
+        "methods",
+        [] {
+            py::dict methods;
+            for (const auto& one : integration_methods())
+                methods[py::str(one.name)] = py::dict(
+                    "order"_a = one.order, "adaptive"_a = one.adaptive, "fixed"_a = one.fixed,
+                    "separable"_a = one.separable, "multistep"_a = one.multistep);
+            return methods;
+        },
+        "Every method of integration: name -> order, adaptive, fixed (by dt), separable (only where dx/dt = v\n"
+        "and dv/dt depends on x alone), multistep.");
+}
+
+}  // namespace spam::python

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models of particles. Positions (N, 1), (N, 2) or (N, 3) say in how many dimensions."""
+import math
+
+from ._core import ElasticSolid, Scheme, remembering, smooth_particles
+
+
+def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, spacing=1.0, box=None,
+                    externals=()):
+    """A solid or fluid of smooth particles with stress and energy, [HHM04] II, [HH07] 4.
+
+    x          positions (N, D): of a solid its reference configuration, free of stress (length)
+    material   ElasticSolid, VonMisesSolid, Material (a law of one's own) or Fluid; default the elastic
+               constants of the triangular lattice
+    scheme     a Scheme; default Scheme()
+    mass       one number, or (N,)
+    density    of a solid at the start (mass/length^D); default sqrt(4/3) mass, the triangular lattice. A
+               fluid's is summed
+    spacing    distance of nearest neighbours (length)
+    box        periods (D,), 0 where space is open; default open space
+    externals  Gravity, Friction, Drag, Force: applied in this order
+
+    Raises InputError (ValueError) of one line: wrong shapes, types or numbers, and what makes no sense together.
+    """
+    material = ElasticSolid.triangular_lattice() if material is None else material
+    return smooth_particles(x, material, Scheme() if scheme is None else scheme, mass,
+                            _density(density, mass, spacing), spacing, list(box or ()), list(externals))
+
+
+def TotalLagrangian(x, *, material=None, density=None, range=3.0, penalty=0.1, mass=1.0, spacing=1.0,
+                    box=None, externals=()):
+    """A solid that sums over the neighbours of its reference configuration x (N, D): p, L and E are kept.
+
+    material: ElasticSolid; range of Lucy's weight (length); penalty kappa against zero-energy modes. Others as
+    of SmoothParticles().
+    """
+    return _solid("total_lagrangian", x, material, density, range, penalty, mass, spacing, box, externals)
+
+
+def MaterialVectors(x, *, material=None, density=None, range=3.0, penalty=1.0, mass=1.0, spacing=1.0,
+                    box=None, externals=()):
+    """A solid whose particles remember a material vector for each present neighbour: p, L and E are kept, and
+    bodies meet. Arguments as of TotalLagrangian()."""
+    return _solid("material_vectors", x, material, density, range, penalty, mass, spacing, box, externals)
+
+
+def Springs(x, *, kappa=1.0, rest_length=None, mass=1.0, spacing=1.0, box=None, externals=()):
+    """Molecular dynamics: harmonic springs kappa between neighbours nearer than 1.2 spacings in x (N, D)."""
+    rest_length = spacing if rest_length is None else rest_length
+    return remembering(x, "springs", ElasticSolid.triangular_lattice(kappa), kappa, rest_length, mass,
+                       _density(None, mass, spacing), 1.0, 0.0, spacing, list(box or ()), list(externals))
+
+
+def _solid(kind, x, material, density, range, penalty, mass, spacing, box, externals):
+    material = ElasticSolid.triangular_lattice() if material is None else material
+    return remembering(x, kind, material, 1.0, 1.0, mass, _density(density, mass, spacing), range, penalty,
+                       spacing, list(box or ()), list(externals))
+
+
+def _density(density, mass, spacing):
+    if density is not None:
+        return density
+    try:
+        one = float(mass)
+    except (TypeError, ValueError):
+        one = 1.0
+    return math.sqrt(4.0 / 3.0) * one / spacing**2 if spacing > 0 else 1.0
+
+
+def shape_error(model, state):
+    """Distance of a body from the best-fitting rigid motion of its reference, root mean square in spacings: for
+    `columns` of Simulation.run()."""
+    return model.shape_error(state.position)
+
+
+def closest_pair(model, state):
+    """Distance of the closest two particles (length): for `columns` of Simulation.run()."""
+    return model.closest_pair(state.position)

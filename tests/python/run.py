@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs the tests of one file: run.py test_read.py. Exit status 77: all of them are skipped, and why.
+import importlib.util
+import os
+import pathlib
+import sys
+import unittest
+
+
+def load(file):
+    sys.path.insert(0, str(file.parent))
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[file.stem] = module
+    spec.loader.exec_module(module)
+    return unittest.defaultTestLoader.loadTestsFromModule(module)
+
+
+def skip(reason):
+    print("skipped:", reason)
+    sys.exit(77)
+
+
+def main():
+    try:
+        import numpy  # noqa: F401
+    except ImportError:
+        skip("numpy is not installed (python3-numpy)")
+    try:
+        suite = load(pathlib.Path(sys.argv[1]))
+    except unittest.SkipTest as reason:
+        skip(reason)
+    result = unittest.TextTestRunner(verbosity=2).run(suite)
+    if not result.wasSuccessful() or result.testsRun == 0:
+        sys.exit(1)
+    if len(result.skipped) == result.testsRun:
+        skip("; ".join(sorted({reason for _, reason in result.skipped})))
+
+
+# Threads of OpenMP that wait leave the processor to other tests.
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+
+if __name__ == "__main__":  # processes that tests start import this file
+    main()

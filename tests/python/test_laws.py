@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Laws of one's own: stress in numpy and by an address, forces, the accounts of what they give."""
+import ctypes
+import importlib.util
+import unittest
+
+import numpy as np
+import spam_mechanics as spam
+from compiled import hexagon, rotation
+
+LAM = ETA = (3 / 16) ** 0.5
+
+
+def elastic(grad_v, stress):
+    """ElasticSolid in the plane, in numpy: Hooke's law and the Jaumann rotation."""
+    xx, yy, xy = stress.T
+    xv, yx = grad_v[:, 0, 1], grad_v[:, 1, 0]  # d v_y/dx, d v_x/dy
+    dilation = LAM * (grad_v[:, 0, 0] + grad_v[:, 1, 1])
+    w = 0.5 * (yx - xv)  # W_xy
+    return np.column_stack([dilation + 2 * ETA * grad_v[:, 0, 0] + 2 * w * xy,
+                            dilation + 2 * ETA * grad_v[:, 1, 1] - 2 * w * xy,
+                            ETA * (xv + yx) + w * (yy - xx)])
+
+
+@ctypes.CFUNCTYPE(None, ctypes.c_int64, *[ctypes.POINTER(ctypes.c_double)] * 3)
+def compiled(n, grad_v, stress, rate):
+    """The same behind an address; a function of C needs no interpreter, this one takes it."""
+    grad = np.ctypeslib.as_array(grad_v, (n, 2, 2))
+    np.ctypeslib.as_array(rate, (n, 3))[...] = elastic(grad, np.ctypeslib.as_array(stress, (n, 3)))
+
+
+def strained(n, material, **keywords):
+    """A model and a state of it with stresses, velocities and all that depends on them."""
+    model, v = hexagon(n, material=material, **keywords)
+    sim = spam.Simulation(model, velocity=v, dt=0.1)
+    with sim.edit() as s:
+        s.stress += 0.01 * np.sin(np.arange(s.stress.size)).reshape(s.stress.shape)
+        s.velocity += 0.01 * np.cos(np.arange(s.velocity.size)).reshape(s.velocity.shape)
+    return model, sim
+
+
+class Stress(unittest.TestCase):
+    def test_in_numpy(self):
+        own, sim = strained(4, spam.Material(elastic))
+        built_in, _ = strained(4, spam.ElasticSolid(LAM, ETA))
+        rates, expected = own.rates(0, sim.y), built_in.rates(0, sim.y)
+        first, size, _ = own.fields["stress"]
+        self.assertGreater(np.abs(expected[first : first + size]).max(), 1e-3)
+        np.testing.assert_allclose(rates, expected, rtol=1e-12, atol=1e-15)
+
+    def test_an_address(self):
+        address = ctypes.cast(compiled, ctypes.c_void_p).value
+        model, sim = strained(4, spam.Material.from_address(address))
+        other, _ = strained(4, spam.Material(elastic))
+        np.testing.assert_array_equal(model.rates(0, sim.y), other.rates(0, sim.y))
+
+    @unittest.skipUnless(importlib.util.find_spec("numba"), "numba is not installed")
+    def test_numba(self):
+        law = numba_law()
+        model, sim = strained(20, spam.Material.from_address(law.address))
+        built_in, _ = strained(20, spam.ElasticSolid(LAM, ETA))
+        np.testing.assert_allclose(model.rates(0, sim.y), built_in.rates(0, sim.y), rtol=1e-12, atol=1e-15)
+
+    def test_blocks_and_threads_do_not_matter(self):
+        sizes = []
+
+        def noted(grad_v, stress):
+            sizes.append(len(stress))
+            return elastic(grad_v, stress)
+
+        ends = []
+        for threads in (1, 2):
+            model, v = hexagon(20, material=spam.Material(noted))
+            sim = spam.Simulation(model, velocity=v, dt=0.1, threads=threads)
+            sim.step()
+            ends.append(sim.y)
+        np.testing.assert_array_equal(*ends)
+        self.assertLessEqual(max(sizes), 256)
+        self.assertEqual(sum(sizes), 2 * 4 * 1261)
+
+    def test_arrays_may_be_kept(self):
+        kept = []
+
+        def keeping(grad_v, stress):
+            kept.append((stress, stress.copy()))
+            return elastic(grad_v, stress)
+
+        model, v = hexagon(2, material=spam.Material(keeping))
+        spam.Simulation(model, velocity=v, dt=0.1).run(2.0)
+        del model
+        for array, copy in kept:
+            np.testing.assert_array_equal(array, copy)
+
+    def test_in_one_and_three_dimensions(self):
+        for cells, components in (([40], 1), ([5, 5, 5], 6)):
+            D = len(cells)
+
+            def law(grad_v, stress):
+                self.assertEqual((grad_v.shape[1:], stress.shape[1:]), ((D, D), (components,)))
+                return ETA * np.repeat(np.trace(grad_v, axis1=1, axis2=2)[:, None], components, 1)
+
+            x = spam.square_lattice(cells)
+            model = spam.SmoothParticles(x, material=spam.Material(law), density=1.0)
+            v = 0.01 * np.sin(np.arange(x.size)).reshape(x.shape)
+            spam.Simulation(model, velocity=v, dt=0.1).run(1.0)
+
+    def test_viscosity_wants_a_sound_speed(self):
+        x, v = rotation(3)
+        scheme = spam.Scheme(viscosity=1.0)
+        own = spam.SmoothParticles(x, scheme=scheme, material=spam.Material(
+            elastic, sound_speed=spam.ElasticSolid(LAM, ETA).sound_speed))
+        other = spam.SmoothParticles(x, scheme=scheme)
+        y = other.start(v)
+        y[other.fields["velocity"][0]] += 0.1
+        np.testing.assert_allclose(own.rates(0, y), other.rates(0, y), rtol=1e-12, atol=1e-15)
+
+
+def numba_law():
+    """ElasticSolid in the plane as a function of C."""
+    import numba
+    from numba import types
+
+    pointer = types.CPointer(types.float64)
+
+    @numba.cfunc(types.void(types.int64, pointer, pointer, pointer))
+    def law(n, grad_v, stress, rate):
+        for i in range(n):
+            a, b, c, d = grad_v[4 * i], grad_v[4 * i + 1], grad_v[4 * i + 2], grad_v[4 * i + 3]
+            xx, yy, xy = stress[3 * i], stress[3 * i + 1], stress[3 * i + 2]
+            dilation, w = LAM * (a + d), 0.5 * (c - b)
+            rate[3 * i] = dilation + 2 * ETA * a + 2 * w * xy
+            rate[3 * i + 1] = dilation + 2 * ETA * d - 2 * w * xy
+            rate[3 * i + 2] = ETA * (b + c) + w * (yy - xx)
+
+    return law
+
+
+class Forces(unittest.TestCase):
+    def test_a_spring_to_the_origin(self):
+        x, v = rotation(3)
+        force = spam.Force(lambda t, x, v: -0.01 * x)
+        model = spam.SmoothParticles(x + [1.0, 0.0], externals=[force])
+        sim = spam.Simulation(model, velocity=v, dt=0.05)
+        run = sim.run(20.0)
+        np.testing.assert_allclose(sim.state.position.mean(0), [np.cos(2.0), 0], atol=1e-6)
+        self.assertTrue(all(drift.kept for drift in run.drifts.values()), run.drifts)
+        np.testing.assert_allclose(run["impulse_x"][-1], run["momentum_x"][-1] - run["momentum_x"][0], atol=1e-10)
+
+    def test_of_time_and_velocity(self):
+        x, v = rotation(3)
+        model = spam.SmoothParticles(x, externals=[spam.Force(lambda t, x, v: -0.5 * v + np.cos(t))])
+        run = spam.Simulation(model, dt=0.01).run(3.0)
+        t = run.t  # p' = -p/2 + cos t
+        expected = 37 * (0.5 * np.cos(t) + np.sin(t) - 0.5 * np.exp(-0.5 * t)) / 1.25
+        np.testing.assert_allclose(run["momentum_x"], expected, atol=1e-7)
+
+    def test_gravity_as_built_in(self):
+        x, v = rotation(3)
+        ends = []
+        for external in (spam.Gravity([0.0, -0.1]), spam.Force(lambda t, x, v: np.tile([0, -0.1], (len(x), 1)))):
+            sim = spam.Simulation(spam.SmoothParticles(x, externals=[external]), velocity=v, dt=0.1)
+            sim.run(2.0)
+            ends.append(sim.state.position)
+        np.testing.assert_allclose(*ends, atol=1e-13)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The script of the README, word for word."""
+import importlib.util
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import compiled  # noqa: F401  (skips where there is no compiled part)
+from results_of import work
+
+readme = (pathlib.Path(os.environ["SPAM_SOURCE"]) / "README.md").read_text()
+
+
+class Readme(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
+    def test_its_script(self):
+        section = readme[readme.index("## From Python") :]
+        script = re.search(r"```python\n(.*?)```", section, re.S)[1]
+        self.assertLessEqual(script.count("\n"), 25)
+        promised = re.findall(r"^    (\w+, \w+: L/L0 = .*)$", section, re.M)
+        self.assertEqual(len(promised), 3)
+        folder = work("readme")
+        folder.mkdir()
+        (folder / "hexagon.py").write_text(script)
+        ended = subprocess.run([sys.executable, "hexagon.py"], cwd=folder, text=True, capture_output=True,
+                               env={**os.environ, "MPLBACKEND": "Agg"})
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(ended.stdout.splitlines(), promised)
+        self.assertGreater((folder / "hexagon.png").stat().st_size, 10000)
