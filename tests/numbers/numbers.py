@@ -153,6 +153,13 @@ class Tree(unittest.TestCase):
         self.assertIn("README.md:6: 0.55 is neither", out)
         self.assertEqual(out.count("neither"), 1)
 
+    def test_a_document_with_numbers_that_are_known_to_be_open(self):
+        self.readme.write_text(README + "\nThe ball bounces 0.55 m high.\n")
+        listed = LIST.replace('constants = ["version 1.5"]', 'constants = ["version 1.5"]\nopen = {}')
+        for known, status in ((1, 0), (2, 1)):
+            self.list.write_text(listed.replace("{}", str(known), 1))
+            self.assertEqual(self.numbers("--no-runs")[0], status)
+
     def test_a_text_that_is_gone(self):
         self.readme.write_text(README.replace("in the air", "in air"))
         status, out, _ = self.numbers("--no-runs")
