@@ -168,16 +168,20 @@ class Threads(unittest.TestCase):
         self.assertGreater(counted, 5)
 
     def test_one_model_is_used_by_one_thread(self):
-        sim = self.simulations()[0]
-        thread = threading.Thread(target=sim.run, args=(3.0,), kwargs={"every": 3.0})
+        sim, ended = self.simulations()[0], threading.Event()
+        thread = threading.Thread(target=sim.run, args=(1e6,), kwargs={
+            "every": 0.1, "enough": lambda m, s: ended.is_set()})
         thread.start()
-        time.sleep(0.05)
         try:
-            with self.assertRaisesRegex(RuntimeError, "at work"):
-                while thread.is_alive():
+            while sim.t == 0.0:
+                time.sleep(0.001)
+            for _ in range(50):  # also while it calls functions
+                with self.assertRaisesRegex(RuntimeError, "at work"):
                     sim.model.rates(0.0, np.zeros(sim.model.size))
         finally:
+            ended.set()
             thread.join()
+        sim.model.rates(0.0, sim.y)
 
     def test_calls_from_inside(self):
         sim = moving()
