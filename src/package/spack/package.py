@@ -16,6 +16,8 @@ class Spam(CMakePackage):
     variant("shared", default=True, description="Build a shared library")
     variant("problems", default=True, description="Build problems, spam-view and the command spam")
 
+    variant("python", default=False, description="Build the Python module spam_mechanics")
+
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
@@ -32,12 +34,25 @@ class Spam(CMakePackage):
     depends_on("openssl@3:")
     depends_on("gnuplot", type="run", when="+problems")
 
+    with when("+python"):
+        extends("python")
+        depends_on("python@3.9:", type=("build", "link", "run"))
+        depends_on("py-pybind11@2.10:", type="build")
+        depends_on("py-numpy", type=("build", "run"))
+
     generator("ninja")
 
     def cmake_args(self):
-        return [
+        arguments = [
             self.define("SPAM_BUILD_TESTS", self.run_tests),
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
             self.define_from_variant("SPAM_BUILD_PROBLEMS", "problems"),
             self.define_from_variant("SPAM_BUILD_VIEW", "problems"),
+            self.define_from_variant("SPAM_BUILD_PYTHON", "python"),
         ]
+        if self.spec.satisfies("+python"):
+            arguments += [
+                self.define("Python_EXECUTABLE", self.spec["python"].command.path),
+                self.define("SPAM_PYTHON_INSTALL_DIR", self.spec["python"].package.platlib),
+            ]
+        return arguments
