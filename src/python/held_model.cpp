@@ -12,8 +12,10 @@
 namespace spam::python {
 
 template <int Dim>
-HeldModel<Dim>::Use::Use(HeldModel& held) : held_(held) {
-    if (held_.busy_.exchange(true))
+HeldModel<Dim>::Use::Use(HeldModel& held)
+    : held_(held),
+      nested_(held.paused_in_.load() == std::this_thread::get_id()) {
+    if (!nested_ && held_.busy_.exchange(true))
         throw std::runtime_error(
             "the model is at work: another thread, or a right-hand side that has called this, uses it; "
             "make a model for each thread");

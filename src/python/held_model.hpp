@@ -7,6 +7,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <thread>
 #include <vector>
 
 namespace spam::python {
@@ -36,22 +37,29 @@ class HeldModel {
     /// y that somebody gives. Scales for tolerances are those of start(), where it has been called.
     std::vector<double> checked(const py::object& y0);
 
-    /// While one is alive nobody else computes with the model: a right-hand side has one memory.
+    /// While one is alive no other thread computes with the model: a right-hand side has one memory.
     class Use {
       public:
         explicit Use(HeldModel& held);
-        ~Use() { held_.busy_ = false; }
+        ~Use() {
+            if (!nested_) held_.busy_ = false;
+        }
         Use(const Use&) = delete;
         Use& operator=(const Use&) = delete;
+        /// Whether it is inside a Break.
+        bool nested() const { return nested_; }
 
       private:
         HeldModel& held_;
+        bool nested_;
     };
-    /// Leave in between, for functions of Python that are called during a run.
+    /// Leave for the same thread in between: for functions of Python that a run calls between steps.
     class Break {
       public:
-        explicit Break(HeldModel& held) : held_(held) { held_.busy_ = false; }
-        ~Break() { held_.busy_ = true; }
+        explicit Break(HeldModel& held) : held_(held) {
+            held_.paused_in_ = std::this_thread::get_id();
+        }
+        ~Break() { held_.paused_in_ = std::thread::id(); }
         Break(const Break&) = delete;
         Break& operator=(const Break&) = delete;
 
@@ -66,6 +74,7 @@ class HeldModel {
     Start start_;
     bool scaled_ = false;
     std::atomic<bool> busy_{false};
+    std::atomic<std::thread::id> paused_in_{};
 };
 
 }  // namespace spam::python

@@ -66,8 +66,9 @@ void bind_solids(py::module_& module) {
         .def(py::init(&elastic), "lam"_a, "eta"_a)
         .def_static("triangular_lattice", &ElasticSolid::triangular_lattice, "kappa"_a = 1.0,
                     "The constants of the triangular lattice of nearest-neighbour springs kappa.")
-        .def_readonly("lam", &ElasticSolid::lambda)
-        .def_readonly("eta", &ElasticSolid::eta)
+        .def_readonly("lam", &ElasticSolid::lambda, "Lame's first constant (stress).")
+        .def_readonly("eta", &ElasticSolid::eta,
+                      "Lame's second constant, the shear modulus (stress).")
         .def("sound_speed", &ElasticSolid::sound_speed, "density"_a, "Longitudinal (length/time).")
         .def("__repr__", &shown<ElasticSolid>);
     py::class_<VonMisesSolid>(

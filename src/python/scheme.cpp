@@ -86,7 +86,7 @@ void bind_scheme(py::module_& module) {
              "gauss_singular"_a = word(standard.gauss_singular), "viscosity"_a = standard.viscosity,
              "shifting"_a = standard.shifting, "closest_approach"_a = standard.closest_approach,
              "kernel"_a = word(standard.kernel), "range"_a = standard.range)
-        .def_readonly("range", &Scheme::range)
+        .def_readonly("range", &Scheme::range, "Where the weight vanishes (length).")
         .def("__eq__", [](const Scheme& a, const Scheme& b) { return a == b; })
         .def("__repr__",
              [](const Scheme& scheme) { return "<Scheme: " + scheme.describe() + ">"; });

@@ -32,12 +32,12 @@ template <int Dim>
 class Simulation<Dim>::Turn {
   public:
     explicit Turn(Simulation& simulation) : simulation_(simulation), use_(*simulation.held_) {
+        if (use_.nested())
+            throw std::runtime_error(
+                "a simulation of the model is running; this call comes from inside its run");
         if (simulation.held_->moved_by != &simulation)
             throw std::runtime_error(
                 "the model goes on in another Simulation, which was made of it later; make a model for each");
-        if (simulation.at_work_)
-            throw std::runtime_error(
-                "the simulation is running; this call comes from inside its run");
         enter(simulation.held_->size(), simulation.threads_);
         simulation.at_work_ = true;
     }

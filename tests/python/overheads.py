@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Python costs, as ratios of processor times that alternate: overheads.py <rotating_hexagon>.
+"""What Python costs, as ratios of processor times that alternate: overheads.py [<rotating_hexagon>].
 
 Processor times are disturbed by other jobs through caches only; the speed of two threads, a wall time, says
 something on two idle cores alone.
@@ -119,5 +119,6 @@ def two_threads():
 
 rates_of_few()
 laws()
-run_against_program(sys.argv[1])
-two_threads()
+if len(sys.argv) > 1:
+    run_against_program(sys.argv[1])
+    two_threads()

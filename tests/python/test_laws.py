@@ -14,12 +14,13 @@ LAM = ETA = (3 / 16) ** 0.5
 def elastic(grad_v, stress):
     """ElasticSolid in the plane, in numpy: Hooke's law and the Jaumann rotation."""
     xx, yy, xy = stress.T
-    xv, yx = grad_v[:, 0, 1], grad_v[:, 1, 0]  # d v_y/dx, d v_x/dy
-    dilation = LAM * (grad_v[:, 0, 0] + grad_v[:, 1, 1])
-    w = 0.5 * (yx - xv)  # W_xy
-    return np.column_stack([dilation + 2 * ETA * grad_v[:, 0, 0] + 2 * w * xy,
-                            dilation + 2 * ETA * grad_v[:, 1, 1] - 2 * w * xy,
-                            ETA * (xv + yx) + w * (yy - xx)])
+    a, b, c, d = grad_v.reshape(-1, 4).T  # b = d v_y/dx, c = d v_x/dy
+    dilation, turn = LAM * (a + d), c - b  # turn = 2 W_xy
+    rate = np.empty_like(stress)
+    rate[:, 0] = dilation + 2 * ETA * a + turn * xy
+    rate[:, 1] = dilation + 2 * ETA * d - turn * xy
+    rate[:, 2] = ETA * (b + c) + 0.5 * turn * (yy - xx)
+    return rate
 
 
 @ctypes.CFUNCTYPE(None, ctypes.c_int64, *[ctypes.POINTER(ctypes.c_double)] * 3)
