@@ -57,7 +57,7 @@ class HalfList {
             e_dot[i] = 0.5 * s.power;
             grad_v_[i].c = {2.0 * s.gxx, 2.0 * s.gxy, 2.0 * s.gyx, 2.0 * s.gyy};
         }
-        law_.stress_rates(numbers_, grad_v_, state, rate);
+        law_.stress_rates(numbers_, grad_v_, state.stress().data(), state, rate);
     }
 
   private:

@@ -38,8 +38,8 @@ BOOST_AUTO_TEST_CASE(errors_begin_at_zero) {
 }
 
 BOOST_AUTO_TEST_CASE(a_cavity_has_ghias_profile) {
-    const Results found("cavity", {}, "u_at_0.5000");
-    BOOST_TEST(found.claims == 1U);
+    const Results found("cavity", effort(Words{}, Words{"--cells", "20"}), "u_at_0.5000");
+    BOOST_TEST(found.claims == effort(1U, 0U));
     BOOST_TEST(found.value.at("off_ghia") < 0.02);
     BOOST_TEST(found.value.at("stirred") > 0.06);
 }
