@@ -4,11 +4,12 @@
 #|                                    build everything and run the tests
 
 readonly test_packages=(libboost-test-dev)
-readonly ci_packages=(clang-format valgrind shellcheck) # for the tests of style and of instruction counts
+# For the tests of style and of instruction counts; benchmarks are compiled, so that they go on to compile.
+readonly ci_packages=(clang-format valgrind shellcheck libbenchmark-dev)
 readonly sanitizer_packages=(clang libclang-rt-dev libomp-dev)
 
 verb_test() { # [--no-install] [--preset P] [ctest options...]
-    local options=() packages=("${test_packages[@]}") jobs status=0
+    local options=() packages=("${test_packages[@]}") parts=(SPAM_BUILD_TESTS=ON) jobs status=0
     while (($#)); do
         case $1 in
         --no-install) install=no ;;
@@ -26,8 +27,8 @@ verb_test() { # [--no-install] [--preset P] [ctest options...]
     dev | tsan) packages+=("${sanitizer_packages[@]}") ;;
     *) refuse "test: no preset '$preset'; there are release, dev, tsan and coverage" ;;
     esac
-    if in_ci; then packages+=("${ci_packages[@]}"); fi
-    set_up "${packages[@]}" -- SPAM_BUILD_TESTS=ON -- all
+    if in_ci; then packages+=("${ci_packages[@]}") parts+=(SPAM_BUILD_BENCH=ON); fi
+    set_up "${packages[@]}" -- "${parts[@]}" -- all
     jobs=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
     cd -- "$root"
     watched ctest --preset "$preset" --output-on-failure -j "$jobs" "${options[@]}" || status=$?
