@@ -43,8 +43,9 @@ struct Known {
     MatterKind kind;
     double speed, ball_speed, tolerance;
 };
-/// Of 241 and 640 particles when the ball would have gone 20, from another program.
-constexpr Known known_speeds[] = {{MatterKind::embedded_atom, 0.25, 0.148, 0.01},
+/// Of 241 and 640 particles when the ball would have gone 20, from another program. Motion of embedded atoms is
+/// chaotic: at v = 1/4 five seeds give 0.144 to 0.158, the first seed 0.154 to 0.158 with other instruction sets.
+constexpr Known known_speeds[] = {{MatterKind::embedded_atom, 0.25, 0.148, 0.015},
                                   {MatterKind::embedded_atom, 0.5, 0.325, 0.02},
                                   {MatterKind::embedded_atom, 1.0, 0.606, 0.02},
                                   {MatterKind::spam, 0.25, 0.108, 0.0033},
