@@ -111,9 +111,13 @@ std::vector<Column<2>> columns_of(const PulledBar& bar) {
 
 std::optional<double> parted_at(const History& h) {
     const auto t = h.column("t"), pieces = h.column("pieces");
+    std::optional<double> since;  // pieces may touch once more before they part for good
     for (std::size_t k = 0; k < t.size(); ++k)
-        if (pieces[k] > 1.0) return t[k];
-    return {};
+        if (!(pieces[k] > 1.0))
+            since.reset();
+        else if (!since)
+            since = t[k];
+    return since;
 }
 
 void report(Session& session, const Parameters& p, const PulledBar& bar, const RunRecord& run) {

@@ -36,7 +36,7 @@ PulledBar make_bar(const Session& session, const Parameters& p, const Matter& ma
 /// `length`, `closest_pair`.
 std::vector<Column<2>> columns_of(const PulledBar& bar);
 
-/// Time of the first row with more than one piece; none where there is none.
+/// Time of the first of the last rows that all have more than one piece; none where the last has one.
 std::optional<double> parted_at(const History& h);
 
 void report(Session& session, const Parameters& p, const PulledBar& bar, const RunRecord& run);
