@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
 
-#include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <spam/core/program.hpp>
 
-extern char** environ;
+#include <fmt/format.h>
 
 namespace spam::gnuplot {
 namespace {
 
-/// Runs gnuplot on <name>.gp inside the folder; false when it is missing or fails.
+/// Runs gnuplot on <name>.gp inside the folder; false when it is missing or fails. What it said of a failure stays
+/// beside the script.
 bool run(const RunFolder& folder, const std::string& script) {
-    std::string command = "cd -- \"$1\" && exec gnuplot \"$2\" >/dev/null 2>\"$2.err\"";
-    std::string shell = "sh", flag = "-c", self = "plot", path = folder.path().string(),
-                file = script;
-    char* argv[] = {shell.data(), flag.data(), command.data(), self.data(),
-                    path.data(),  file.data(), nullptr};
-    pid_t pid = 0;
-    if (posix_spawnp(&pid, "sh", nullptr, nullptr, argv, environ) != 0) return false;
-    int status = 0;
-    if (waitpid(pid, &status, 0) != pid) return false;
-    const bool drawn = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const std::filesystem::path said = folder / (script + ".err");
+    const auto status = Command{{"gnuplot", script}, folder.path(), said}.run();
     std::error_code ignored;
-    if (drawn) std::filesystem::remove(folder / (script + ".err"), ignored);
-    return drawn;
+    if (status == 0 || !status) std::filesystem::remove(said, ignored);
+    return status == 0;
 }
 
 }  // namespace

@@ -3,18 +3,15 @@
 #include "files.hpp"
 #include "page.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/program.hpp>
 #include <spam/core/text.hpp>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <optional>
-#include <sstream>
 
 namespace {
 
@@ -89,29 +86,15 @@ Options options_of(const std::vector<std::string>& words) {
     return options;
 }
 
-/// Full name of a program, empty where there is none.
-fs::path program(const std::string& name) {
-    const char* const path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');)
-        if (const fs::path file = fs::path(folder) / name; access(file.c_str(), X_OK) == 0)
-            return file;
-    return {};
-}
-
 void show(const fs::path& opener, const fs::path& page) {
-    std::string name = opener.string(), file = fs::absolute(page).string();
-    char* const arguments[] = {name.data(), file.data(), nullptr};
-    pid_t child = 0;
-    int status = 0;
-    if (posix_spawn(&child, name.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
-        waitpid(child, &status, 0) != child || status != 0)
+    const std::string file = fs::absolute(page).string();
+    if (Command{{opener.string(), file}}.run() != 0)
         fmt::print(stderr, "spam-view: xdg-open did not show the page; open it yourself: {}\n",
                    one_line(file));
 }
 
 void make(const Options& options) {
-    const fs::path opener = options.open ? program("xdg-open") : fs::path{};
+    const fs::path opener = options.open ? find_program("xdg-open") : fs::path{};
     if (options.open && opener.empty())
         throw InputError(
             "--open: there is no xdg-open (Debian: package xdg-utils); open the page yourself");

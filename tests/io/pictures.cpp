@@ -10,14 +10,13 @@
 
 using namespace spam;
 using spam::test::contents_of;
+using spam::test::have_gnuplot;
 using spam::test::Scratch;
 
 namespace {
 
 const double missing = std::nan("");
 const std::string awkward = "a_b^c {d} \"e\" 'f' \\ @ & ~ ⟨v⟩ %g $x";
-
-bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
 
 std::size_t big_endian(const std::string& bytes, std::size_t at) {
     std::size_t number = 0;

@@ -12,8 +12,6 @@ namespace {
 
 const Words problems = split(SPAM_PROBLEM_NAMES, ',');
 
-bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
-
 Outcome run_in(const Scratch& folder, const std::string& name, const Words& arguments) {
     return Child(problem(name, arguments), {folder.path()}).finish(Child::Seconds(240));
 }

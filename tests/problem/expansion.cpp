@@ -12,8 +12,6 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
-
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }

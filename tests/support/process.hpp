@@ -199,4 +199,7 @@ inline Outcome run(const std::vector<std::string>& command, const Launch& launch
     return Child(command, launch).finish();
 }
 
+/// Whether there is a gnuplot that starts.
+inline bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
+
 }  // namespace spam::test
