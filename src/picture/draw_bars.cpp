@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
+#include "panel_grid.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -71,13 +72,12 @@ bool draw_bars(const RunFolder& folder, std::string_view name, std::string_view 
     script += fmt::format(
         "set title \"{}\" font ',15'\nset xlabel \"{}\"\nset xrange [{:g}:{:g}]\n"
         "set yrange [{}.5:-0.5]\n"
-        "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
         "set border 3\nset xtics nomirror\nset ytics scale 0 nomirror ()\nunset key\n"
         "set grid xtics back lt 1 lw 1 lc rgb '#e4e4e4'\nset style fill solid 0.85 noborder\n{}",
         escaped(title), escaped(chart.value_label), axis.from, axis.to,
-        static_cast<int>(chart.bars.size()) - 1, left / width, 1.0 - 20.0 / width, 65.0 / height,
-        1.0 - top / height, chart.log_value ? "set logscale x\nset format x '10^{%L}'\n" : "");
+        static_cast<int>(chart.bars.size()) - 1,
+        chart.log_value ? "set logscale x\nset format x '10^{%L}'\n" : "");
+    script += gnuplot::margins({left, 65.0, {frame_width, height - top - 65.0}}, {width, height});
     std::string plots;
     for (std::size_t k = 0; k < chart.bars.size(); ++k) {
         const Bar& bar = chart.bars[k];

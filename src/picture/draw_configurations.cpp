@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
+#include "panel_grid.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -14,18 +15,19 @@ namespace {
 using gnuplot::escaped;
 
 constexpr double side = 340.0, bar = 112.0, top = 50.0;  // of a frame, of the colour bar, the title
+constexpr double gap = 6.0;                              // around a frame
 constexpr double title_share = 26.0;                     // of a frame's height
 
 /// What all frames have in common.
-struct Extent {
-    double x[2] = {HUGE_VAL, -HUGE_VAL}, y[2] = {HUGE_VAL, -HUGE_VAL};
+struct Shared : gnuplot::Extent {
     double low = HUGE_VAL, high = -HUGE_VAL;
     double spacing = 0.0;  ///< a particle is drawn about as wide as it has room
 
     /// The longer side of a frame is `side`; the shorter one has at least a third of that.
-    double across() const { return std::max(x[1] - x[0], y[1] - y[0]); }
-    double width() const { return side * std::max((x[1] - x[0]) / across(), 0.34); }
-    double height() const { return side * std::max((y[1] - y[0]) / across(), 0.34) + title_share; }
+    gnuplot::Size frame() const {
+        return {side * std::max(width() / across(), 0.34),
+                side * std::max(height() / across(), 0.34) + title_share};
+    }
 };
 
 /// Median over (at most 200 of) the particles of the distance to the nearest other one.
@@ -44,41 +46,26 @@ double typical_spacing(const Points<2>& position) {
     return *middle;
 }
 
-Extent extent_of(const std::vector<ConfigurationPanel>& panels) {
-    Extent e;
+Shared shared_by(const std::vector<ConfigurationPanel>& panels) {
+    Shared e;
     for (const auto& panel : panels) {
-        for (Eigen::Index i = 0; i < panel.position.cols(); ++i) {
-            e.x[0] = std::min(e.x[0], panel.position(0, i));
-            e.x[1] = std::max(e.x[1], panel.position(0, i));
-            e.y[0] = std::min(e.y[0], panel.position(1, i));
-            e.y[1] = std::max(e.y[1], panel.position(1, i));
-        }
+        e.include(panel.position);
         for (const double c : panel.colour) {
             e.low = std::min(e.low, c);
             e.high = std::max(e.high, c);
         }
         e.spacing = std::max(e.spacing, typical_spacing(panel.position));
     }
-    if (!(e.x[1] >= e.x[0])) e.x[0] = e.x[1] = e.y[0] = e.y[1] = 0.0;
+    if (e.empty()) e.x[0] = e.x[1] = e.y[0] = e.y[1] = 0.0;
     if (!(e.high > e.low)) e.high = e.low + 1.0;
     // A margin all around, and the same scale both ways whatever the frame's shape.
-    const double margin = std::max({0.06 * e.across(), 0.6 * e.spacing, 1e-12});
-    for (double* range : {e.x, e.y}) {
-        range[0] -= margin;
-        range[1] += margin;
-    }
-    const auto widen = [](double* range, double wanted) {
-        const double more = std::max(0.0, 0.5 * (wanted - (range[1] - range[0])));
-        range[0] -= more;
-        range[1] += more;
-    };
-    widen(e.x, 0.34 * e.across());
-    widen(e.y, 0.34 * e.across());
+    e.add_margin(std::max({0.06 * e.across(), 0.6 * e.spacing, 1e-12}));
+    e.widen(0.34 * e.across());
     return e;
 }
 
 /// Each sign with its own colours, whatever the range of the other.
-std::string about_zero(const Extent& e) {
+std::string about_zero(const Shared& e) {
     return fmt::format(
         "set palette defined ({0:g} '#8c2d04', {1:g} '#e6550d', -1e-9 '#fdae6b', 0 '#9ecae1', {2:g} "
         "'#2171b5', {3:g} '#08306b')\n",
@@ -95,7 +82,7 @@ std::string particle_block(const ConfigurationPanel& panel) {
 
 /// Elements, those of about the same colour in one block each, which gnuplot fills at once; then the lines around
 /// all of them. `block`: the number of the next one. Returns what to plot.
-std::string element_blocks(const ConfigurationPanel& panel, const Extent& e, std::string_view name,
+std::string element_blocks(const ConfigurationPanel& panel, const Shared& e, std::string_view name,
                            std::string& data, int& block) {
     constexpr int tones = 64;
     std::map<int, std::string> of_tone;
@@ -135,19 +122,17 @@ std::string outline_block(const Points<2>& outline) {
 bool draw_configurations(const RunFolder& folder, std::string_view name, std::string_view title,
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
                          std::string_view colour_label, ColourScale scale) {
-    columns = std::max<std::size_t>(1, std::min(columns, panels.size()));
-    const std::size_t rows = (panels.size() + columns - 1) / columns;
-    Extent e = extent_of(panels);
+    Shared e = shared_by(panels);
     if (scale == ColourScale::about_zero) {
         e.low = std::min(e.low, -1e-3 * (e.high - e.low));
         e.high = std::max(e.high, -1e-3 * e.low);
     }
-    const double frame_width = e.width() + 12.0, frame_height = e.height() + 12.0;
-    const double width = frame_width * static_cast<double>(columns) + bar;
-    const double height = frame_height * static_cast<double>(rows) + top;
-    const double title_room = (e.y[1] - e.y[0]) * title_share / (e.height() - title_share);
+    const gnuplot::Size frame = e.frame();
+    const gnuplot::PanelGrid grid(panels.size(), columns, frame, {{gap, gap, gap, gap}},
+                                  {.right = bar, .top = top});
+    const double title_room = e.height() * title_share / (frame.height - title_share);
 
-    std::string data, script = gnuplot::preamble(name, width, height);
+    std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += scale == ColourScale::about_zero ? about_zero(e) : std::string(gnuplot::palette);
     script += fmt::format(
         "set multiplot title \"{}\" font ',15' offset 0,-0.2\n"
@@ -170,23 +155,16 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
             lines += fmt::format(", '{}.dat' index {} with lines lw 1.2 lc rgb '#333333'", name,
                                  block++);
         }
-        const auto row = static_cast<double>(k / columns),
-                   column = static_cast<double>(k % columns);
-        const double left = frame_width * column / width,
-                     bottom = (height - top - frame_height * (row + 1)) / height;
-        script += fmt::format(
-            "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-            "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
-            "set label 1 \"{}\" at graph 0.5,{:.5f} center font ',12'\n",
-            left + 6 / width, left + (frame_width - 6) / width, bottom + 6 / height,
-            bottom + (frame_height - 6) / height, escaped(panel.title),
-            1.0 - 0.55 * title_share / e.height());
+        script += grid.place(k);
+        script += fmt::format("set label 1 \"{}\" at graph 0.5,{:.5f} center font ',12'\n",
+                              escaped(panel.title), 1.0 - 0.55 * title_share / frame.height);
         script += k == 0
                       ? fmt::format(
                             "set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
                             "set cbtics font ',11' tc rgb 'black'\nset cblabel \"{}\" font ',12' "
                             "tc rgb 'black'\n",
-                            1.0 - (bar - 12) / width, 0.25, 16 / width, 0.5, escaped(colour_label))
+                            1.0 - (bar - 12) / grid.width(), 0.25, 16 / grid.width(), 0.5,
+                            escaped(colour_label))
                       : std::string("unset colorbox\n");
         script += fmt::format("plot {}\n", lines);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
+#include "panel_grid.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -47,53 +48,35 @@ class Surface {
     const ContourPanel& panel_;
 };
 
-/// Where everything is, in pixels.
-struct Layout {
-    std::size_t columns, rows;
-    double wide, high;  ///< of a frame
-    double left = gap, width = 0.0, height = 0.0;
-    std::vector<double> bottom{};  ///< of the frames of a row, from the picture's
-
-    Layout(std::string_view title, const std::vector<ContourPanel>& panels, std::size_t per_row,
-           const ContourRoom& room)
-        : columns(std::max<std::size_t>(1, std::min(per_row, panels.size()))),
-          rows((panels.size() + columns - 1) / columns) {
-        const Point<2> size = room.high - room.low;
-        wide = across * size(0) / size.maxCoeff();
-        high = across * size(1) / size.maxCoeff();
-        for (const auto& panel : panels)
-            if (!panel.side.empty()) left = side_room;
-        width = left + static_cast<double>(columns) * (wide + gap);
-        const double words = 9.5 * static_cast<double>(title.size()) + 2.0 * gap;
-        left += 0.5 * std::max(0.0, words - width);
-        width = std::max(width, words);
-        height = top;
-        for (std::size_t row = 0; row < rows; ++row) {
-            const auto any = [&](const auto& has) {
-                bool found = false;
-                for (std::size_t k = row * columns;
-                     k < std::min((row + 1) * columns, panels.size()); ++k)
-                    found = found || has(panels[k]);
-                return found;
-            };
-            if (any([](const ContourPanel& p) { return !p.title.empty(); })) height += title_room;
-            height += high + gap;
-            bottom.push_back(height - gap);
-            if (any([](const ContourPanel& p) { return p.colours.has_value(); }))
-                height += key_room;
-        }
-        // Films want even numbers of pixels.
-        width = 2.0 * std::ceil(0.5 * width);
-        height = 2.0 * std::ceil(0.5 * height);
-        for (double& b : bottom) b = height - b;
+/// Frames as long as `across`, rows with room for titles and colour bars where they have any.
+gnuplot::PanelGrid grid_of(std::string_view title, const std::vector<ContourPanel>& panels,
+                           std::size_t most_columns, const ContourRoom& room) {
+    const Point<2> size = room.high - room.low;
+    const std::size_t columns = std::max<std::size_t>(1, std::min(most_columns, panels.size()));
+    std::vector<gnuplot::Room> around((panels.size() + columns - 1) / columns,
+                                      {.right = gap, .bottom = gap});
+    around.resize(std::max<std::size_t>(1, around.size()));
+    double left = gap;
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        gnuplot::Room& row = around[k / columns];
+        if (!panels[k].side.empty()) left = side_room;
+        if (!panels[k].title.empty()) row.top = title_room;
+        if (panels[k].colours) row.bottom = gap + key_room;
     }
-};
+    gnuplot::PanelGrid grid(
+        panels.size(), columns,
+        {across * size(0) / size.maxCoeff(), across * size(1) / size.maxCoeff()}, around,
+        {.left = left, .top = top});
+    grid.grow_to(9.5 * static_cast<double>(title.size()) + 2.0 * gap);
+    grid.make_even();
+    return grid;
+}
 
 /// One number a pixel, row by row from below: 0 (black) to 9, or the value to be coloured.
-std::string pixels(const ContourPanel& panel, const Layout& layout, const ContourRoom& room) {
+std::string pixels(const ContourPanel& panel, const gnuplot::Size& frame, const ContourRoom& room) {
     const Surface f(panel);
-    const auto nx = static_cast<int>(std::lround(layout.wide)),
-               ny = static_cast<int>(std::lround(layout.high));
+    const auto nx = static_cast<int>(std::lround(frame.width)),
+               ny = static_cast<int>(std::lround(frame.height));
     const double dx = (room.high(0) - room.low(0)) / nx, dy = (room.high(1) - room.low(1)) / ny;
     std::string block;
     for (int j = 0; j < ny; ++j) {
@@ -124,41 +107,38 @@ std::string dots(const ContourPanel& panel) {
     return block + (block.empty() ? "NaN NaN\n\n\n" : "\n\n");
 }
 
-/// Margins, title and name of frame k.
-std::string frame(const ContourPanel& panel, std::size_t k, const Layout& l) {
-    const double x = l.left + static_cast<double>(k % l.columns) * (l.wide + gap);
-    const double y = l.bottom[k / l.columns];
-    std::string script = fmt::format(
-        "set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\n"
-        "set bmargin at screen {:.6f}\nset tmargin at screen {:.6f}\nunset label\n",
-        x / l.width, (x + l.wide) / l.width, y / l.height, (y + l.high) / l.height);
+/// Place, title and name of panel k. A grid may be wider than its panels, which then are in its middle.
+std::string place_of(const ContourPanel& panel, std::size_t k, const gnuplot::PanelGrid& grid) {
+    const gnuplot::Frame frame = grid.frame(k);
+    const double middle = frame.left + 0.5 * frame.size.width;
+    std::string script = grid.place(k) + "unset label\n";
     if (!panel.title.empty())
-        script += fmt::format("set label \"{}\" at screen {:.6f},{:.6f} center font ',13'\n",
-                              escaped(panel.title), (x + 0.5 * l.wide) / l.width,
-                              (y + l.high + 0.5 * title_room) / l.height);
-    if (!panel.side.empty())
         script +=
-            fmt::format("set label \"{}\" at screen {:.6f},{:.6f} center rotate by 90 font ',13'\n",
-                        escaped(panel.side), (l.left - 0.5 * side_room) / l.width,
-                        (y + 0.5 * l.high) / l.height);
+            fmt::format("set label \"{}\" at screen {} center font ',13'\n", escaped(panel.title),
+                        grid.at(middle, frame.top() + 0.5 * title_room));
+    if (!panel.side.empty())
+        script += fmt::format("set label \"{}\" at screen {} center rotate by 90 font ',13'\n",
+                              escaped(panel.side),
+                              grid.at(grid.frame(k - k % grid.columns()).left - 0.5 * side_room,
+                                      frame.bottom + 0.5 * frame.size.height));
     if (!panel.colours) return script + "unset colorbox\n";
-    return script + fmt::format(
-                        "set colorbox horizontal user origin {:.6f},{:.6f} size {:.6f},{:.6f}\n"
-                        "set cbtics font ',11' offset 0,0.4 tc rgb 'black'\nset cblabel \"{}\" "
-                        "font ',12' tc rgb 'black' offset "
-                        "0,1.1\n",
-                        (x + 0.1 * l.wide) / l.width, (y - 0.35 * key_room) / l.height,
-                        0.8 * l.wide / l.width, 10.0 / l.height, escaped(panel.colours->label));
+    return script +
+           fmt::format(
+               "set colorbox horizontal user origin {} size {}\n"
+               "set cbtics font ',11' offset 0,0.4 tc rgb 'black'\nset cblabel \"{}\" "
+               "font ',12' tc rgb 'black' offset 0,1.1\n",
+               grid.at(frame.left + 0.1 * frame.size.width, frame.bottom - 0.35 * key_room),
+               grid.at(0.8 * frame.size.width, 10.0), escaped(panel.colours->label));
 }
 
 std::string plot_of(const ContourPanel& panel, std::string_view name, std::size_t block,
-                    const Layout& l, const ContourRoom& room) {
+                    const gnuplot::Size& frame, const ContourRoom& room) {
     if (panel.values.empty())
         return fmt::format(
             "plot '{}.dat' index {} using 1:2:({:.5g}) with circles fc rgb '#000000'\n", name,
             block, 0.5 * panel.dot);
-    const double dx = (room.high(0) - room.low(0)) / std::round(l.wide),
-                 dy = (room.high(1) - room.low(1)) / std::round(l.high);
+    const double dx = (room.high(0) - room.low(0)) / std::round(frame.width),
+                 dy = (room.high(1) - room.low(1)) / std::round(frame.height);
     const std::string colours = panel.colours
                                     ? fmt::format("{}set cbrange [{:g}:{:g}]\n", gnuplot::palette,
                                                   panel.colours->low, panel.colours->high)
@@ -175,21 +155,22 @@ std::string plot_of(const ContourPanel& panel, std::string_view name, std::size_
 bool draw_contours(const RunFolder& folder, std::string_view name, std::string_view title,
                    const std::vector<ContourPanel>& panels, std::size_t columns,
                    const ContourRoom& room) {
-    const Layout layout(title, panels, columns, room);
-    std::string data, script = gnuplot::preamble(name, layout.width, layout.height);
+    const gnuplot::PanelGrid grid = grid_of(title, panels, columns, room);
+    std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += fmt::format(
         "set multiplot\nset label 1 \"{}\" at screen 0.5,{:.6f} center font ',15'\n"
         "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n"
         "unset tics\nunset key\nset border lc rgb '#888888'\nset style fill solid 1 noborder\n",
-        escaped(title), 1.0 - 0.5 * top / layout.height, room.low(0), room.high(0), room.low(1),
+        escaped(title), 1.0 - 0.5 * top / grid.height(), room.low(0), room.high(0), room.low(1),
         room.high(1));
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const ContourPanel& panel = panels[k];
         assert(panel.values.empty() || panel.values.size() == panel.grid.size());
-        data += panel.values.empty() ? dots(panel) : pixels(panel, layout, room);
-        std::string place = frame(panel, k, layout);
+        const gnuplot::Size frame = grid.frame(k).size;
+        data += panel.values.empty() ? dots(panel) : pixels(panel, frame, room);
+        std::string place = place_of(panel, k, grid);
         if (k == 0) place.erase(place.find("unset label\n"), 12);  // the picture's own title
-        script += place + plot_of(panel, name, k, layout, room);
+        script += place + plot_of(panel, name, k, frame, room);
     }
     script += "unset multiplot\n";
     return gnuplot::draw(folder, name, script, data);

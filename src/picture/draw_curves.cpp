@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
+#include "panel_grid.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -12,7 +13,9 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double frame_width = 620.0, frame_height = 540.0;
+constexpr gnuplot::Size frame_size{505.0, 318.6};
+/// Above it titles, below it numbers, their name and the key.
+constexpr gnuplot::Room axes{.left = 95.0, .right = 20.0, .bottom = 129.6, .top = 91.8};
 
 /// Of the curves with a look of their own, and so a place in the key.
 std::vector<std::string> key_titles(const CurvePanel& panel) {
@@ -115,16 +118,13 @@ std::string ranges(const CurvePanel& panel) {
            "set autoscale y\n";
 }
 
-/// Place, labels and scale of frame k.
-std::string frame(const CurvePanel& panel, std::size_t k, double width) {
-    const double left = frame_width * static_cast<double>(k);
-    return fmt::format(
-        "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}{}{}",
-        (left + 95) / width, (left + frame_width - 20) / width, escaped(panel.title),
-        escaped(panel.x_label), escaped(panel.y_label), ranges(panel), x_axis(panel),
-        panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
-                    : "unset logscale y\nset format y '%g'\n");
+/// Labels and scale of a frame.
+std::string labels(const CurvePanel& panel) {
+    return fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}{}{}",
+                       escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label),
+                       ranges(panel), x_axis(panel),
+                       panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
+                                   : "unset logscale y\nset format y '%g'\n");
 }
 
 }  // namespace
@@ -143,22 +143,22 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
                  const std::vector<CurvePanel>& panels) {
     // One key for all frames where they show the same curves: under the middle of the picture.
     const bool shared = same_titles(panels);
-    const double width = frame_width * static_cast<double>(panels.size());
-    std::string data, script = gnuplot::preamble(name, width, frame_height);
+    const gnuplot::PanelGrid grid(panels.size(), panels.size(), frame_size, {axes});
+    std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += gnuplot::line_styles;
     script += fmt::format("set multiplot title \"{}\" font ',15'\n", escaped(title));
     script +=
         "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset border 3\nset tics nomirror\n"
-        "set autoscale xfix\nset tmargin at screen 0.83\nset bmargin at screen 0.24\n";
+        "set autoscale xfix\n";
     int block = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const CurvePanel& panel = panels[k];
-        script += frame(panel, k, width);
-        script += shared ? (k == 0 ? shared_key(panel) : std::string("unset label\nunset arrow\n"))
-                         : fmt::format(
-                               "set key at screen {:.5f},0.066 center horizontal samplen 2 "
-                               "maxrows 2\n",
-                               (frame_width * static_cast<double>(k) + 347) / width);
+        script += grid.place(k) + labels(panel);
+        script += shared
+                      ? (k == 0 ? shared_key(panel) : std::string("unset label\nunset arrow\n"))
+                      : fmt::format("set key at screen {} center horizontal samplen 2 maxrows 2\n",
+                                    grid.at(grid.frame(k).left + 0.5 * frame_size.width,
+                                            0.066 * grid.height()));
         std::string plots;
         for (std::size_t c = 0; c < panel.curves.size(); ++c) {
             data += curve_block(panel, panel.curves[c]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
+#include "panel_grid.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -45,6 +46,10 @@ struct Geometry {
             right = std::max(right, letter * static_cast<double>(axis.name.size()) + 20.0);
         width = left + cell_width * static_cast<double>(columns) + right;
         height = top + cell_height * static_cast<double>(rows) + 24.0;
+    }
+    gnuplot::Frame table() const {
+        const double high = cell_height * static_cast<double>(rows);
+        return {left, height - top - high, {cell_width * static_cast<double>(columns), high}};
     }
     /// A place in the table (columns, rows) on the screen.
     double x(double column) const { return (left + cell_width * column) / width; }
@@ -170,9 +175,8 @@ bool draw_heat_map(const RunFolder& folder, std::string_view name, std::string_v
     script += label_at(std::string(title), 0.5, 1.0 - 26.0 / g.height, "center font ',15'");
     script += row_labels(map, g) + column_labels(map, g) + cell_texts(map, g, low, high);
     const double right = g.x(static_cast<double>(g.columns));
+    script += gnuplot::margins(g.table(), {g.width, g.height});
     script += fmt::format(
-        "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n"
         "set xrange [0:{}]\nset yrange [{}:0]\nunset tics\nunset key\nset border lw 1.2\n"
         "set style fill solid 1 border lc rgb 'white'\n"
         "{}set cbrange [{:.10g}:{:.10g}]\n"
@@ -180,9 +184,8 @@ bool draw_heat_map(const RunFolder& folder, std::string_view name, std::string_v
         "set cbtics font ',11'\nset cblabel \"{}\" font ',12'\n"
         "plot '{}.dat' index 0 using 1:2:3:4:5:6:7 with boxxyerror fc palette, "
         "'' index 1 using 1:2:3:4:5:6 with boxxyerror fc rgb '#dddddd'\n",
-        g.x(0), right, g.y(0), g.y(static_cast<double>(g.rows)), g.columns, g.rows,
-        map.log_value ? "set logscale cb\n" : "", low, high, right + 14.0 / g.width,
-        g.y(static_cast<double>(g.rows)), 16.0 / g.width,
+        g.columns, g.rows, map.log_value ? "set logscale cb\n" : "", low, high,
+        right + 14.0 / g.width, g.y(static_cast<double>(g.rows)), 16.0 / g.width,
         (g.y(0) - g.y(static_cast<double>(g.rows))) * 0.8, escaped(map.value_label), name);
     return gnuplot::draw(folder, name, script, data);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
+#include "panel_grid.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -14,7 +15,9 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double frame_width = 600.0, frame_height = 430.0, top = 56.0, key_line = 26.0;
+constexpr gnuplot::Size frame_size{485.0, 325.0};
+constexpr gnuplot::Room axes{.left = 95.0, .right = 20.0, .bottom = 75.0, .top = 30.0};
+constexpr double top = 56.0, key_line = 26.0;
 
 /// Distinct without colour vision, together with the marks (gnuplot's open ones; filled: one more).
 constexpr std::array colours{"#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7",
@@ -134,17 +137,16 @@ std::string plots(const LogLogPicture& picture, const LogLogPanel& panel, std::s
 }  // namespace
 
 bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPicture& picture) {
-    const std::size_t columns =
-        std::max<std::size_t>(1, std::min(picture.columns, picture.panels.size()));
-    const std::size_t rows = (picture.panels.size() + columns - 1) / columns;
-    const std::size_t per_row = 2 * columns;
+    // The key has two entries a panel in a row, and there is at least one panel in a row.
+    const std::size_t per_row =
+        2 * std::max<std::size_t>(1, std::min(picture.columns, picture.panels.size()));
     const double bottom =
         key_line * (static_cast<double>((keys_drawn(picture).size() + per_row - 1) / per_row) +
                     (picture.note.empty() ? 0.0 : 1.0)) +
         10.0;
-    const double width = frame_width * static_cast<double>(columns);
-    const double height = top + bottom + frame_height * static_cast<double>(rows);
-    std::string data, script = gnuplot::preamble(name, width, height);
+    const gnuplot::PanelGrid grid(picture.panels.size(), picture.columns, frame_size, {axes},
+                                  {.bottom = bottom, .top = top});
+    std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += fmt::format(
         "set multiplot title \"{}\" font ',15'\nset logscale xy\nset border 3\nset tics nomirror\n"
         "set grid back lt 1 lw 1 lc rgb '#e4e4e4'\n",
@@ -152,18 +154,12 @@ bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPi
     std::size_t block = 0;
     for (std::size_t k = 0; k < picture.panels.size(); ++k) {
         const LogLogPanel& panel = picture.panels[k];
-        const double left = frame_width * static_cast<double>(k % columns);
-        const double high = height - top - frame_height * static_cast<double>(k / columns);
-        script += fmt::format(
-            "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen "
-            "{:.5f}\nset bmargin at screen {:.5f}\n",
-            (left + 95.0) / width, (left + frame_width - 20.0) / width, (high - 30.0) / height,
-            (high - frame_height + 75.0) / height);
+        script += grid.place(k);
         script += fmt::format(
             "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}",
             escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label), ranges(panel));
         script += "unset label\nunset arrow\n";
-        if (k == 0) script += key(picture, width, height, per_row);
+        if (k == 0) script += key(picture, grid.width(), grid.height(), per_row);
         if (!panel.words.empty())
             script += fmt::format("set label 98 \"{}\" at graph 0.98,0.95 right tc rgb '#555555'\n",
                                   escaped(panel.words));
