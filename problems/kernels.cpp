@@ -16,6 +16,7 @@
 #include "kernels/lattices.hpp"
 #include <spam/io/csv.hpp>
 #include <spam/kernel/any_weight.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/picture/draw.hpp>
 #include <spam/spam.hpp>
 
@@ -57,20 +58,6 @@ std::string title_of(const std::string& law) {
 int style_of(const std::string& law) { return law == "lucy" ? 2 : law == "monaghan" ? 3 : 5; }
 
 // ---- 1: beside a Gaussian ----
-
-/// Integral of r^power w over the line, plane or space: Simpson's rule on pieces of polynomials.
-template <int Dim>
-double moment(const AnyWeight<Dim>& w, int power) {
-    const double surface = Dim == 1 ? 2.0 : Dim == 2 ? 2.0 * pi : 4.0 * pi;
-    const int intervals = 2000;  // even halves: the spline has a joint in the middle
-    const double step = w.range() / intervals;
-    double sum = 0.0;
-    for (int k = 0; k <= intervals; ++k) {
-        const double weight = k == 0 || k == intervals ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
-        sum += weight * std::pow(k * step, power + Dim - 1) * w.value(k * step);
-    }
-    return surface * sum * step / 3.0;
-}
 
 template <int Dim>
 struct Gaussian {
@@ -126,7 +113,7 @@ void compare_with_gaussian(Session& session, const Parameters& p) {
         const AnyWeight<Dim> w = weight_function<Dim>(law, 1.0);
         const Profile<Dim> profile(w);
         const std::string name = fmt::format("{}_{}d_", law, Dim);
-        session.check({name + "integral", moment(w, 0), 1.0, 1e-8, "[HH01] eq 7"});
+        session.check({name + "integral", moment(w, 0), 1.0, 1e-13, "[HH01] eq 7"});
         session.measure(name + "width", profile.width, "s/h, measured");
         session.measure(name + "from_gaussian", profile.from_gaussian(), "of w(0), measured");
         panels[0].curves.push_back(

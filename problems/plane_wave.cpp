@@ -187,7 +187,7 @@ void report_turning(Session& session, const Parameters& p, const Ringing& one,
     // The formulas expand in block and range over the wave (off by 12 % at 1.5 for the range); a range
     // below 2.5 has too few neighbours for integrals. Others: the range at which Lucy's is as wide.
     const Scheme& scheme = one.solid.model->scheme();
-    const double r2 = mean_square(weight_function<2>(to_string(scheme.kernel), scheme.range));
+    const double r2 = moment(weight_function<2>(to_string(scheme.kernel), scheme.range), 2);
     const double range = std::sqrt(28.0 / 5.0 * r2), k = one.wave.k;
     const bool long_wave = p.block * k < 1.2 && p.block >= 2.0 && range * k < 1.22 && range >= 2.5;
     const auto claim = [&](const char* name, double value, double expected, const char* source) {

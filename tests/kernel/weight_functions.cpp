@@ -233,9 +233,10 @@ BOOST_AUTO_TEST_CASE(one_formula_for_all_of_them) {
 }
 
 BOOST_AUTO_TEST_CASE(integrals_over_weight_functions) {
-    BOOST_TEST(std::abs(mean_square<2>(Lucy<2>(3.0)) - 5.0 * 9.0 / 28.0) < 1e-5);
+    BOOST_TEST(std::abs(moment<2>(Lucy<2>(3.0), 2) - 5.0 * 9.0 / 28.0) < 1e-13);
+    BOOST_TEST(std::abs(moment<3>(MonaghanCubic<3>(1.5), 0) - 1.0) < 1e-13);
     const auto second_moment = [](double r) { return 2.0 * r * r * Wn<1, 5>(2.0).value(r); };
-    BOOST_TEST(std::abs(mean_square<1>(Wn<1, 5>(2.0)) - integral(second_moment, 0.0, 2.0)) < 1e-6);
+    BOOST_TEST(std::abs(moment<1>(Wn<1, 5>(2.0), 2) - integral(second_moment, 0.0, 2.0)) < 1e-6);
     // The gradient sum of sin kx, by summing over a fine square lattice.
     const MonaghanCubic<2> w(2.0);
     double largest = 0.0;

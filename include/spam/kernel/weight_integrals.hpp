@@ -5,9 +5,10 @@
 
 namespace spam {
 
-/// <r^2> = integral of w r^2 over the line, plane or space (Lucy in the plane: 5 h^2/28).
+/// <r^power> = integral of w r^power over the line, plane or space, to rounding errors; power >= 0. 1 for the power 0;
+/// the mean square of Lucy's in the plane is 5 h^2/28.
 template <int Dim>
-double mean_square(const AnyWeight<Dim>& weight);
+double moment(const AnyWeight<Dim>& weight, int power);
 
 /// The largest factor by which a gradient sum multiplies a wave, in the continuum: the maximum over k of
 /// integral of (-w'(r)/r) x sin kx. It stands for the wave number of the shortest waves that smooth
@@ -20,9 +21,9 @@ double steepest_wave(const AnyWeight<Dim>& weight);
 template <int Dim>
 double fastest_diffusion(const AnyWeight<Dim>& weight);
 
-extern template double mean_square(const AnyWeight<1>&);
-extern template double mean_square(const AnyWeight<2>&);
-extern template double mean_square(const AnyWeight<3>&);
+extern template double moment(const AnyWeight<1>&, int);
+extern template double moment(const AnyWeight<2>&, int);
+extern template double moment(const AnyWeight<3>&, int);
 extern template double steepest_wave(const AnyWeight<1>&);
 extern template double steepest_wave(const AnyWeight<2>&);
 extern template double steepest_wave(const AnyWeight<3>&);
