@@ -2,109 +2,85 @@
 #include "region.hpp"
 
 #include <spam/core/error.hpp>
-#include <spam/core/text.hpp>
+#include <spam/io/csv.hpp>
 #include <spam/io/text_file.hpp>
 #include <spam/setup/drawn.hpp>
 
+#include <boost/geometry/algorithms/area.hpp>
+#include <boost/geometry/algorithms/centroid.hpp>
+#include <boost/geometry/algorithms/is_valid.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/ring.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
-#include <optional>
 #include <random>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace relaxation {
 
-using spam::number_in;
-
 namespace {
 
-double cross(const Point<2>& a, const Point<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
+namespace geometry = boost::geometry;
+using Corner = geometry::model::d2::point_xy<double>;
+using Ring = geometry::model::ring<Corner, false, false>;  // counterclockwise, no corner twice
 
-double signed_area(const Points<2>& polygon) {
-    double twice = 0.0;
-    for (Eigen::Index k = 0; k < polygon.cols(); ++k)
-        twice += cross(polygon.col(k), polygon.col((k + 1) % polygon.cols()));
-    return 0.5 * twice;
-}
-
-Point<2> centroid(const Points<2>& polygon) {
-    Point<2> sum = Point<2>::Zero();
-    for (Eigen::Index k = 0; k < polygon.cols(); ++k) {
-        const Point<2> a = polygon.col(k), b = polygon.col((k + 1) % polygon.cols());
-        sum += cross(a, b) * (a + b);
-    }
-    return sum / (6.0 * signed_area(polygon));
-}
-
-/// Whether the sides from corner j and from corner k meet without being neighbours.
-bool cross_each_other(const Points<2>& polygon, Eigen::Index j, Eigen::Index k) {
-    const Eigen::Index n = polygon.cols();
-    if (k == j || (j + 1) % n == k || (k + 1) % n == j) return false;
-    const Point<2> a = polygon.col(j), b = polygon.col((j + 1) % n);
-    const Point<2> c = polygon.col(k), d = polygon.col((k + 1) % n);
-    const auto side = [](const Point<2>& p, const Point<2>& q, const Point<2>& r) {
-        return cross(q - p, r - p) > 0.0;
-    };
-    return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+Ring ring_of(const Points<2>& polygon) {
+    Ring ring;
+    for (const auto& corner : polygon.colwise()) ring.emplace_back(corner.x(), corner.y());
+    return ring;
 }
 
 /// A thinner shape leaves random_places() next to no chance, and a wall around it no end.
 constexpr double least_part = 1e-3;
-
-/// Between blanks, or the first comma: "x,y", "x y". A second comma stays in its word, which then is no
-/// number.
-std::vector<std::string> words_of(std::string line) {
-    if (const auto comma = line.find(','); comma != std::string::npos) line[comma] = ' ';
-    std::istringstream in(line);
-    return {std::istream_iterator<std::string>(in), {}};
-}
 
 /// Names of columns: all words begin with a letter and none is what some write for a number.
 bool is_header(const std::vector<std::string>& words) {
     return std::all_of(words.begin(), words.end(), [](const std::string& word) {
         double value = 0.0;
         const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
-        return std::isalpha(static_cast<unsigned char>(word.front())) && read.ec != std::errc{} &&
-               read.ptr == word.data();
+        return !word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) &&
+               read.ec != std::errc{} && read.ptr == word.data();
     });
 }
 
 }  // namespace
 
 Region::Region(Points<2> polygon) : polygon_(std::move(polygon)) {
-    const double area = polygon_.cols() < 3 ? 0.0 : signed_area(polygon_);
+    if (polygon_.cols() < 3 || !polygon_.allFinite())
+        throw InputError("outline: these corners surround no area; give three or more in order");
+    Ring ring = ring_of(polygon_);
+    if (geometry::area(ring) < 0.0) {
+        polygon_ = polygon_.rowwise().reverse().eval();
+        ring = ring_of(polygon_);
+    }
+    std::string crossing;
+    const bool simple = geometry::is_valid(ring, crossing);
+    const double area = geometry::area(ring);
     if (!std::isfinite(area) || area == 0.0)
         throw InputError("outline: these corners surround no area; give three or more in order");
     const double length =
         (polygon_.rowwise().maxCoeff() - polygon_.rowwise().minCoeff()).maxCoeff();
-    if (!(std::abs(area) / length >= least_part * length))
+    if (!(area / length >= least_part * length))
         throw InputError(
             fmt::format("outline: a shape of length {:g} and area {:g} is too thin; let it fill a "
                         "thousandth of the square around it",
-                        length, std::abs(area)));
-    if (area < 0.0) polygon_ = polygon_.rowwise().reverse().eval();
-    for (Eigen::Index j = 0; j < polygon_.cols(); ++j)
-        for (Eigen::Index k = j + 1; k < polygon_.cols(); ++k)
-            if (cross_each_other(polygon_, j, k))
-                throw InputError(
-                    fmt::format("outline: the side at ({:g}, {:g}) crosses the one at ({:g}, "
-                                "{:g}); give corners "
-                                "in order around one region",
-                                polygon_(0, j), polygon_(1, j), polygon_(0, k), polygon_(1, k)));
+                        length, area));
+    if (!simple)
+        throw InputError(
+            fmt::format("outline: the border crosses or touches itself: {}; give corners in order "
+                        "around one region",
+                        crossing.substr(0, crossing.find(';'))));
     sort_sides();
 }
 
-double Region::area() const { return signed_area(polygon_); }
+double Region::area() const { return geometry::area(ring_of(polygon_)); }
 
 std::size_t Region::band(double y) const {
     const double at = std::clamp((y - low_) / band_height_, 0.0, double(bands_.size()) - 1.0);
@@ -152,7 +128,9 @@ Region Region::of_area(double area) const {
     Region other = *this;
     other.scale_ = std::sqrt(area / this->area());
     other.polygon_ *= other.scale_;
-    other.shift_ = centroid(other.polygon_);
+    Corner centroid(0.0, 0.0);
+    geometry::centroid(ring_of(other.polygon_), centroid);
+    other.shift_ = {centroid.x(), centroid.y()};
     other.polygon_.colwise() -= other.shift_;
     other.sort_sides();
     return other;
@@ -169,20 +147,16 @@ Region lobed_region(int lobes, double depth) {
 }
 
 Region region_from_file(const std::string& path) {
-    std::istringstream in(text_file(path, "outline", "a file with a line x,y a corner"));
+    CsvReader rows(
+        text_file(path, "outline", "a file with a line x,y a corner"), path,
+        {.option = "outline", .remedy = "write a corner as two numbers, x,y", .free = true});
     std::vector<Point<2>> corners;
-    std::string line;
     bool first = true;
-    for (int number = 1; std::getline(in, line); ++number) {
-        const auto words = words_of(line);
-        if (words.empty() || words[0].front() == '#') continue;
-        if (std::exchange(first, false) && is_header(words)) continue;
-        const auto x = number_in(words[0]);
-        const auto y = words.size() == 2 ? number_in(words[1]) : std::nullopt;
-        if (!x || !y)
-            throw InputError(fmt::format(
-                "outline: line {} of '{}' is no corner; write two numbers, x,y", number, path));
-        const Point<2> corner(*x, *y);
+    while (rows.next()) {
+        if (std::exchange(first, false) && is_header(rows.cells())) continue;
+        if (rows.cells().size() != 2)
+            rows.refuse(fmt::format("has {} cells in place of 2", rows.cells().size()));
+        const Point<2> corner(rows.number(0), rows.number(1));
         if (corners.empty() || corner != corners.back()) corners.push_back(corner);
     }
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();

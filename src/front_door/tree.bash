@@ -13,7 +13,7 @@ readonly set_up_failed=5 # exit status; those of a problem are listed by its --h
 
 # By the names of Debian 12 and Ubuntu 24.04; each verb adds its own.
 readonly build_packages=(g++ cmake ninja-build libsundials-dev libeigen3-dev libgsl-dev libcli11-dev
-    libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libssl-dev libfftw3-dev)
+    libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libssl-dev libfftw3-dev libboost-dev)
 readonly picture_packages=(gnuplot-nox fonts-dejavu-core)
 
 # --- steps -------------------------------------------------------------------------------------
@@ -225,7 +225,7 @@ configure() { # KEY=VALUE...
         return 0
     fi
     # What a verb does not ask for stays as it is, so that `run` after `test` keeps the tests; the
-    # first time it is off, so that `run` needs neither Boost nor Google Benchmark.
+    # first time it is off, so that `run` needs neither Boost.Test nor Google Benchmark.
     if ! [[ -f $root/build/$preset/build.ninja ]]; then
         for part in SPAM_BUILD_TESTS SPAM_BUILD_BENCH; do
             [[ ${settings[*]} == *$part=* ]] || settings+=("$part=OFF")

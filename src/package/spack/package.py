@@ -29,6 +29,7 @@ class Spam(CMakePackage):
     depends_on("hdf5@1.10: ~mpi")
     depends_on("eigen@3.4:")
     depends_on("gsl")
+    depends_on("boost@1.74:", type="build", when="+problems")
     depends_on("fmt@9:")
     depends_on("fftw@3: precision=double")
     depends_on("openssl@3:")
