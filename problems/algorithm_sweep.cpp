@@ -164,12 +164,10 @@ std::string name_of(const Scheme& s) {
 }
 
 const std::string& words(const StudyTable::Row& row, std::string_view column) {
-    std::size_t k = 0;
-    while (sweep_columns.at(k).name != column) ++k;
-    return row[k + 1];
+    return cell_of(row, names_of_columns(), column);
 }
 double cell(const StudyTable::Row& row, std::string_view column) {
-    return std::stod(words(row, column));
+    return number_of(row, names_of_columns(), column);
 }
 
 /// Cells: turns survived, and L after one turn.

@@ -136,12 +136,10 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
         fmt::format("{:.1f}", run.statistics.wall_seconds)};
 }
 
-double number(const StudyTable::Row& row, std::size_t column) { return std::stod(row[column]); }
-
 /// Of the last row in which the hexagon was whole: one that loses its shape in the very last row has not
 /// survived.
 double turns_whole(const StudyTable::Row& row) {
-    return std::max(0.0, number(row, 1) - (row[2] == "whole" ? 0.0 : 1.0 / rows_per_turn));
+    return std::max(0.0, number_in_cell(row, 1) - (row[2] == "whole" ? 0.0 : 1.0 / rows_per_turn));
 }
 
 /// The error of RK4 grows with the turns, and as the fourth power of the angle by which a step turns: a
@@ -151,7 +149,7 @@ void claim_L_kept(Session& session, const Parameters& p, const StudyTable::Row& 
     const IntegratorOptions& integrator = session.integrator();
     const double angle = p.speed / p.size * integrator.dt.value_or(1.0);
     const double allowed = std::max(1e-12, 0.41 * p.turns * std::pow(angle, 4));
-    session.claim({row.front() + "_L_drift", std::abs(number(row, 3) - 1.0), 0.0, allowed,
+    session.claim({row.front() + "_L_drift", std::abs(number_in_cell(row, 3) - 1.0), 0.0, allowed,
                    "to the error of RK4"},
                   integrator.method == "rk4" && allowed <= 0.01);
 }
@@ -161,9 +159,9 @@ void draw(Session& session, const Parameters& p, const std::vector<Contestant>& 
     BarChart chart{"turns survived", true, {}};
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const bool whole = rows[k][2] == "whole";
-        chart.bars.push_back({all[k].title, number(rows[k], 1),
-                              fmt::format("{:.3g}{}, L {:.2f}, {}", number(rows[k], 1),
-                                          whole ? "+" : "", number(rows[k], 3), rows[k][2]),
+        chart.bars.push_back({all[k].title, number_in_cell(rows[k], 1),
+                              fmt::format("{:.3g}{}, L {:.2f}, {}", number_in_cell(rows[k], 1),
+                                          whole ? "+" : "", number_in_cell(rows[k], 3), rows[k][2]),
                               all[k].kind == Contestant::smooth    ? 3
                               : all[k].kind == Contestant::springs ? 1
                                                                    : 2});
@@ -209,7 +207,7 @@ int main(int argc, char** argv) {
 
         const auto rows = table.rows(tasks);
         for (const auto& row : rows)
-            session.measure(row.front() + "_turns", number(row, 1), row[2]);
+            session.measure(row.front() + "_turns", number_in_cell(row, 1), row[2]);
         for (const std::size_t k : {std::size_t{0}, rows.size() - 2, rows.size() - 1}) {
             session.check({rows[k].front() + "_survives", turns_whole(rows[k]), p.turns,
                            1e-9 * p.turns, "all the turns asked for"});

@@ -252,7 +252,8 @@ void compare(Session& session, const Parameters& p) {
     std::map<std::string, std::vector<Point>> fixed, free;
     for (const auto& row : table.rows(tasks)) {
         const Case& one = cases.at(row.front());
-        const Point point{one.dt, std::stod(row[1]), std::stod(row[2]), std::stod(row[3])};
+        const Point point{one.dt, number_in_cell(row, 1), number_in_cell(row, 2),
+                          number_in_cell(row, 3)};
         (one.dt > 0.0 ? fixed : free)[one.form->name].push_back(point);
         if (!std::isfinite(point.error)) continue;
         double known = 0.0;

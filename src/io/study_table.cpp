@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/text.hpp>
+#include <spam/io/csv.hpp>
 #include <spam/io/study_table.hpp>
 
 #include <fcntl.h>
@@ -9,7 +11,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -19,40 +23,6 @@
 #include <thread>
 
 namespace spam {
-
-std::string csv_line(const std::vector<std::string>& cells) {
-    std::string line;
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (k > 0) line += ',';
-        const bool quoted = cells[k].find_first_of(",\"") != std::string::npos;
-        if (quoted) line += '"';
-        for (const char c : cells[k]) {
-            if (c == '"') line += '"';
-            line += c == '\n' || c == '\r' ? ' ' : c;
-        }
-        if (quoted) line += '"';
-    }
-    return line + '\n';
-}
-
-std::vector<std::string> csv_cells(std::string_view line) {
-    std::vector<std::string> cells(1);
-    bool quoted = false;
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        const char c = line[k];
-        if (quoted && c == '"' && k + 1 < line.size() && line[k + 1] == '"') {
-            cells.back() += '"';
-            ++k;
-        } else if (c == '"') {
-            quoted = !quoted;
-        } else if (c == ',' && !quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += c;
-        }
-    }
-    return cells;
-}
 
 namespace {
 
@@ -234,6 +204,37 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
     std::error_code ignored;
     std::filesystem::remove(part(), ignored);
     return true;
+}
+
+namespace {
+
+std::size_t place_of(const std::vector<std::string>& columns, std::string_view name) {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                    columns.begin());
+}
+
+}  // namespace
+
+const std::string& cell_of(const StudyTable::Row& row, const std::vector<std::string>& columns,
+                           std::string_view name) {
+    return row.at(place_of(columns, name));
+}
+
+double number_in_cell(const StudyTable::Row& row, std::size_t column) {
+    const std::string& cell = row.at(column);
+    if (cell.empty()) return std::nan("");
+    double value = 0.0;  // infinite, or none, where a run was stopped
+    const char* const last = cell.data() + cell.size();
+    const auto [end, error] = std::from_chars(cell.data(), last, value);
+    if (error != std::errc{} || end != last)
+        throw InputError(fmt::format("out: row '{}': '{}' is no number; begin anew with --force",
+                                     row.front(), one_line(cell)));
+    return value;
+}
+
+double number_of(const StudyTable::Row& row, const std::vector<std::string>& columns,
+                 std::string_view name) {
+    return number_in_cell(row, place_of(columns, name));
 }
 
 std::vector<StudyTable::Row> StudyTable::rows(const std::vector<StudyTask>& tasks) const {

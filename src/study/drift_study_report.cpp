@@ -17,7 +17,7 @@ Promise promise_of(const Promises& promises, std::string_view invariant) {
 }
 
 double value(const StudyTable::Row& row, std::string_view invariant, const char* what) {
-    return std::stod(cell(row, std::string(invariant) + what));
+    return number_of(row, columns(), std::string(invariant) + what);
 }
 
 void check(Session& session, const TrialWords& trial, const StudyMethod& method,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drift_study.hpp"
 #include <spam/core/error.hpp>
+#include <spam/io/csv.hpp>
+#include <spam/io/text_file.hpp>
 #include <spam/problem/run_in_memory.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 
 namespace spam::drift_study {
 namespace {
@@ -58,43 +58,34 @@ const std::vector<std::string>& columns() {
 }
 
 const std::string& cell(const StudyTable::Row& row, std::string_view column) {
-    const auto& all = columns();
-    return row.at(
-        static_cast<std::size_t>(std::find(all.begin(), all.end(), column) - all.begin()));
+    return cell_of(row, columns(), column);
 }
 
 std::string as_csv(const Drifts& drifts) {
     std::string text = fmt::format("t,{}\n", fmt::join(invariants, ","));
-    for (std::size_t k = 0; k < drifts.t.size(); ++k)
-        text += fmt::format("{:.10g},{:.10g},{:.10g},{:.10g}\n", drifts.t[k], drifts.change[0][k],
-                            drifts.change[1][k], drifts.change[2][k]);
+    for (std::size_t k = 0; k < drifts.t.size(); ++k) {
+        text += fmt::format("{:.10g}", drifts.t[k]);
+        for (const auto& change : drifts.change)  // none where a run was stopped
+            text += std::isfinite(change[k]) ? fmt::format(",{:.10g}", change[k]) : ",";
+        text += '\n';
+    }
     return text;
 }
 
 Drifts read_drifts(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::string line;
-    std::getline(in, line);
+    CsvReader rows(text_file(file.string(), "out", "a table of drifts"), file.string(),
+                   {.option = "out", .remedy = "begin anew with --force, or another --out"});
     Drifts drifts;
-    for (int number = 2; std::getline(in, line); ++number) {
-        const auto cells = csv_cells(line);
-        const auto refuse = [&](const std::string& why) {
-            throw InputError(
-                fmt::format("out: '{}' line {} {}; begin anew with --force, or another "
-                            "--out",
-                            file.string(), number, why));
-        };
-        if (cells.size() != 1 + invariants.size())
-            refuse(fmt::format("has {} cells in place of {}", cells.size(), 1 + invariants.size()));
-        for (std::size_t k = 0; k < cells.size(); ++k) {
-            double value = 0.0;  // infinite, or none, where a run was stopped
-            const char* last = cells[k].data() + cells[k].size();
-            const auto [end, error] = std::from_chars(cells[k].data(), last, value);
-            if (error != std::errc{} || end != last)
-                refuse(fmt::format("column '{}': '{}' is no number",
-                                   k == 0 ? "t" : invariants[k - 1], cells[k]));
-            (k == 0 ? drifts.t : drifts.change[k - 1]).push_back(value);
-        }
+    if (rows.next()) {
+        if (rows.cells().size() != 1 + invariants.size())
+            rows.refuse(fmt::format("has {} cells in place of {}", rows.cells().size(),
+                                    1 + invariants.size()));
+        rows.keep_as_header();
+    }
+    while (rows.next()) {
+        drifts.t.push_back(rows.number(0));
+        for (std::size_t k = 0; k < invariants.size(); ++k)
+            drifts.change[k].push_back(rows.number(k + 1));
     }
     if (drifts.t.size() < 3) throw OutputError(fmt::format("cannot read '{}' back", file.string()));
     return drifts;

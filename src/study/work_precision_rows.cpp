@@ -49,14 +49,11 @@ const std::vector<std::string>& columns() {
 }
 
 const std::string& cell(const StudyTable::Row& row, std::string_view column) {
-    const auto& all = columns();
-    return row.at(
-        static_cast<std::size_t>(std::find(all.begin(), all.end(), column) - all.begin()));
+    return cell_of(row, columns(), column);
 }
 
 double number(const StudyTable::Row& row, std::string_view column) {
-    const std::string& text = cell(row, column);
-    return text.empty() ? std::nan("") : std::stod(text);
+    return number_of(row, columns(), column);
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 // Tables that are computed row by row and survive being stopped.
 #include "support/process.hpp"
 #include <spam/core/error.hpp>
+#include <spam/io/csv.hpp>
 #include <spam/io/study_table.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -55,17 +56,6 @@ std::string refusal(const Folder& f) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(a_line_of_csv_reads_back) {
-    const std::vector<std::string> cells{"plain", "a,b", "say \"yes\"", "", "two\nlines"};
-    std::string line = csv_line(cells);
-    BOOST_TEST(line.back() == '\n');
-    line.pop_back();
-    const auto back = csv_cells(line);
-    BOOST_TEST_REQUIRE(back.size() == cells.size());
-    for (std::size_t k = 0; k + 1 < cells.size(); ++k) BOOST_TEST(back[k] == cells[k]);
-    BOOST_TEST(back.back() == "two lines");
-}
 
 BOOST_AUTO_TEST_CASE(a_whole_study_leaves_one_table_in_order) {
     const Folder f;

@@ -58,9 +58,13 @@ class StudyTable {
     std::map<std::string, Row> rows_;
 };
 
-/// Cells as a line of CSV: those with a comma or quotation marks are quoted; line ends become spaces.
-std::string csv_line(const std::vector<std::string>& cells);
-/// The cells of such a line, without its end.
-std::vector<std::string> csv_cells(std::string_view line);
+/// The cell of a row under a name of `columns`, those of its table. Throws std::out_of_range for other names.
+const std::string& cell_of(const StudyTable::Row& row, const std::vector<std::string>& columns,
+                           std::string_view name);
+/// The number in a cell of a row; NaN where it is empty. Throws InputError, naming row and cell, where it holds
+/// something else.
+double number_in_cell(const StudyTable::Row& row, std::size_t column);
+double number_of(const StudyTable::Row& row, const std::vector<std::string>& columns,
+                 std::string_view name);
 
 }  // namespace spam
