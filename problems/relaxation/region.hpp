@@ -15,7 +15,7 @@ using namespace spam;
 class Region {
   public:
     /// `polygon`: 2 x M corners in order, M >= 3, in either sense. Throws InputError where it has no
-    /// area, less than a thousandth of that of the square around it, or crosses itself.
+    /// area, less than a thousandth of that of the square around it, or crosses or touches itself.
     explicit Region(Points<2> polygon);
 
     /// Corners, counterclockwise.

@@ -11,6 +11,14 @@ if(SPAM_BUILD_PYTHON)
 else()
   set(python_path ${PROJECT_SOURCE_DIR}/src/python)
 endif()
+# An extension that is compiled with sanitizers finds them in an interpreter that is not only where they are loaded
+# first. Python's own memory is never given back: leaks of ours are looked for in the programs.
+if(SPAM_BUILD_PYTHON AND SPAM_SANITIZE MATCHES "address")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.so
+                  OUTPUT_VARIABLE sanitizer_runtime OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  set(python_sanitizers LD_PRELOAD=${sanitizer_runtime} ASAN_OPTIONS=detect_leaks=0
+                        UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1)
+endif()
 file(GLOB python_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/test_*.py)
 foreach(file IN LISTS python_tests)
   get_filename_component(name ${file} NAME_WE)
@@ -22,7 +30,8 @@ foreach(file IN LISTS python_tests)
   endif()
   add_test(NAME ${name} COMMAND ${spam_test_python} ${CMAKE_CURRENT_LIST_DIR}/run.py ${file})
   set(environment PYTHONPATH=${python_path} PYTHONDONTWRITEBYTECODE=1
-                  SPAM_PROBLEMS=${PROJECT_BINARY_DIR}/problems SPAM_SOURCE=${PROJECT_SOURCE_DIR})
+                  SPAM_PROBLEMS=${PROJECT_BINARY_DIR}/problems SPAM_SOURCE=${PROJECT_SOURCE_DIR}
+                  ${python_sanitizers})
   set_tests_properties(${name} PROPERTIES LABELS problem TIMEOUT ${timeout} SKIP_RETURN_CODE 77
                        ENVIRONMENT "${environment}")
 endforeach()
