@@ -6,6 +6,8 @@
 #include <spam/io/text_file.hpp>
 #include <spam/setup/drawn.hpp>
 
+// Boost 1.74 includes some of its own headers by names that it calls former ones.
+#define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <boost/geometry/algorithms/area.hpp>
 #include <boost/geometry/algorithms/centroid.hpp>
 #include <boost/geometry/algorithms/is_valid.hpp>
