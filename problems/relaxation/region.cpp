@@ -6,8 +6,10 @@
 #include <spam/io/text_file.hpp>
 #include <spam/setup/drawn.hpp>
 
-// Boost 1.74 includes some of its own headers by names that it calls former ones.
+// Boost 1.74 includes some of its own headers by names that it calls former ones, and would round corners to a grid
+// of integers before it looks for crossings.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
+#define BOOST_GEOMETRY_NO_ROBUSTNESS
 #include <boost/geometry/algorithms/area.hpp>
 #include <boost/geometry/algorithms/centroid.hpp>
 #include <boost/geometry/algorithms/is_valid.hpp>
