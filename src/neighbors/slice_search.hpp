@@ -7,7 +7,10 @@
 #include <spam/neighbors/cluster_list.hpp>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace spam {
 
@@ -36,9 +39,16 @@ class ClusterList<Dim>::SliceSearch {
     /// each from both ends.
     std::size_t run(std::size_t first, std::size_t last) {
         std::size_t pairs = 0;
-        if (list_.in_order_) find_clusters(first, last);
-        for (std::size_t c = first; c < last; ++c)
-            pairs += list_.in_order_ ? among_clusters(c) : among_strips(c);
+        if (!list_.in_order_) {
+            for (std::size_t c = first; c < last; ++c) pairs += among_strips(c);
+            return pairs;
+        }
+        while (first < last) {
+            std::size_t end = first + 1;
+            while (end < last && on_one_side(first, end)) ++end;
+            find_clusters(first, end);
+            for (; first < end; ++first) pairs += among_clusters(first);
+        }
         return pairs;
     }
 
@@ -50,6 +60,18 @@ class ClusterList<Dim>::SliceSearch {
     }
 
   private:
+    /// Clusters at opposite borders of a periodic box may be neighbours, but bounds around both would be as large
+    /// as the box and hold everybody.
+    bool on_one_side(std::size_t c, std::size_t d) const {
+        for (int a = 0; a < Dim; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            const double apart = list_.boxes_[d].centre[axis] - list_.boxes_[c].centre[axis];
+            if (list_.box_.periodic(a) && std::abs(apart) > 0.5 * list_.box_.length(a))
+                return false;
+        }
+        return true;
+    }
+
     /// Clusters that may be near some of a group.
     void find_clusters(std::size_t first, std::size_t last) {
         const Bounds<Dim> around = list_.boxes_.around(first, last);
@@ -99,16 +121,17 @@ class ClusterList<Dim>::SliceSearch {
         sorted_.clear();
         for (const std::uint32_t* entry = from; entry != end; ++entry) {
             const std::size_t ghost = *entry / list_.stride_ - owned;
-            sorted_.push_back(
-                {list_.ghosts_.owner(ghost) * list_.stride_, list_.ghosts_.which(ghost), *entry});
+            sorted_.emplace_back(
+                std::uint64_t{list_.ghosts_.owner(ghost)} << 32 | list_.ghosts_.which(ghost),
+                *entry);
         }
         std::sort(sorted_.begin(), sorted_.end());
         const std::uint32_t* const begin = out_.data() + used_;
         for (auto ghost = sorted_.rbegin(); ghost != sorted_.rend();)
-            if (from != begin && from[-1] > (*ghost)[0])
+            if (from != begin && from[-1] > (ghost->first >> 32) * list_.stride_)
                 *--end = *--from;
             else
-                *--end = (*ghost++)[2];
+                *--end = (ghost++)->second;
     }
 
     std::size_t among_strips(std::size_t cluster) {
@@ -161,8 +184,8 @@ class ClusterList<Dim>::SliceSearch {
     std::size_t used_ = 0;
     std::vector<std::uint32_t> near_group_, near_;
     std::vector<SlotRange> ranges_, ghost_ranges_;
-    std::vector<std::array<std::uint32_t, 3>>
-        sorted_;  ///< of ghosts: where the owner is, which, entry
+    /// Of ghosts: the owner's slot and which of its images, as one number that sorts fast; entry.
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted_;
 };
 
 }  // namespace spam
