@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What tests of the compiled part share. Skips them where it is not built."""
+import contextlib
+import os
 import unittest
 
 import numpy as np
@@ -9,6 +11,17 @@ try:
     spam.Scheme
 except ImportError as error:
     raise unittest.SkipTest(str(error))
+
+
+@contextlib.contextmanager
+def python_processes():
+    """Other processes of Python that start in here load a sanitizer first where this one has; programs must not."""
+    if "SPAM_PRELOAD" in os.environ:
+        os.environ["LD_PRELOAD"] = os.environ["SPAM_PRELOAD"]
+    try:
+        yield
+    finally:
+        os.environ.pop("LD_PRELOAD", None)
 
 
 def rotation(n, speed=0.1):

@@ -40,7 +40,8 @@ def main():
 # Threads of OpenMP that wait leave the processor to other tests.
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 # A sanitizer that was loaded for the extension is in this process; programs that tests start have their own.
-os.environ.pop("LD_PRELOAD", None)
+if "LD_PRELOAD" in os.environ:
+    os.environ["SPAM_PRELOAD"] = os.environ.pop("LD_PRELOAD")  # for compiled.python_processes
 
 if __name__ == "__main__":  # processes that tests start import this file
     main()

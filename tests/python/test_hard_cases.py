@@ -11,7 +11,7 @@ import unittest
 
 import numpy as np
 import spam_mechanics as spam
-from compiled import hexagon, moving, rotation
+from compiled import hexagon, moving, python_processes, rotation
 
 
 class Interrupts(unittest.TestCase):
@@ -216,8 +216,9 @@ print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 
 class Forks(unittest.TestCase):
     def forked(self, first, n):
-        return subprocess.run([sys.executable, "-c", _AFTER_FORK.format(first=first, n=n)], text=True,
-                              capture_output=True, timeout=60).stdout
+        with python_processes():
+            return subprocess.run([sys.executable, "-c", _AFTER_FORK.format(first=first, n=n)], text=True,
+                                  capture_output=True, timeout=60).stdout
 
     def test_after_a_parallel_run(self):
         said = self.forked(first=True, n=20)
@@ -231,7 +232,7 @@ class Forks(unittest.TestCase):
 
     def test_spawned_processes(self):
         moving(20).step()
-        with multiprocessing.get_context("spawn").Pool(1) as pool:
+        with python_processes(), multiprocessing.get_context("spawn").Pool(1) as pool:
             self.assertEqual(pool.apply(turned, (20,)), moving(20).step())
 
 

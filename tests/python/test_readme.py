@@ -10,7 +10,7 @@ import unittest
 
 import numpy as np
 
-import compiled  # noqa: F401  (skips where there is no compiled part)
+from compiled import python_processes
 from results_of import work
 
 readme = (pathlib.Path(os.environ["SPAM_SOURCE"]) / "README.md").read_text()
@@ -29,8 +29,9 @@ class Readme(unittest.TestCase):
         folder = work("readme")
         folder.mkdir()
         (folder / "hexagon.py").write_text(script)
-        ended = subprocess.run([sys.executable, "hexagon.py"], cwd=folder, text=True, capture_output=True,
-                               env={**os.environ, "MPLBACKEND": "Agg"})
+        with python_processes():
+            ended = subprocess.run([sys.executable, "hexagon.py"], cwd=folder, text=True, capture_output=True,
+                                   env={**os.environ, "MPLBACKEND": "Agg"})
         self.assertEqual(ended.returncode, 0, ended.stderr)
         for line, expected in zip(ended.stdout.splitlines(), promised, strict=True):
             self.assertEqual(re.sub(NUMBER, "", line), re.sub(NUMBER, "", expected))
