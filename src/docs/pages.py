@@ -84,7 +84,8 @@ class Writer:
             if target is None:
                 return words
             if words.endswith(".md"):  # a document by its name in the repository, which the pages do not have
-                words = title_of(folder / match[3].partition("#")[0])
+                title = title_of(folder / match[3].partition("#")[0])
+                words = f"*{title}*"
             return f"{match[1]}[{words}]({target})"
 
         parts = re.split(r"((?ms:^```.*?^```$)|`[^`\n]+`)", text)
@@ -140,15 +141,17 @@ def write(root, here, source, players):
         shutil.copyfile(example, source / "extend" / example.name)
 
 
-PLAYERS = {"rotating_hexagon": [], "colliding_rings": [], "fragmenting_bar": [], "taylor_green": []}
+PLAYERS = ["rotating_hexagon", "colliding_rings", "fragmenting_bar", "taylor_green"]
 
 
 def make_players(root, out):
     """Runs problems and makes a page of each that plays it. Returns the pages by problem."""
     players = {}
-    for name, options in PLAYERS.items():
+    shutil.rmtree(out / "runs", ignore_errors=True)
+    for name in PLAYERS:
+        print(f"spam: docs: ./spam run {name}, ./spam view", flush=True)
         results = out / "runs" / name
-        for command in (["run", name, *options, "--out", results, "--force", "--quiet", "--no-plots"],
+        for command in (["run", name, "--out", results, "--quiet", "--no-plots"],
                         ["view", results, "--out", out / "runs" / f"{name}.html"]):
             done = subprocess.run([root / "spam", *command], stdout=subprocess.DEVNULL, check=False)
             if done.returncode not in (0, 1):

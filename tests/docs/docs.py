@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pages of documentation: they build without a warning, links lead somewhere, nothing is fetched from elsewhere,
 examples are those that tests compile, and members without docstring are named."""
+import contextlib
+import io
 import os
 import re
 import shutil
@@ -152,6 +154,27 @@ class PythonNames(InFolder):
         self.assertGreater(text.count("{py:"), 100)
 
 
+class Players(InFolder):
+    def make(self, spam):
+        (self.folder / "spam").write_text("#!/bin/sh\n" + spam)
+        (self.folder / "spam").chmod(0o755)
+        with contextlib.redirect_stdout(io.StringIO()):
+            return pages.make_players(self.folder, self.folder / "out")
+
+    def test_a_page_of_every_run_also_of_one_whose_checks_do_not_hold(self):
+        players = self.make('test $1 = run && mkdir -p "$4" && exit 1\ntest -d "$2" && echo "plays $2" >"$4"\n')
+        self.assertEqual(sorted(players), sorted(pages.PLAYERS))
+        for name, player in players.items():
+            self.assertEqual(player.read_text(), f"plays {self.folder}/out/runs/{name}\n")
+            self.assertTrue((ROOT / "problems" / f"{name}.cpp").is_file())
+            self.assertIn("players/" + name, pages.problem(pages.Writer(ROOT, DOCS, self.folder), name, players))
+
+    def test_what_a_run_could_not_do_ends_it(self):
+        with self.assertRaises(SystemExit) as end:
+            self.make("exit 3\n")
+        self.assertEqual(end.exception.code, 3)
+
+
 class Pages(InFolder):
     def test_a_section_ends_at_the_next_heading_of_its_level(self):
         text = "# A\n## B\none\n### C\n```sh\n# no heading\n```\ntwo\n## D\nthree\n"
@@ -166,7 +189,7 @@ class Pages(InFolder):
         self.assertEqual(writer.relinked(text, ROOT / "problems"),
                          "[a](start.md#limits), [b](problems.md#checkpoints), [c](files/LICENSE.txt), "
                          "[d](https://example.org), e, `[f](g)` in\n```cpp\n[&](x)\n```\n"
-                         "[The problems](problems.md)")
+                         "[*The problems*](problems.md)")
         self.assertTrue((self.folder / "files" / "LICENSE.txt").is_file())
 
     def test_the_gallery_has_every_problem_once_with_a_picture(self):
