@@ -59,12 +59,16 @@ def copy_mathjax(to):
 
 def complete_theme(static, shared=Path("/usr/share/javascript")):
     """The theme of Debian names a style sheet by a path of its server, and its program is a module, which browsers do
-    not run in pages that are opened as files: what each asks for is put into it."""
+    not run in pages that are opened as files: what each asks for is put into it. Where the system prefers dark pages the
+    sheet has no colours but for code; those of the button for dark pages are given to such systems too."""
     sheet, program = static / "styles" / "furo.css", static / "scripts" / "furo.js"
     if sheet.is_file():
-        sheet.write_text(re.sub(r"@import url\(/javascript/([^)]+)\);",
-                                lambda match: (shared / match[1]).read_text(encoding="utf-8"),
-                                sheet.read_text(encoding="utf-8")), encoding="utf-8")
+        text = re.sub(r"@import url\(/javascript/([^)]+)\);",
+                      lambda match: (shared / match[1]).read_text(encoding="utf-8"), sheet.read_text(encoding="utf-8"))
+        dark = re.search(r'body\[data-theme="dark"\] (\{[^}]*--color-background-primary:[^}]*\})', text)
+        if dark and "prefers-color-scheme" not in text:
+            text += f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark[1]} }}\n'
+        sheet.write_text(text, encoding="utf-8")
     if program.is_file():
         program.write_text(re.sub(r'(?m)^import \w+ from "\./([\w.-]+)";$',
                                   lambda match: (program.parent / match[1]).read_text(encoding="utf-8"),

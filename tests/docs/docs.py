@@ -105,12 +105,15 @@ class Links(InFolder):
                           "a.js: is a module, which no browser runs in a page that is opened as a file"])
 
     def test_the_theme_is_completed_by_what_it_asks_for(self):
-        for name, content in (("styles/furo.css", "@import url(/javascript/n/n.css);\np {}\n"), ("n/n.css", "q {}\n"),
+        colours = "{ --color-background-primary: #111; }"
+        sheet = 'body[data-theme="dark"] .icon { } body[data-theme="dark"] ' + colours + "\n"
+        for name, content in (("styles/furo.css", "@import url(/javascript/n/n.css);\n" + sheet), ("n/n.css", "q {}\n"),
                               ("scripts/furo.js", 'import G from "./g.js";\nG();\n'), ("scripts/g.js", "window.G = 1;\n")):
             (self.folder / name).parent.mkdir(exist_ok=True)
             (self.folder / name).write_text(content)
         build.complete_theme(self.folder, shared=self.folder)
-        self.assertEqual((self.folder / "styles/furo.css").read_text(), "q {}\n\np {}\n")
+        dark = f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {colours} }}\n'
+        self.assertEqual((self.folder / "styles/furo.css").read_text(), "q {}\n\n" + sheet + dark)
         self.assertEqual((self.folder / "scripts/furo.js").read_text(), "window.G = 1;\n\nG();\n")
 
 
