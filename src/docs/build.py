@@ -2,6 +2,7 @@
 """./spam docs: the pages of documentation, in build/docs/html."""
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ sys.path.insert(0, str(HERE))
 import links  # noqa: E402
 import members  # noqa: E402
 import pages  # noqa: E402
+import python_names  # noqa: E402
 
 MATHJAX = Path("/usr/share/javascript/mathjax")
 # What formulas of these pages need of MathJax: a tenth of it.
@@ -53,6 +55,24 @@ def copy_mathjax(to):
             shutil.copytree(source, target, dirs_exist_ok=True)
         else:
             shutil.copyfile(source, target)
+
+
+def complete_theme(static, shared=Path("/usr/share/javascript")):
+    """The theme of Debian names a style sheet by a path of its server, and its program is a module, which browsers do
+    not run in pages that are opened as files: what each asks for is put into it. Where the system prefers dark pages the
+    sheet has no colours but for code; those of the button for dark pages are given to such systems too."""
+    sheet, program = static / "styles" / "furo.css", static / "scripts" / "furo.js"
+    if sheet.is_file():
+        text = re.sub(r"@import url\(/javascript/([^)]+)\);",
+                      lambda match: (shared / match[1]).read_text(encoding="utf-8"), sheet.read_text(encoding="utf-8"))
+        dark = re.search(r'body\[data-theme="dark"\] (\{[^}]*--color-background-primary:[^}]*\})', text)
+        if dark and "prefers-color-scheme" not in text:
+            text += f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark[1]} }}\n'
+        sheet.write_text(text, encoding="utf-8")
+    if program.is_file():
+        program.write_text(re.sub(r'(?m)^import \w+ from "\./([\w.-]+)";$',
+                                  lambda match: (program.parent / match[1]).read_text(encoding="utf-8"),
+                                  program.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def version():
@@ -96,7 +116,9 @@ def main(argv):
     shutil.copyfile(HERE / "conf.py", source / "conf.py")
     copy_mathjax(source / "_static" / "mathjax")
     wrong += members.undocumented(out / "xml", (HERE / "reference.md").read_text(encoding="utf-8"))
+    wrong += python_names.page(ROOT)[1]
     wrong += sphinx(source, out)
+    complete_theme(out / "html" / "_static")
     shutil.copytree(out / "api", out / "html" / "api")
     wrong += links.broken(out / "html")
     for line in wrong:

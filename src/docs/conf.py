@@ -34,3 +34,4 @@ html_static_path = ["_static"]
 html_extra_path = ["_extra"]
 html_show_sphinx = False
 html_copy_source = False
+html_show_search_summary = False  # it would have to fetch pages, which browsers refuse to those opened as files

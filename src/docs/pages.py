@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import python_names
+
 # Documents that are pages as they are.
 WHOLE = {"problems/README.md": "problems.md", "src/integrate/README.md": "methods.md",
          "tests/bench/README.md": "bench.md", "src/README.md": "code.md",
@@ -31,6 +33,11 @@ def section(text, heading):
         if mark and not fenced and len(mark[0].strip()) <= level:
             return "\n".join(lines[start:end])
     return "\n".join(lines[start:])
+
+
+def title_of(document):
+    """The words of its first heading."""
+    return re.search(r"(?m)^# (.*)$", document.read_text(encoding="utf-8"))[1]
 
 
 class Writer:
@@ -73,8 +80,13 @@ class Writer:
 
     def relinked(self, text, folder):
         def relink(match):
-            target = self.target(match[3], folder)
-            return match[2] if target is None else f"{match[1]}[{match[2]}]({target})"
+            target, words = self.target(match[3], folder), match[2]
+            if target is None:
+                return words
+            if words.endswith(".md"):  # a document by its name in the repository, which the pages do not have
+                title = title_of(folder / match[3].partition("#")[0])
+                words = f"*{title}*"
+            return f"{match[1]}[{words}]({target})"
 
         parts = re.split(r"((?ms:^```.*?^```$)|`[^`\n]+`)", text)
         parts[::2] = [re.sub(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)", relink, part) for part in parts[::2]]
@@ -117,7 +129,8 @@ def write(root, here, source, players):
     for name, player in players.items():
         shutil.copyfile(player, source / "_extra" / "players" / f"{name}.html")
     writer = Writer(root, here, source)
-    generated = {"<!-- problem (\\w+) -->": lambda w, name: problem(w, name, players), "<!-- numbers -->": numbers}
+    generated = {"<!-- problem (\\w+) -->": lambda w, name: problem(w, name, players), "<!-- numbers -->": numbers,
+                 "<!-- python -->": lambda w: python_names.page(w.root)[0]}
     for file in here.glob("*.md"):
         writer.write(file.name, writer.page_of(file, generated))
     for name, page in WHOLE.items():
@@ -128,15 +141,17 @@ def write(root, here, source, players):
         shutil.copyfile(example, source / "extend" / example.name)
 
 
-PLAYERS = {"rotating_hexagon": [], "colliding_rings": [], "fragmenting_bar": [], "taylor_green": []}
+PLAYERS = ["rotating_hexagon", "colliding_rings", "fragmenting_bar", "taylor_green"]
 
 
 def make_players(root, out):
     """Runs problems and makes a page of each that plays it. Returns the pages by problem."""
     players = {}
-    for name, options in PLAYERS.items():
+    shutil.rmtree(out / "runs", ignore_errors=True)
+    for name in PLAYERS:
+        print(f"spam: docs: ./spam run {name}, ./spam view", flush=True)
         results = out / "runs" / name
-        for command in (["run", name, *options, "--out", results, "--force", "--quiet", "--no-plots"],
+        for command in (["run", name, "--out", results, "--quiet", "--no-plots"],
                         ["view", results, "--out", out / "runs" / f"{name}.html"]):
             done = subprocess.run([root / "spam", *command], stdout=subprocess.DEVNULL, check=False)
             if done.returncode not in (0, 1):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pages of documentation: they build without a warning, links lead somewhere, nothing is fetched from elsewhere,
 examples are those that tests compile, and members without docstring are named."""
+import contextlib
+import io
 import os
 import re
 import shutil
@@ -17,6 +19,7 @@ import build  # noqa: E402
 import links  # noqa: E402
 import members  # noqa: E402
 import pages  # noqa: E402
+import python_names  # noqa: E402
 
 # The distribution's own, which has the modules that the distribution installs.
 PYTHON = "/usr/bin/python3"
@@ -42,7 +45,7 @@ class Site(InFolder):
             self.skipTest(done.stderr.strip())
         self.assertEqual(done.returncode, 0, done.stderr)
         for page in ("start", "equations", "schemes", "methods", "results", "recipes", "gallery", "problems", "numbers",
-                     "reference"):
+                     "reference", "python"):
             self.assertTrue((self.folder / "html" / f"{page}.html").is_file(), page)
         equations = (self.folder / "html" / "equations.html").read_text(encoding="utf-8")
         self.assertIn("_static/mathjax/MathJax.js", equations)
@@ -90,6 +93,90 @@ class Links(InFolder):
                          ["b.html: fetches https://example.org/x.js", "b.html: c.html leads nowhere",
                           "b.html: a.html#bottom: no such place in a.html"])
 
+    def test_style_sheets_and_programs_that_a_file_cannot_have(self):
+        (self.folder / "a.html").write_text('<link rel="stylesheet" href="a.css"><script src="a.js"></script>'
+                                            '<link rel="stylesheet" href="b.css"><script src="b.js"></script>')
+        (self.folder / "a.css").write_text("@import url(/javascript/c.css); p { background: url('none.png') }")
+        (self.folder / "a.js").write_text('import C from "./c.js";\nC();\n')
+        (self.folder / "b.css").write_text("p { background: url(b.js); cursor: url('data:image/png;base64,') }")
+        (self.folder / "b.js").write_text("const important = 1;\n")
+        self.assertEqual(links.broken(self.folder),
+                         ["a.css: /javascript/c.css is a path of a server", "a.css: none.png leads nowhere",
+                          "a.js: is a module, which no browser runs in a page that is opened as a file"])
+
+    def test_the_theme_is_completed_by_what_it_asks_for(self):
+        colours = "{ --color-background-primary: #111; }"
+        sheet = 'body[data-theme="dark"] .icon { } body[data-theme="dark"] ' + colours + "\n"
+        for name, content in (("styles/furo.css", "@import url(/javascript/n/n.css);\n" + sheet), ("n/n.css", "q {}\n"),
+                              ("scripts/furo.js", 'import G from "./g.js";\nG();\n'), ("scripts/g.js", "window.G = 1;\n")):
+            (self.folder / name).parent.mkdir(exist_ok=True)
+            (self.folder / name).write_text(content)
+        build.complete_theme(self.folder, shared=self.folder)
+        dark = f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {colours} }}\n'
+        self.assertEqual((self.folder / "styles/furo.css").read_text(), "q {}\n\n" + sheet + dark)
+        self.assertEqual((self.folder / "scripts/furo.js").read_text(), "window.G = 1;\n\nG();\n")
+
+
+class PythonNames(InFolder):
+    """What the page of the Python package is made from, in a small package of its own."""
+
+    def setUp(self):
+        super().setUp()
+        package = self.folder / python_names.PACKAGE
+        package.mkdir(parents=True)
+        (package / "__init__.pyi").write_text(
+            "_Array = NDArray\n\nclass Gas:\n    cold: bool\n    def __init__(self, a: float = 1.0) -> None: ...\n"
+            "    @property\n    def t(self) -> _Array: ...\n    @staticmethod\n    def of(x: _Array) -> Gas: ...\n"
+            "# --- other things ---\ndef find(n: int, *, out: str = 'a') -> Gas: ...\ndef lost() -> None: ...\n")
+        (package / "gas.py").write_text('def find(n, *, out):\n    """Finds a_gas.\n\n    n    how many,\n'
+                                        '         at least\n    out  where\n    """\n')
+        (package.parent / "gas.cpp").write_text(
+            'py::class_<Gas, std::shared_ptr<Gas>>(module, "Gas", "A \\"gas\\"; "\n    "*cold*.")\n'
+            '    .def(py::init([](double a) { return f(a, "no, docstring"); }), "a"_a = 1.0)\n'
+            '    .def_property_readonly("t", [](const Gas& g) { return g.t(\')\'); }, "When.")\n'
+            '    .def_static("of", &of, "x"_a, "Made of x.");\n')
+
+    def test_the_page_has_arguments_and_docstrings(self):
+        text, _ = python_names.page(self.folder)
+        for part in ("::::{py:class} Gas(a: float=1.0)\n\nA \"gas\"; \\*cold\\*\\.\n", ":::{py:attribute} cold\n:type: bool\n",
+                     ":::{py:property} t\n:type: Array\n\nWhen\\.\n", ":::{py:method} of(x: Array) -> Gas\n:staticmethod:\n",
+                     "Made of x\\.", "## Other things\n\n:::{py:function} find(n: int, *, out: str='a') -> Gas\n",
+                     "Finds a\\_gas\\.\n\n- `n`: how many, at least\n- `out`: where\n", "Array = NDArray"):
+            self.assertIn(part, text)
+        self.assertNotIn("no, docstring", text)
+
+    def test_a_name_without_docstring_is_named(self):
+        self.assertEqual(python_names.page(self.folder)[1],
+                         ["src/python/spam_mechanics/__init__.pyi:12: lost has no docstring"])
+
+    def test_the_package_has_all_of_them(self):
+        text, complaints = python_names.page(ROOT)
+        self.assertEqual(complaints, [])
+        for name in ("Simulation", "SmoothParticles", "Scheme", "integrate", "read"):
+            self.assertRegex(text, r"\{py:\w+\} " + name + r"\b")
+        self.assertGreater(text.count("{py:"), 100)
+
+
+class Players(InFolder):
+    def make(self, spam):
+        (self.folder / "spam").write_text("#!/bin/sh\n" + spam)
+        (self.folder / "spam").chmod(0o755)
+        with contextlib.redirect_stdout(io.StringIO()):
+            return pages.make_players(self.folder, self.folder / "out")
+
+    def test_a_page_of_every_run_also_of_one_whose_checks_do_not_hold(self):
+        players = self.make('test $1 = run && mkdir -p "$4" && exit 1\ntest -d "$2" && echo "plays $2" >"$4"\n')
+        self.assertEqual(sorted(players), sorted(pages.PLAYERS))
+        for name, player in players.items():
+            self.assertEqual(player.read_text(), f"plays {self.folder}/out/runs/{name}\n")
+            self.assertTrue((ROOT / "problems" / f"{name}.cpp").is_file())
+            self.assertIn("players/" + name, pages.problem(pages.Writer(ROOT, DOCS, self.folder), name, players))
+
+    def test_what_a_run_could_not_do_ends_it(self):
+        with self.assertRaises(SystemExit) as end:
+            self.make("exit 3\n")
+        self.assertEqual(end.exception.code, 3)
+
 
 class Pages(InFolder):
     def test_a_section_ends_at_the_next_heading_of_its_level(self):
@@ -101,10 +188,11 @@ class Pages(InFolder):
     def test_links_follow_their_text(self):
         writer = pages.Writer(ROOT, DOCS, self.folder)
         text = "[a](../README.md#limits), [b](README.md#checkpoints), [c](../LICENSE), [d](https://example.org), " \
-               "[e](../include), `[f](g)` in\n```cpp\n[&](x)\n```\n"
+               "[e](../include), `[f](g)` in\n```cpp\n[&](x)\n```\n[g/README.md](README.md)"
         self.assertEqual(writer.relinked(text, ROOT / "problems"),
                          "[a](start.md#limits), [b](problems.md#checkpoints), [c](files/LICENSE.txt), "
-                         "[d](https://example.org), e, `[f](g)` in\n```cpp\n[&](x)\n```\n")
+                         "[d](https://example.org), e, `[f](g)` in\n```cpp\n[&](x)\n```\n"
+                         "[*The problems*](problems.md)")
         self.assertTrue((self.folder / "files" / "LICENSE.txt").is_file())
 
     def test_the_gallery_has_every_problem_once_with_a_picture(self):

@@ -77,12 +77,12 @@ class Curves {
 
   make(key) {
     const holder = document.createElement('figure'), title = document.createElement('figcaption');
-    const close = document.createElement('button');
-    title.textContent = curveNames.get(key);
+    const name = document.createElement('span'), close = document.createElement('button');
+    name.textContent = name.title = curveNames.get(key);
     close.textContent = '×';
     close.title = 'remove this curve';
     close.onclick = () => changeCurves(state.curves.filter(k => k !== key));
-    title.append(close);
+    title.append(name, close);
     holder.append(title);
     this.element.append(holder);
     const tables = [], series = [{}];

@@ -63,13 +63,13 @@ function drawLabel(panels, p, g, theme) {
   const r = panels.ratio, x = p.left + 9 * r, y = p.top + 8 * r;
   g.font = `600 ${12.5 * r}px system-ui, sans-serif`;
   g.textBaseline = 'middle';
-  const width = g.measureText(p.c.label).width;
+  const room = p.right - x - 26 * r, width = Math.min(room, g.measureText(p.c.label).width);
   g.fillStyle = theme.plate;
   g.fillRect(x - 4 * r, y - 3 * r, width + 24 * r, 19 * r);
   g.fillStyle = caseColours[p.c.number % caseColours.length];
   g.fillRect(x, y + 3.5 * r, 11 * r, 6 * r);
   g.fillStyle = theme.text;
-  g.fillText(p.c.label, x + 17 * r, y + 7 * r);
+  g.fillText(p.c.label, x + 17 * r, y + 7 * r, room);  // narrower letters, not fewer of them: two names may begin alike
 }
 
 // Principal stresses as crosses: tension red, compression blue; the 95th percentile of a panel is as long as a
