@@ -73,7 +73,7 @@ if(SPAM_PYTHON)
     SKIP_RETURN_CODE 77)
 endif()
 
-# A page in a browser, where chromium and python3-selenium are installed.
+# A page in Chromium (with python3-selenium) and in Firefox, where they are installed.
 if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
   add_test(NAME view.browser COMMAND ${SPAM_PYTHON}
     ${CMAKE_CURRENT_SOURCE_DIR}/view/browser.py $<TARGET_FILE:spam-view>
