@@ -3,7 +3,7 @@
 #|  ./spam package                    build Debian packages of the last commit in build/package, and let
 #|                                    lintian look at them
 
-readonly package_packages=(debhelper dpkg-dev fakeroot git help2man lintian xz-utils
+readonly package_packages=(build-essential debhelper dpkg-dev fakeroot git help2man lintian xz-utils
     dh-python pybind11-dev python3-dev python3-numpy)
 
 # The sources as git archives them, with src/package/debian where dpkg looks for it.
