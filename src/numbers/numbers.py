@@ -25,7 +25,7 @@ def arguments(argv):
     parser = argparse.ArgumentParser(
         prog="./spam numbers", allow_abbrev=False,
         description="Compares every number of the documents with the run that it comes from "
-                    "(src/numbers/numbers.toml). Runs are kept in build/numbers, by case and version.",
+                    "(src/numbers/*.toml). Runs are kept in build/numbers, by case and version.",
         epilog="Exit status: 0 all agree; 1 a number differs, or is in no list; 2 the list asks for what is "
                "not there; 5 a program or its tools are missing.")
     what = parser.add_mutually_exclusive_group()
@@ -52,6 +52,13 @@ def wanted(run, asked):
     return not asked.no_runs and (run.quick or not asked.quick)
 
 
+def value_of(number, folder, root):
+    try:
+        return runs.value_of(number, folder)
+    except catalogue.ListError as error:
+        raise catalogue.ListError(f"{number.source.relative_to(root)}: {error}") from None
+
+
 def measure(listed, asked):
     """What runs say of the numbers, by key, in the documents' units."""
     front_door = ["--no-install"] if asked.no_install else []
@@ -61,7 +68,7 @@ def measure(listed, asked):
         mine = [number for number in listed.numbers() if number.run == run]
         if mine and wanted(run, asked):
             folder = store.results(run)
-            measured |= {number.key: runs.value_of(number, folder) for number in mine}
+            measured |= {number.key: value_of(number, folder, asked.root) for number in mine}
     return measured
 
 
@@ -94,9 +101,16 @@ def differences(listed, texts, measured):
             yield f"{document.name}:{line}: {number} is neither in a place of the list nor among its constants"
 
 
-def write(listed, texts, measured):
-    """Numbers as runs give them, in documents and list. Returns what was changed, a line each."""
-    changed, listing = [], listed.file.read_text(encoding="utf-8")
+def with_value(listing, place, name, old, new):
+    """The text of a list's file with another value for this number of this place."""
+    start = listing.index(f"\n{name} = ", listing.index(f"[places.{place.key}]"))
+    at = listing.index(f'value = "{old}"', start)
+    return listing[:at] + f'value = "{new}"' + listing[at + len(f'value = "{old}"'):]
+
+
+def write(listed, texts, lists, measured):
+    """Numbers as runs give them, into `texts` of documents and `lists`. Returns what was changed, a line each."""
+    changed = []
     for place in listed.places:
         text = texts[place.document]
         match, _ = documents.find(place, text)
@@ -107,21 +121,18 @@ def write(listed, texts, measured):
             value = values[name] = number.value
             if number.key in measured and not number.agrees(measured[number.key]):
                 value = values[name] = catalogue.in_shape_of(number.value, measured[number.key])
-                start = listing.index(f"[places.{place.key}]")
-                at = listing.index(f'value = "{number.value}"', listing.index(f"\n{name} = ", start))
-                listing = listing[:at] + f'value = "{value}"' + listing[at + len(f'value = "{number.value}"'):]
+                lists[number.source] = with_value(lists[number.source], place, name, number.value, value)
             if match[name] != value:
                 line = documents.line_of(text, match.start(name))
                 changed.append(f"{place.document}:{line}: {number.key}: {match[name]} -> {value}")
         texts[place.document] = (text[:match.start()] + documents.replaced(match, values) + text[match.end():])
-    return changed, listing
+    return changed
 
 
 def main(argv):
     asked = arguments(argv)
-    file = asked.root / "src" / "numbers" / "numbers.toml"
     try:
-        listed = catalogue.read(file, asked.root)
+        listed = catalogue.read(asked.root / "src" / "numbers", asked.root)
         for name in asked.only:
             if name not in listed.runs:
                 raise catalogue.ListError(f"--only: no run '{name}'{catalogue.suggestion(name, list(listed.runs))}")
@@ -132,16 +143,16 @@ def main(argv):
         texts = {name: (asked.root / name).read_text(encoding="utf-8") for name in sorted(names)}
         measured = measure(listed, asked)
     except catalogue.ListError as error:
-        print(f"spam: numbers: {file.relative_to(asked.root)}: {error}", file=sys.stderr)
+        print(f"spam: numbers: {error}", file=sys.stderr)
         return 2
     except runs.RunFailed as error:
         print(f"spam: numbers: {error}", file=sys.stderr)
         return error.status
     if asked.write:
-        changed, listing = write(listed, texts, measured)
-        for name, text in texts.items():
-            (asked.root / name).write_text(text, encoding="utf-8")
-        file.write_text(listing, encoding="utf-8")
+        lists = {number.source: number.source.read_text(encoding="utf-8") for number in listed.numbers()}
+        changed = write(listed, texts, lists, measured)
+        for file, text in [*((asked.root / name, text) for name, text in texts.items()), *lists.items()]:
+            file.write_text(text, encoding="utf-8")
         say("\n".join(changed) if changed else "numbers: nothing to write")
         return 0
     wrong = list(differences(listed, texts, measured))

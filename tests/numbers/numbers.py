@@ -180,9 +180,30 @@ class Tree(unittest.TestCase):
         self.refused("{drift}", "{drifts}", "places.drift")
         self.refused("[places.drift]", "[places.drift", "line")
         self.list.unlink()
-        self.assertEqual(self.numbers()[0], 2)
+        status, _, err = self.numbers()
+        self.assertEqual((status, err.count("\n")), (2, 1))
+        self.assertIn("src/numbers: no list of numbers", err)
         status, _, err = self.numbers("--only", "fell")
         self.assertEqual((status, err.count("\n")), (2, 1))
+
+    def test_a_list_in_several_files(self):
+        runs, places = LIST.split("[places.time]")
+        self.list.write_text(runs)
+        other = self.list.with_name("falls.toml")
+        other.write_text("[places.time]" + places)
+        self.assertEqual(self.numbers("--no-runs")[0], 0)
+        self.results(time=0.65, share=0.1204, drift=4e-13)
+        self.assertEqual(self.numbers("--write")[0], 0)
+        self.assertEqual((self.list.read_text(), other.read_text()),
+                         (runs, "[places.time]" + places.replace("0.639", "0.650")))
+        twice = places + '\n[runs.fall]\ncommand = "fall"\nseconds = 1\n'
+        for text, message in ((places.replace('"share"', '"chair"'), "no 'chair'; did you mean share?"),
+                              (twice, "numbers.toml: runs.fall is in falls.toml already")):
+            other.write_text("[places.time]" + text)
+            status, _, err = self.numbers()
+            self.assertEqual((status, err.count("\n")), (2, 1), err)
+            self.assertIn("src/numbers/", err)
+            self.assertIn(message, err)
 
     def test_programs_that_fail(self):
         self.list.write_text(LIST.replace("--height 2", "--fail"))
@@ -211,17 +232,17 @@ class Committed(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_quick_runs_take_less_than_a_minute(self):
-        listed = catalogue.read(ROOT / "src" / "numbers" / "numbers.toml", ROOT)
+        listed = catalogue.read(ROOT / "src" / "numbers", ROOT)
         self.assertLess(sum(run.seconds for run in listed.runs.values() if run.quick), 60)
         for run in listed.runs.values():
             self.assertTrue(any(number.run == run for number in listed.numbers()), f"nothing comes from {run.name}")
 
     def test_readme_is_covered(self):
-        listed = catalogue.read(ROOT / "src" / "numbers" / "numbers.toml", ROOT)
+        listed = catalogue.read(ROOT / "src" / "numbers", ROOT)
         self.assertIn("README.md", [document.name for document in listed.documents])
 
     def test_any_digit_of_any_number_counts(self):
-        listed = catalogue.read(ROOT / "src" / "numbers" / "numbers.toml", ROOT)
+        listed = catalogue.read(ROOT / "src" / "numbers", ROOT)
         for place in listed.places:
             match, _ = documents.find(place, (ROOT / place.document).read_text(encoding="utf-8"))
             for name, number in place.numbers.items():
