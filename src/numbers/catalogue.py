@@ -21,6 +21,7 @@ class Run:
     options: list[str]
     seconds: float  # of one core, about
     quick: bool  # belongs to --quick
+    status: int  # that it ends with, where it is meant to stop early
 
     def command(self):
         return shlex.join(["./spam", "run", self.problem, *self.options])
@@ -35,7 +36,7 @@ class Number:
     run: Run
     file: str  # in the result folder
     name: str  # of a check, a key or a column
-    row: str  # of a table: first, last, largest, smallest, or t = TIME
+    row: str  # of a table: first, last, largest or smallest, of the rows where COLUMN = VALUE
     scale: float  # document = offset + scale * result
     offset: float
     tolerance: float  # in the document's units; or, where `ratio`, largest quotient
@@ -121,13 +122,13 @@ def of_kind(where, table, key, kind, otherwise=None):
 
 def read_run(name, table, problems):
     where = f"runs.{name}"
-    check_keys(where, table, ["command", "seconds"], ["quick"])
+    check_keys(where, table, ["command", "seconds"], ["quick", "status"])
     words = shlex.split(of_kind(where, table, "command", str))
     if not words or words[0] not in problems:
         problem = words[0] if words else ""
         raise ListError(f"{where}: no problem '{problem}'{suggestion(problem, problems)}")
     return Run(name, words[0], words[1:], of_kind(where, table, "seconds", float),
-               of_kind(where, table, "quick", bool, False))
+               of_kind(where, table, "quick", bool, False), of_kind(where, table, "status", int, 0))
 
 
 def read_number(where, table, runs, run, source):

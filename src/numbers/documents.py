@@ -53,6 +53,11 @@ def uncovered(text, places, constants):
             if not any(first <= match.start() and match.end() <= last for first, last in covered)]
 
 
+def missing(text, constants):
+    """The constants that stand nowhere in `text`."""
+    return [constant for constant in constants if not pattern_of(constant, {}).search(text)]
+
+
 def replaced(match, values):
     """The text of a match with these values for its numbers."""
     text, start = match[0], match.start()

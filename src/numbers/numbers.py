@@ -97,6 +97,8 @@ def differences(listed, texts, measured):
         if document.open and len(left) > document.open:
             yield (f"{document.name}: {len(left)} decimal numbers are in no place of the list, which knows of "
                    f"{document.open} ('open'): add the places of new ones")
+        for constant in documents.missing(texts[document.name], document.constants):
+            yield f"{document.name}: the constant '{constant}' of the list is not there any more"
         for line, number in [] if document.open else left:
             yield f"{document.name}:{line}: {number} is neither in a place of the list nor among its constants"
 

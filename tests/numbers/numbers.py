@@ -160,6 +160,12 @@ class Tree(unittest.TestCase):
             self.list.write_text(listed.replace("{}", str(known), 1))
             self.assertEqual(self.numbers("--no-runs")[0], status)
 
+    def test_a_constant_that_is_gone(self):
+        self.readme.write_text(README.replace("version 1.5", "any version"))
+        status, out, _ = self.numbers("--no-runs")
+        self.assertEqual(status, 1)
+        self.assertIn("README.md: the constant 'version 1.5' of the list is not there any more", out)
+
     def test_a_text_that_is_gone(self):
         self.readme.write_text(README.replace("in the air", "in air"))
         status, out, _ = self.numbers("--no-runs")
@@ -214,13 +220,29 @@ class Tree(unittest.TestCase):
         status, _, err = self.numbers()
         self.assertEqual((status, err.count("\n")), (5, 1))
 
+    def of_row(self, row, value):
+        """What the tool says of a number in this row."""
+        entry = f'time = {{value = "{value}", name = "shape_error", file = "invariants.csv", row = "{row}", ' \
+                'tolerance = 1e-9}'
+        self.list.write_text(re.sub("time = {.*", entry, LIST))
+        self.readme.write_text(README.replace("0.639", value))
+        return self.numbers()
+
     def test_rows_of_a_table(self):
-        for row, value in (("first", "0"), ("last", "0.125"), ("largest", "0.250"), ("t = 1", "0.250")):
-            entry = f'time = {{value = "{value}", name = "shape_error", file = "invariants.csv", row = "{row}", ' \
-                    'tolerance = 1e-9}'
-            self.list.write_text(re.sub("time = {.*", entry, LIST))
-            self.readme.write_text(README.replace("0.639", value))
-            self.assertEqual(self.numbers()[0], 0, row)
+        for row, value in (("first", "0"), ("last", "0.125"), ("largest", "0.250"), ("t = 1", "0.250"),
+                           ("largest, t != 1", "0.125"), ("t != 2, smallest, t != 0", "0.250")):
+            self.assertEqual(self.of_row(row, value)[0], 0, row)
+        for row, message in (("middle", "'row' must be first"), ("t = 7", "no row with t = 7"),
+                             ("time = 1", "no column 'time'")):
+            status, _, err = self.of_row(row, "0.250")
+            self.assertEqual((status, err.count("\n")), (2, 1))
+            self.assertIn(message, err)
+
+    def test_a_run_that_is_meant_to_stop(self):
+        (self.programs / "fall").write_text((self.programs / "fall").read_text() + "sys.exit(3)\n")
+        self.assertEqual(self.numbers()[0], 3)
+        self.list.write_text(LIST.replace("seconds = 1", "seconds = 1\nstatus = 3"))
+        self.assertEqual(self.numbers()[0], 0)
 
 
 class Committed(unittest.TestCase):
