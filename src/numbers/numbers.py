@@ -47,9 +47,9 @@ def arguments(argv):
 
 
 def wanted(run, asked):
-    if asked.only:
-        return run.name in asked.only
-    return not asked.no_runs and (run.quick or not asked.quick)
+    if asked.no_runs or asked.only and run.name not in asked.only:
+        return False
+    return run.quick or not asked.quick or bool(asked.only)
 
 
 def value_of(number, folder, root):
