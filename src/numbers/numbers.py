@@ -72,14 +72,23 @@ def measure(listed, asked):
     return measured
 
 
+def told_apart(place, text, found):
+    """What is wrong with a place that is not found, or more than once."""
+    if found:
+        return f"{place.document}: {place.key}: the text of the list is there {found} times, not once"
+    line, listed, there = documents.where_it_ends(place, text)
+    return f"{place.document}:{line}: {place.key}: found '{there}', expected '{listed}' as in the text of the list"
+
+
 def differences(listed, texts, measured):
     """One line for everything that is wrong."""
+    torn = set()  # documents with a place that is not found, whose numbers count as covered
     for place in listed.places:
         text = texts[place.document]
         match, found = documents.find(place, text)
         if not match:
-            yield (f"{place.document}: {place.key}: the text '{' '.join(place.text.split())[:70]}' of the list is "
-                   f"there {found} times, not once")
+            torn.add(place.document)
+            yield told_apart(place, text, found)
             continue
         for name, number in place.numbers.items():
             line = documents.line_of(text, match.start(name))
@@ -99,7 +108,7 @@ def differences(listed, texts, measured):
                    f"{document.open} ('open'): add the places of new ones")
         for constant in documents.missing(texts[document.name], document.constants):
             yield f"{document.name}: the constant '{constant}' of the list is not there any more"
-        for line, number in [] if document.open else left:
+        for line, number in [] if document.open or document.name in torn else left:
             yield f"{document.name}:{line}: {number} is neither in a place of the list nor among its constants"
 
 

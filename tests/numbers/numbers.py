@@ -170,7 +170,10 @@ class Tree(unittest.TestCase):
         self.readme.write_text(README.replace("in the air", "in air"))
         status, out, _ = self.numbers("--no-runs")
         self.assertEqual(status, 1)
-        self.assertIn("README.md: time: the text", out)
+        self.assertIn("README.md:4: time: found 'air, and drifts', expected 'the air'", out)
+        self.assertNotIn("neither", out)
+        self.readme.write_text(README + README)
+        self.assertIn("README.md: time: the text of the list is there 2 times", self.numbers("--no-runs")[1])
 
     def test_wrong_entries(self):
         self.refused('"fall --height 2"', '"fal --height 2"', "no problem 'fal'; did you mean fall?")
