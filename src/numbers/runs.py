@@ -126,7 +126,8 @@ def of_table(number, path):
         if condition:
             column, relation, wanted = condition.groups()
             if column not in rows[0]:
-                raise ListError(f"{number.key}: {number.file} has no column '{column}'{suggestion(column, list(rows[0]))}")
+                known = suggestion(column, list(rows[0]))
+                raise ListError(f"{number.key}: {number.file} has no column '{column}'{known}")
             left = [row for row in rows if same(row[column], wanted) == (relation == "=")]
             if not left:
                 raise ListError(f"{number.key}: {number.file} has no row with {number.row}")
