@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of numbers (numbers.toml): what it may hold, and where it is wrong."""
+"""The list of numbers (the .toml files of this folder): what it may hold, and where it is wrong."""
 import dataclasses
 import difflib
 import re
@@ -21,6 +21,7 @@ class Run:
     options: list[str]
     seconds: float  # of one core, about
     quick: bool  # belongs to --quick
+    status: int  # that it ends with, where it is meant to stop early
 
     def command(self):
         return shlex.join(["./spam", "run", self.problem, *self.options])
@@ -35,11 +36,12 @@ class Number:
     run: Run
     file: str  # in the result folder
     name: str  # of a check, a key or a column
-    row: str  # of a table: first, last, largest, smallest, or t = TIME
+    row: str  # of a table: first, last, largest or smallest, of the rows where COLUMN = VALUE
     scale: float  # document = offset + scale * result
     offset: float
     tolerance: float  # in the document's units; or, where `ratio`, largest quotient
     ratio: bool
+    source: Path  # the file of the list that it stands in
 
     def agrees(self, expected):
         """Whether what is written agrees with what a run has given, in the document's units."""
@@ -73,7 +75,6 @@ class Document:
 
 @dataclasses.dataclass(frozen=True)
 class Catalogue:
-    file: Path
     runs: dict[str, Run]
     places: list[Place]
     documents: list[Document]
@@ -121,16 +122,16 @@ def of_kind(where, table, key, kind, otherwise=None):
 
 def read_run(name, table, problems):
     where = f"runs.{name}"
-    check_keys(where, table, ["command", "seconds"], ["quick"])
+    check_keys(where, table, ["command", "seconds"], ["quick", "status"])
     words = shlex.split(of_kind(where, table, "command", str))
     if not words or words[0] not in problems:
         problem = words[0] if words else ""
         raise ListError(f"{where}: no problem '{problem}'{suggestion(problem, problems)}")
     return Run(name, words[0], words[1:], of_kind(where, table, "seconds", float),
-               of_kind(where, table, "quick", bool, False))
+               of_kind(where, table, "quick", bool, False), of_kind(where, table, "status", int, 0))
 
 
-def read_number(where, table, runs, run):
+def read_number(where, table, runs, run, source):
     check_keys(where, table, ["value", "name"],
                ["file", "run", "row", "scale", "offset", "tolerance", "within"])
     run = table.get("run", run)
@@ -148,10 +149,10 @@ def read_number(where, table, runs, run):
                   of_kind(where, table, "file", str, "result.json"), of_kind(where, table, "name", str),
                   of_kind(where, table, "row", str, "last"), of_kind(where, table, "scale", float, 1.0),
                   of_kind(where, table, "offset", float, 0.0),
-                  of_kind(where, table, "within" if ratio else "tolerance", float), ratio)
+                  of_kind(where, table, "within" if ratio else "tolerance", float), ratio, source)
 
 
-def read_place(name, table, runs, root):
+def read_place(name, table, runs, root, source):
     where = f"places.{name}"
     if not isinstance(table, dict):
         raise ListError(f"{where}: must be a table")
@@ -165,26 +166,52 @@ def read_place(name, table, runs, root):
     if not named or sorted(named) != sorted(numbers):
         raise ListError(f"{where}: the text names {named}, but there are numbers {sorted(numbers)}")
     return Place(name, document, text,
-                 {key: read_number(f"{where}.{key}", numbers[key], runs, table.get("run")) for key in named})
+                 {key: read_number(f"{where}.{key}", numbers[key], runs, table.get("run"), source) for key in named})
 
 
-def read(file, root):
-    """The list of `file`; documents and problems are those of the source tree `root`. Throws ListError."""
-    problems = [source.stem for source in (root / "problems").glob("*.cpp")]
+def read_document(name, table, root):
+    where = f"documents.{name}"
+    check_keys(where, table, ["constants"], ["open"])
+    if not (root / name).is_file():
+        raise ListError(f"{where}: no document '{name}' in the repository")
+    return Document(name, of_kind(where, table, "constants", list), of_kind(where, table, "open", int, 0))
+
+
+def tables_of(file):
     try:
         table = tomllib.loads(file.read_text(encoding="utf-8"))
     except OSError as error:
         raise ListError(error.strerror.lower()) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ListError(str(error)) from None
-    check_keys("list", table, ["runs", "places"], ["documents"])
-    runs = {name: read_run(name, run, problems) for name, run in table["runs"].items()}
-    places = [read_place(name, place, runs, root) for name, place in table["places"].items()]
-    documents = []
-    for name, document in table.get("documents", {}).items():
-        check_keys(f"documents.{name}", document, ["constants"], ["open"])
-        if not (root / name).is_file():
-            raise ListError(f"documents.{name}: no document '{name}' in the repository")
-        documents.append(Document(name, of_kind(f"documents.{name}", document, "constants", list),
-                                  of_kind(f"documents.{name}", document, "open", int, 0)))
-    return Catalogue(file, runs, places, documents)
+    check_keys("list", table, [], ["runs", "places", "documents"])
+    for part in table:
+        of_kind("list", table, part, dict)
+    return table
+
+
+def read(folder, root):
+    """The list in the .toml files of `folder`, whose places may name runs of each other; documents and problems
+    are those of the source tree `root`. Throws ListError."""
+    problems = [source.stem for source in (root / "problems").glob("*.cpp")]
+    files = {file: {} for file in sorted(folder.glob("*.toml"))}
+    if not files:
+        raise ListError(f"{folder.relative_to(root)}: no list of numbers, no file NAME.toml, is there")
+    parts = {"runs": {}, "places": {}, "documents": {}}
+    makers = {"runs": lambda name, table, file: read_run(name, table, problems),
+              "places": lambda name, table, file: read_place(name, table, parts["runs"], root, file),
+              "documents": lambda name, table, file: read_document(name, table, root)}
+    home = {}  # of every name, to say where it stands already
+    for part in ("files", *parts):
+        for file in files:
+            try:
+                if part == "files":
+                    files[file] = tables_of(file)
+                for name, table in files[file].get(part, {}).items():
+                    if (part, name) in home:
+                        raise ListError(f"{part}.{name} is in {home[part, name].name} already")
+                    home[part, name] = file
+                    parts[part][name] = makers[part](name, table, file)
+            except ListError as error:
+                raise ListError(f"{file.relative_to(root)}: {error}") from None
+    return Catalogue(parts["runs"], list(parts["places"].values()), list(parts["documents"].values()))

@@ -28,6 +28,17 @@ def find(place, text):
     return (matches[0] if len(matches) == 1 else None), len(matches)
 
 
+def where_it_ends(place, text):
+    """(line, words of the list, words of the document) where a place that is not found ceases to agree."""
+    words = place.text.split()
+    for count in range(len(words) - 1, 0, -1):
+        match = pattern_of(" ".join(words[:count]), place.numbers).search(text)
+        if match:
+            found = text[match.end():].split(maxsplit=3)[:3]
+            return line_of(text, match.end()), " ".join(words[count:count + 3]), " ".join(found)
+    return 1, " ".join(words[:3]), "nothing like it"
+
+
 def without_code(text):
     """The same length, with blanks for blocks of code, formulas and what stands in `backquotes`."""
 
@@ -51,6 +62,11 @@ def uncovered(text, places, constants):
         covered += [match.span() for match in pattern_of(constant, {}).finditer(text)]
     return [(line_of(text, match.start()), match[0]) for match in DECIMAL.finditer(without_code(text))
             if not any(first <= match.start() and match.end() <= last for first, last in covered)]
+
+
+def missing(text, constants):
+    """The constants that stand nowhere in `text`."""
+    return [constant for constant in constants if not pattern_of(constant, {}).search(text)]
 
 
 def replaced(match, values):

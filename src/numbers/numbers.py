@@ -25,7 +25,7 @@ def arguments(argv):
     parser = argparse.ArgumentParser(
         prog="./spam numbers", allow_abbrev=False,
         description="Compares every number of the documents with the run that it comes from "
-                    "(src/numbers/numbers.toml). Runs are kept in build/numbers, by case and version.",
+                    "(src/numbers/*.toml). Runs are kept in build/numbers, by case and version.",
         epilog="Exit status: 0 all agree; 1 a number differs, or is in no list; 2 the list asks for what is "
                "not there; 5 a program or its tools are missing.")
     what = parser.add_mutually_exclusive_group()
@@ -47,9 +47,16 @@ def arguments(argv):
 
 
 def wanted(run, asked):
-    if asked.only:
-        return run.name in asked.only
-    return not asked.no_runs and (run.quick or not asked.quick)
+    if asked.no_runs or asked.only and run.name not in asked.only:
+        return False
+    return run.quick or not asked.quick or bool(asked.only)
+
+
+def value_of(number, folder, root):
+    try:
+        return runs.value_of(number, folder)
+    except catalogue.ListError as error:
+        raise catalogue.ListError(f"{number.source.relative_to(root)}: {error}") from None
 
 
 def measure(listed, asked):
@@ -61,18 +68,27 @@ def measure(listed, asked):
         mine = [number for number in listed.numbers() if number.run == run]
         if mine and wanted(run, asked):
             folder = store.results(run)
-            measured |= {number.key: runs.value_of(number, folder) for number in mine}
+            measured |= {number.key: value_of(number, folder, asked.root) for number in mine}
     return measured
+
+
+def told_apart(place, text, found):
+    """What is wrong with a place that is not found, or more than once."""
+    if found:
+        return f"{place.document}: {place.key}: the text of the list is there {found} times, not once"
+    line, listed, there = documents.where_it_ends(place, text)
+    return f"{place.document}:{line}: {place.key}: found '{there}', expected '{listed}' as in the text of the list"
 
 
 def differences(listed, texts, measured):
     """One line for everything that is wrong."""
+    torn = set()  # documents with a place that is not found, whose numbers count as covered
     for place in listed.places:
         text = texts[place.document]
         match, found = documents.find(place, text)
         if not match:
-            yield (f"{place.document}: {place.key}: the text '{' '.join(place.text.split())[:70]}' of the list is "
-                   f"there {found} times, not once")
+            torn.add(place.document)
+            yield told_apart(place, text, found)
             continue
         for name, number in place.numbers.items():
             line = documents.line_of(text, match.start(name))
@@ -90,13 +106,22 @@ def differences(listed, texts, measured):
         if document.open and len(left) > document.open:
             yield (f"{document.name}: {len(left)} decimal numbers are in no place of the list, which knows of "
                    f"{document.open} ('open'): add the places of new ones")
-        for line, number in [] if document.open else left:
+        for constant in documents.missing(texts[document.name], document.constants):
+            yield f"{document.name}: the constant '{constant}' of the list is not there any more"
+        for line, number in [] if document.open or document.name in torn else left:
             yield f"{document.name}:{line}: {number} is neither in a place of the list nor among its constants"
 
 
-def write(listed, texts, measured):
-    """Numbers as runs give them, in documents and list. Returns what was changed, a line each."""
-    changed, listing = [], listed.file.read_text(encoding="utf-8")
+def with_value(listing, place, name, old, new):
+    """The text of a list's file with another value for this number of this place."""
+    start = listing.index(f"\n{name} = ", listing.index(f"[places.{place.key}]"))
+    at = listing.index(f'value = "{old}"', start)
+    return listing[:at] + f'value = "{new}"' + listing[at + len(f'value = "{old}"'):]
+
+
+def write(listed, texts, lists, measured):
+    """Numbers as runs give them, into `texts` of documents and `lists`. Returns what was changed, a line each."""
+    changed = []
     for place in listed.places:
         text = texts[place.document]
         match, _ = documents.find(place, text)
@@ -107,21 +132,18 @@ def write(listed, texts, measured):
             value = values[name] = number.value
             if number.key in measured and not number.agrees(measured[number.key]):
                 value = values[name] = catalogue.in_shape_of(number.value, measured[number.key])
-                start = listing.index(f"[places.{place.key}]")
-                at = listing.index(f'value = "{number.value}"', listing.index(f"\n{name} = ", start))
-                listing = listing[:at] + f'value = "{value}"' + listing[at + len(f'value = "{number.value}"'):]
+                lists[number.source] = with_value(lists[number.source], place, name, number.value, value)
             if match[name] != value:
                 line = documents.line_of(text, match.start(name))
                 changed.append(f"{place.document}:{line}: {number.key}: {match[name]} -> {value}")
         texts[place.document] = (text[:match.start()] + documents.replaced(match, values) + text[match.end():])
-    return changed, listing
+    return changed
 
 
 def main(argv):
     asked = arguments(argv)
-    file = asked.root / "src" / "numbers" / "numbers.toml"
     try:
-        listed = catalogue.read(file, asked.root)
+        listed = catalogue.read(asked.root / "src" / "numbers", asked.root)
         for name in asked.only:
             if name not in listed.runs:
                 raise catalogue.ListError(f"--only: no run '{name}'{catalogue.suggestion(name, list(listed.runs))}")
@@ -132,16 +154,16 @@ def main(argv):
         texts = {name: (asked.root / name).read_text(encoding="utf-8") for name in sorted(names)}
         measured = measure(listed, asked)
     except catalogue.ListError as error:
-        print(f"spam: numbers: {file.relative_to(asked.root)}: {error}", file=sys.stderr)
+        print(f"spam: numbers: {error}", file=sys.stderr)
         return 2
     except runs.RunFailed as error:
         print(f"spam: numbers: {error}", file=sys.stderr)
         return error.status
     if asked.write:
-        changed, listing = write(listed, texts, measured)
-        for name, text in texts.items():
-            (asked.root / name).write_text(text, encoding="utf-8")
-        file.write_text(listing, encoding="utf-8")
+        lists = {number.source: number.source.read_text(encoding="utf-8") for number in listed.numbers()}
+        changed = write(listed, texts, lists, measured)
+        for file, text in [*((asked.root / name, text) for name, text in texts.items()), *lists.items()]:
+            file.write_text(text, encoding="utf-8")
         say("\n".join(changed) if changed else "numbers: nothing to write")
         return 0
     wrong = list(differences(listed, texts, measured))

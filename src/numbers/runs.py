@@ -5,6 +5,7 @@ import hashlib
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import time
@@ -70,7 +71,7 @@ class Store:
                                   env={**os.environ, "OMP_NUM_THREADS": "1"})  # beside other work
         except OSError as error:
             raise RunFailed(f"{command[0]}: {error.strerror}", 5) from None
-        if done.returncode not in (0, 1):  # 1: complete, and a check of its own does not hold
+        if done.returncode not in (0, 1, run.status):  # 1: complete, and a check of its own does not hold
             why = (done.stderr.strip().splitlines() or ["it says nothing"])[-1]
             status = done.returncode if done.returncode > 0 else 128 - done.returncode
             raise RunFailed(f"run '{run.name}' ({run.command()}) ended with {status}: {why}", status)
@@ -109,29 +110,41 @@ def of_json(number, content):
     return content["value"] if isinstance(content, dict) and "value" in content else content
 
 
+PICKS = {"first": lambda values: values[0], "last": lambda values: values[-1], "largest": max, "smallest": min}
+
+
 def of_table(number, path):
-    """A column, in the row that number.row says; 'WHERE = VALUE' is the row with this value in column WHERE."""
+    """A column, in the row that number.row says: one of PICKS, of the rows with this VALUE in column WHERE."""
     with path.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows or number.name not in rows[0]:
         raise ListError(f"{number.key}: {number.file} of run '{number.run.name}' has no column '{number.name}'"
                         f"{suggestion(number.name, list(rows[0]) if rows else [])}")
-    if "=" in number.row:
-        column, wanted = (part.strip() for part in number.row.split("=", 1))
-        rows = [row for row in rows if row.get(column, "") == wanted or same_number(row.get(column, ""), wanted)]
-        if not rows:
-            raise ListError(f"{number.key}: {number.file} has no row with {number.row}")
-    elif number.row not in ("first", "last", "largest", "smallest"):
-        raise ListError(f"{number.key}: 'row' must be first, last, largest, smallest or COLUMN = VALUE")
+    pick = "last"
+    for part in (part.strip() for part in number.row.split(",")):
+        condition = re.fullmatch(r"(.+?)\s*(!?=)\s*(.+)", part)
+        if condition:
+            column, relation, wanted = condition.groups()
+            if column not in rows[0]:
+                known = suggestion(column, list(rows[0]))
+                raise ListError(f"{number.key}: {number.file} has no column '{column}'{known}")
+            left = [row for row in rows if same(row[column], wanted) == (relation == "=")]
+            if not left:
+                raise ListError(f"{number.key}: {number.file} has no row with {number.row}")
+            rows = left
+        elif part in PICKS:
+            pick = part
+        else:
+            raise ListError(f"{number.key}: 'row' must be {', '.join(PICKS)}, COLUMN = VALUE or COLUMN != VALUE, or "
+                            "several of these with commas")
     values = [float(row[number.name]) for row in rows if row[number.name]]
     if not values:
         raise ListError(f"{number.key}: column '{number.name}' of {number.file} is empty")
-    pick = {"first": lambda: values[0], "largest": lambda: max(values), "smallest": lambda: min(values)}
-    return pick.get(number.row, lambda: values[-1])()
+    return PICKS[pick](values)
 
 
-def same_number(text, wanted):
+def same(text, wanted):
     try:
         return math.isclose(float(text), float(wanted), rel_tol=1e-9, abs_tol=1e-12)
     except ValueError:
-        return False
+        return text == wanted

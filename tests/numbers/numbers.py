@@ -160,11 +160,20 @@ class Tree(unittest.TestCase):
             self.list.write_text(listed.replace("{}", str(known), 1))
             self.assertEqual(self.numbers("--no-runs")[0], status)
 
+    def test_a_constant_that_is_gone(self):
+        self.readme.write_text(README.replace("version 1.5", "any version"))
+        status, out, _ = self.numbers("--no-runs")
+        self.assertEqual(status, 1)
+        self.assertIn("README.md: the constant 'version 1.5' of the list is not there any more", out)
+
     def test_a_text_that_is_gone(self):
         self.readme.write_text(README.replace("in the air", "in air"))
         status, out, _ = self.numbers("--no-runs")
         self.assertEqual(status, 1)
-        self.assertIn("README.md: time: the text", out)
+        self.assertIn("README.md:4: time: found 'air, and drifts', expected 'the air'", out)
+        self.assertNotIn("neither", out)
+        self.readme.write_text(README + README)
+        self.assertIn("README.md: time: the text of the list is there 2 times", self.numbers("--no-runs")[1])
 
     def test_wrong_entries(self):
         self.refused('"fall --height 2"', '"fal --height 2"', "no problem 'fal'; did you mean fall?")
@@ -180,9 +189,30 @@ class Tree(unittest.TestCase):
         self.refused("{drift}", "{drifts}", "places.drift")
         self.refused("[places.drift]", "[places.drift", "line")
         self.list.unlink()
-        self.assertEqual(self.numbers()[0], 2)
+        status, _, err = self.numbers()
+        self.assertEqual((status, err.count("\n")), (2, 1))
+        self.assertIn("src/numbers: no list of numbers", err)
         status, _, err = self.numbers("--only", "fell")
         self.assertEqual((status, err.count("\n")), (2, 1))
+
+    def test_a_list_in_several_files(self):
+        runs, places = LIST.split("[places.time]")
+        self.list.write_text(runs)
+        other = self.list.with_name("falls.toml")
+        other.write_text("[places.time]" + places)
+        self.assertEqual(self.numbers("--no-runs")[0], 0)
+        self.results(time=0.65, share=0.1204, drift=4e-13)
+        self.assertEqual(self.numbers("--write")[0], 0)
+        self.assertEqual((self.list.read_text(), other.read_text()),
+                         (runs, "[places.time]" + places.replace("0.639", "0.650")))
+        twice = places + '\n[runs.fall]\ncommand = "fall"\nseconds = 1\n'
+        for text, message in ((places.replace('"share"', '"chair"'), "no 'chair'; did you mean share?"),
+                              (twice, "numbers.toml: runs.fall is in falls.toml already")):
+            other.write_text("[places.time]" + text)
+            status, _, err = self.numbers()
+            self.assertEqual((status, err.count("\n")), (2, 1), err)
+            self.assertIn("src/numbers/", err)
+            self.assertIn(message, err)
 
     def test_programs_that_fail(self):
         self.list.write_text(LIST.replace("--height 2", "--fail"))
@@ -193,13 +223,29 @@ class Tree(unittest.TestCase):
         status, _, err = self.numbers()
         self.assertEqual((status, err.count("\n")), (5, 1))
 
+    def of_row(self, row, value):
+        """What the tool says of a number in this row."""
+        entry = f'time = {{value = "{value}", name = "shape_error", file = "invariants.csv", row = "{row}", ' \
+                'tolerance = 1e-9}'
+        self.list.write_text(re.sub("time = {.*", entry, LIST))
+        self.readme.write_text(README.replace("0.639", value))
+        return self.numbers()
+
     def test_rows_of_a_table(self):
-        for row, value in (("first", "0"), ("last", "0.125"), ("largest", "0.250"), ("t = 1", "0.250")):
-            entry = f'time = {{value = "{value}", name = "shape_error", file = "invariants.csv", row = "{row}", ' \
-                    'tolerance = 1e-9}'
-            self.list.write_text(re.sub("time = {.*", entry, LIST))
-            self.readme.write_text(README.replace("0.639", value))
-            self.assertEqual(self.numbers()[0], 0, row)
+        for row, value in (("first", "0"), ("last", "0.125"), ("largest", "0.250"), ("t = 1", "0.250"),
+                           ("largest, t != 1", "0.125"), ("t != 2, smallest, t != 0", "0.250")):
+            self.assertEqual(self.of_row(row, value)[0], 0, row)
+        for row, message in (("middle", "'row' must be first"), ("t = 7", "no row with t = 7"),
+                             ("time = 1", "no column 'time'")):
+            status, _, err = self.of_row(row, "0.250")
+            self.assertEqual((status, err.count("\n")), (2, 1))
+            self.assertIn(message, err)
+
+    def test_a_run_that_is_meant_to_stop(self):
+        (self.programs / "fall").write_text((self.programs / "fall").read_text() + "sys.exit(3)\n")
+        self.assertEqual(self.numbers()[0], 3)
+        self.list.write_text(LIST.replace("seconds = 1", "seconds = 1\nstatus = 3"))
+        self.assertEqual(self.numbers()[0], 0)
 
 
 class Committed(unittest.TestCase):
@@ -211,17 +257,17 @@ class Committed(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_quick_runs_take_less_than_a_minute(self):
-        listed = catalogue.read(ROOT / "src" / "numbers" / "numbers.toml", ROOT)
+        listed = catalogue.read(ROOT / "src" / "numbers", ROOT)
         self.assertLess(sum(run.seconds for run in listed.runs.values() if run.quick), 60)
         for run in listed.runs.values():
             self.assertTrue(any(number.run == run for number in listed.numbers()), f"nothing comes from {run.name}")
 
     def test_readme_is_covered(self):
-        listed = catalogue.read(ROOT / "src" / "numbers" / "numbers.toml", ROOT)
+        listed = catalogue.read(ROOT / "src" / "numbers", ROOT)
         self.assertIn("README.md", [document.name for document in listed.documents])
 
     def test_any_digit_of_any_number_counts(self):
-        listed = catalogue.read(ROOT / "src" / "numbers" / "numbers.toml", ROOT)
+        listed = catalogue.read(ROOT / "src" / "numbers", ROOT)
         for place in listed.places:
             match, _ = documents.find(place, (ROOT / place.document).read_text(encoding="utf-8"))
             for name, number in place.numbers.items():
