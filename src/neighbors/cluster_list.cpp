@@ -72,7 +72,7 @@ std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) co
 template <int Dim>
 void ClusterList<Dim>::take_home() {
     if (!box_.periodic()) return;
-    at_home_.resize(Dim, built_at_.cols());
+    at_home_.resize(Dim, motion_.then().cols());
     periods_.assign(Dim * size_, 0);
     home_.periods = periods_.data();
     std::array<double, Dim> inverse{};
@@ -85,7 +85,7 @@ void ClusterList<Dim>::take_home() {
     // A search need not have the last digits right.
     parallel_for(size_, [&](std::size_t i) {
         for (std::size_t a = 0; a < Dim; ++a) {
-            double x = built_at_.data()[Dim * i + a];
+            double x = motion_.then().data()[Dim * i + a];
             if (const double L = home_.length[a]; L > 0.0) {
                 const double k = std::floor(x * inverse[a]);
                 periods_[Dim * i + a] = static_cast<std::int32_t>(k);
@@ -102,7 +102,7 @@ template <int Dim>
 void ClusterList<Dim>::gather() {
     const auto width = static_cast<std::size_t>(width_);
     order_.resize((size_ + width - 1) / width * width, size_ > 0 ? order_.back() : 0);
-    const Points<Dim>& place = box_.periodic() ? at_home_ : built_at_;
+    const Points<Dim>& place = box_.periodic() ? at_home_ : motion_.then();
     for (auto& x : x_) x.resize(order_.size() + 8);  // searches read a register at a time
     parallel_for(order_.size(), [&](std::size_t k) {
         for (std::size_t a = 0; a < Dim; ++a) x_[a][k] = place.data()[Dim * order_[k] + a];
@@ -113,7 +113,7 @@ void ClusterList<Dim>::gather() {
 template <int Dim>
 void ClusterList<Dim>::gather_strips() {
     take_home();
-    strips_.build(box_.periodic() ? at_home_ : built_at_, box_);
+    strips_.build(box_.periodic() ? at_home_ : motion_.then(), box_);
     order_.assign(strips_.order().begin(), strips_.order().end());
     gather();
     strip_volume_ = boxes_.mean_volume(reach());
@@ -162,8 +162,7 @@ void ClusterList<Dim>::sort() {
 template <int Dim>
 void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     size_ = static_cast<std::size_t>(position.cols());
-    built_at_ = position;
-    motion_ = {};
+    motion_.begin(position);
     sort();
     ghosts_.build(box_, reach(), size_, order_.size(), x_);
     constexpr std::size_t slice_size = ClusterView::slice_size;
@@ -197,36 +196,9 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
 }
 
 template <int Dim>
-Displacement<Dim> ClusterList<Dim>::displacement() const {
-    Displacement<Dim> d;
-    const Point<Dim> shift = motion_.to - motion_.rotation * motion_.from;
-    for (int a = 0; a < Dim; ++a) {
-        d.shift[a] = shift[a];
-        for (int b = 0; b < Dim; ++b) d.rotation[a][b] = motion_.rotation(a, b);
-    }
-    d.then = built_at_.data();
-    d.limit2 = 0.25 * skin_ * skin_;
-    return d;
-}
-
-template <int Dim>
-bool ClusterList<Dim>::near_build(const Eigen::Ref<const Points<Dim>>& position) const {
-    const Displacement<Dim> now = displacement();
-    const double* const x = position.data();
-    return parallel_count(size_, [&](std::size_t i) { return now.too_far(i, x + Dim * i); }) == 0;
-}
-
-template <int Dim>
 bool ClusterList<Dim>::serves(const Eigen::Ref<const Points<Dim>>& position) {
     if (builds_ == 0 || size_ != static_cast<std::size_t>(position.cols())) return false;
-    // Any rigid motion will do for the criterion: a better one is looked for when the last one is
-    // used up.
-    if (near_build(position)) return true;
-    motion_ = box_.periodic() || box_.walled() ? best_translation<Dim>(built_at_, position)
-                                               : best_rigid_motion<Dim>(built_at_, position);
-    for (int a = 0; a < Dim; ++a)  // walls stay where they are
-        if (box_.walled(a)) motion_.to[a] = motion_.from[a];
-    return near_build(position);
+    return motion_.within(0.5 * skin_, position, box_);
 }
 
 template class ClusterList<1>;

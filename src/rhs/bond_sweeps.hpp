@@ -5,13 +5,14 @@
 
 #include "../core/levels.hpp"
 #include <spam/core/instruction_set.hpp>
+#include <spam/neighbors/cluster_view.hpp>
 
 #include <cstddef>
 #include <cstdint>
 
 namespace spam {
 
-/// What the loops read of a table of bonds. Particles are taken `lanes` at a time, a group; bond m of all
+/// What the loops know of a table of bonds; only `renew` writes anything but t. Particles are taken `lanes` at a time, a group; bond m of all
 /// of them lies together, after those before m. A particle with fewer bonds than others of its group has
 /// bonds with itself behind its own, of weight 0. Sums run over the bonds of a particle in their order: what has
 /// no weight adds an exact zero and leaves no trace.
@@ -20,11 +21,12 @@ struct BondView {
     static constexpr std::size_t vector_numbers = Dim + 1;  ///< X and g, each number for all lanes
 
     std::size_t particles;
-    const std::size_t* first;      ///< by group: where its bonds begin
-    const std::uint32_t* partner;  ///< by bond
-    const std::uint32_t* reverse;  ///< by bond: which place in t is that of the partner's bond
-    const double* vectors;         ///< by bond
-    double* t;                     ///< Dim by place: r, each number for all lanes; then forces
+    const std::size_t* first;  ///< by group: where its bonds begin
+    std::uint32_t* partner;    ///< by bond
+    std::uint32_t* reverse;    ///< by bond: which place in t is that of the partner's bond
+    double* vectors;           ///< by bond
+    const double* x;           ///< Dim by particle, also of those that fill the last group
+    double* t;                 ///< Dim by place: r, each number for all lanes; then forces
     double inverse_range;
     double little;                            ///< of FitSolver
     double length[Dim], inverse_length[Dim];  ///< of the box, 0 where it is free
@@ -45,12 +47,27 @@ struct BondRecord {
                                  c = H + symmetric, numbers = c + 1;
 };
 
+/// What an update of rows wants to know of a group, by group, and of its particles.
+template <int Dim>
+struct BondRenewal {
+    double reach2;             ///< of rows, squared
+    double N0;                 ///< of a whole particle; 0 where there are no bonds yet
+    const double* neighbours;  ///< within the reach, by particle
+    double* anchoring;         ///< by particle: F^-1, or 1 where there is none
+    struct Lanes {
+        unsigned char fewer;  ///< which lanes have fewer bonds left than neighbours
+        unsigned char idle;   ///< which have bonds within the range that weigh nothing
+        unsigned gone;        ///< how many bonds have become vacancies
+    };
+    Lanes* found;
+};
+
 /// For the groups [first, last), whose records begin with that of the first one.
 template <int Dim>
 struct BondSweeps {
     int lanes = 0;
-    /// F and N^-1 of every record; r into t. `x`: Dim by particle, also of those that fill the last group.
-    void (*fit)(const BondView<Dim>&, const double* x, double* records, std::size_t first,
+    /// F and N^-1 of every record; r into t.
+    void (*fit)(const BondView<Dim>&, double* records, std::size_t first,
                 std::size_t last) = nullptr;
     /// t, by F, G, H and c; v_dot_i = sum_j t_ij. `whole`: H = 0 in all.
     void (*forces)(const BondView<Dim>&, const double* records, bool whole, double* v_dot,
@@ -58,6 +75,14 @@ struct BondSweeps {
     /// v_dot_i = (v_dot_i - sum_j t_ji)/m_i
     void (*gather)(const BondView<Dim>&, const double* mass, double* v_dot, std::size_t first,
                    std::size_t last) = nullptr;
+    /// How many others are nearer than the reach, by particle, of the clusters [first, last) of a list of so many
+    /// lanes. `records`: Dim + 1 coordinates by slot.
+    void (*count)(const ClusterView&, const double* records, double reach2, double* neighbours,
+                  std::size_t first, std::size_t last) = nullptr;
+    /// What an update of rows does to the bonds that are there: those whose partners are not nearer than the reach
+    /// become vacancies; others beyond the range, which weigh nothing, get X = F^-1 r.
+    void (*renew)(const BondView<Dim>&, const BondRenewal<Dim>&, std::size_t first,
+                  std::size_t last) = nullptr;
 };
 
 template <int Dim, InstructionSet Level>

@@ -88,35 +88,65 @@ SPAM_INLINE void load_vector(const BondView<Dim>& view, std::size_t bond, Vec<Di
     g = load_lanes<W>(numbers + Dim * W);
 }
 
+/// The positions of the particles of a group.
+template <int Dim>
+SPAM_INLINE Vec<Dim, T> load_group(const BondView<Dim>& view, std::size_t group) {
+    Vec<Dim, T> x;
+    for (int a = 0; a < Dim; ++a)
+        x[a] = from_records(view.x + group * W * Dim, Dim, static_cast<std::size_t>(a));
+    return x;
+}
+
+/// r_kj of the bonds of a group from `bond` on, one for each lane.
 template <int Dim, bool Periodic>
-void fit(const BondView<Dim>& view, const double* x, double* records, std::size_t first,
-         std::size_t last) {
+SPAM_INLINE Vec<Dim, T> separations(const BondView<Dim>& view, std::size_t bond,
+                                    const Vec<Dim, T>& x_k) {
+    Vec<Dim, T> r = load_points<Dim>(view.x, view.partner + bond);
+    for (int a = 0; a < Dim; ++a) {
+        r[a] -= x_k[a];
+        if constexpr (Periodic)
+            r[a] -= T(view.length[a]) * nearest_integer(r[a] * T(view.inverse_length[a]));
+    }
+    return r;
+}
+
+template <int Dim>
+struct Fitted {
+    Mat<Dim, T> F;
+    SymTensor<Dim, T> K;  ///< N^-1
+};
+
+/// `keep(bond, r)` is told of all separations.
+template <int Dim, bool Periodic, class Keep>
+SPAM_INLINE Fitted<Dim> fit_group(const BondView<Dim>& view, std::size_t group, double little,
+                                  const Keep& keep) {
+    const Vec<Dim, T> x_k = load_group<Dim>(view, group);
+    BondFit<Dim, T> sums;
+    for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
+        const Vec<Dim, T> r = separations<Dim, Periodic>(view, bond, x_k);
+        Vec<Dim, T> X;
+        T g;
+        keep(bond, r);
+        load_vector(view, bond, X, g);
+        sums.add(g * BondFade<T>(dot(r, r), view.inverse_range).s, r, X);
+    }
+    const FitSolver<Dim, T> solver(sums.N, little);
+    return {solver.divided(sums.A), solver.inverse()};
+}
+
+template <int Dim, bool Periodic>
+void fit(const BondView<Dim>& view, double* records, std::size_t first, std::size_t last) {
     using R = BondRecord<Dim>;
     for (std::size_t group = first; group < last; ++group) {
-        Vec<Dim, T> x_k;
-        for (int a = 0; a < Dim; ++a)
-            x_k[a] = from_records(x + group * W * Dim, Dim, static_cast<std::size_t>(a));
-        BondFit<Dim, T> sums;
-        for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
-            Vec<Dim, T> r = load_points<Dim>(x, view.partner + bond), X;
-            T g;
-            for (int a = 0; a < Dim; ++a) {
-                r[a] -= x_k[a];
-                if constexpr (Periodic)
-                    r[a] -= T(view.length[a]) * nearest_integer(r[a] * T(view.inverse_length[a]));
-                store_lanes(view.t + bond * Dim + a * W, r[a]);
-            }
-            load_vector(view, bond, X, g);
-            sums.add(g * BondFade<T>(dot(r, r), view.inverse_range).s, r, X);
-        }
-        const FitSolver<Dim, T> solver(sums.N, view.little);
-        const SymTensor<Dim, T> K = solver.inverse();
-        const Mat<Dim, T> F = solver.divided(sums.A);
+        const Fitted<Dim> fitted = fit_group<Dim, Periodic>(
+            view, group, view.little, [&](std::size_t bond, const Vec<Dim, T>& r) SPAM_FLAT {
+                for (int a = 0; a < Dim; ++a) store_lanes(view.t + bond * Dim + a * W, r[a]);
+            });
         double* const record = records + (group - first) * W * R::numbers;
         for (std::size_t c = 0; c < R::square; ++c)
-            to_records(record, R::numbers, R::F + c, F.c[c]);
+            to_records(record, R::numbers, R::F + c, fitted.F.c[c]);
         for (std::size_t c = 0; c < R::symmetric; ++c)
-            to_records(record, R::numbers, R::K + c, K.c[c]);
+            to_records(record, R::numbers, R::K + c, fitted.K.c[c]);
     }
 }
 
@@ -175,11 +205,103 @@ void gather(const BondView<Dim>& view, const double* mass, double* v_dot, std::s
     }
 }
 
+/// 1 in the lanes of others that are nearer than that, 0 in those of the particle itself.
+SPAM_INLINE T nearer(const T& r2, double reach2) {
+    return where_below(T(0.0), r2, where_below(r2, T(reach2), T(1.0)));
+}
+
+template <int Dim>
+void count(const ClusterView& list, const double* records, double reach2, double* neighbours,
+           std::size_t first, std::size_t last) {
+    constexpr std::size_t stride = Dim + 1;
+    for (std::size_t c = first; c < last; ++c) {
+        Vec<Dim + 1, T> own;
+        for (std::size_t a = 0; a < stride; ++a)
+            own.c[a] = from_records(records + c * W * stride, stride, a);
+        const auto range = list.range[c];
+        const std::uint32_t* const entries = list.slices[c / ClusterView::slice_size] + range.first;
+        T near{};
+        for (std::uint32_t n = 0; n < range.count; ++n) {
+            const double* const other = records + entries[n];
+            T r2{};
+            for (std::size_t a = 0; a < stride; ++a) {
+                const T r = T(other[a]) - own.c[a];
+                r2 += r * r;
+            }
+            near += nearer(r2, reach2);
+        }
+        for (std::size_t l = 0; l < W && c * W + l < list.particles; ++l)
+            neighbours[list.order[c * W + l]] = lane(near, static_cast<int>(l));
+    }
+}
+
+/// F^-1. Where neighbours do not span space (Wholeness::spans) or F is all but singular there is none, and 1,
+/// for separations themselves, is as good as any.
+template <int Dim>
+SPAM_INLINE Mat<Dim, T> anchoring(const Fitted<Dim>& fitted, double N0) {
+    T trace{};
+    for (int a = 0; a < Dim; ++a) trace += fitted.K(a, a);
+    const T J = determinant(fitted.F);
+    const T usable = where_below(T(Wholeness::spanning * N0) * trace, T(double{Dim}),
+                                 where_below(T(1e-6), J * J, T(1.0)));
+    Mat<Dim, T> F;  // 1 where there is none, before anything is divided
+    for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) {
+            F(a, b) = where_below(T(0.5), usable, fitted.F(a, b));
+            if (a == b) F(a, b) += T(1.0) - usable;
+        }
+    return inverse(F);
+}
+
+/// New numbers in the lanes where r2 is not below the limit.
+SPAM_INLINE void replace_beyond(double* numbers, const T& r2, double limit2, const T& value) {
+    store_lanes(numbers, where_below(r2, T(limit2), load_lanes<W>(numbers)) +
+                             (value - where_below(r2, T(limit2), value)));
+}
+
+template <int Dim, bool Periodic>
+void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size_t first,
+           std::size_t last) {
+    const double reach2 = renewal.reach2, range = 1.0 / view.inverse_range, range2 = range * range;
+    for (std::size_t group = first; group < last; ++group) {
+        const auto fitted = fit_group<Dim, Periodic>(
+            view, group, view.little, [](std::size_t, const Vec<Dim, T>&) SPAM_FLAT {});
+        const Mat<Dim, T> back = anchoring(fitted, renewal.N0);
+        for (std::size_t c = 0; c < back.c.size(); ++c)
+            to_records(renewal.anchoring + group * W * back.c.size(), back.c.size(), c, back.c[c]);
+        const Vec<Dim, T> x_k = load_group<Dim>(view, group);
+        T left{}, idle{};
+        unsigned gone = 0;
+        for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
+            const Vec<Dim, T> r = separations<Dim, Periodic>(view, bond, x_k);
+            const T r2 = dot(r, r);
+            double* const numbers = view.vectors + bond * BondView<Dim>::vector_numbers;
+            left += nearer(r2, reach2);
+            idle += where_below(load_lanes<W>(numbers + Dim * W), T(1e-300), nearer(r2, range2));
+            if (lanes_below(r2, T(range2)) == (1U << W) - 1) continue;
+            const Vec<Dim, T> X = back * r;
+            for (int a = 0; a < Dim; ++a) replace_beyond(numbers + a * W, r2, range2, X[a]);
+            replace_beyond(numbers + Dim * W, r2, range2, material_weight(sqrt(dot(X, X)), range));
+            for (unsigned far = lanes_below(T(reach2), r2); far != 0; far &= far - 1, ++gone) {
+                const auto l = static_cast<std::size_t>(__builtin_ctz(far));
+                view.partner[bond + l] = static_cast<std::uint32_t>(group * W + l);
+                view.reverse[bond + l] = static_cast<std::uint32_t>(bond + place_of_lane(l, W));
+                for (int a = 0; a <= Dim; ++a) numbers[static_cast<std::size_t>(a * W) + l] = 0.0;
+            }
+        }
+        const unsigned fewer = lanes_below(left, load_lanes<W>(renewal.neighbours + group * W));
+        renewal.found[group] = {static_cast<unsigned char>(fewer),
+                                static_cast<unsigned char>(lanes_below(T(0.5), idle)), gone};
+    }
+}
+
 }  // namespace
 
 template <int Dim, InstructionSet Level>
 BondSweeps<Dim> bond_sweeps(bool periodic) {
-    return {W, periodic ? fit<Dim, true> : fit<Dim, false>, forces<Dim>, gather<Dim>};
+    if (periodic)
+        return {W, fit<Dim, true>, forces<Dim>, gather<Dim>, count<Dim>, renew<Dim, true>};
+    return {W, fit<Dim, false>, forces<Dim>, gather<Dim>, count<Dim>, renew<Dim, false>};
 }
 
 template BondSweeps<2> bond_sweeps<2, InstructionSet::SPAM_LEVEL>(bool);

@@ -6,32 +6,72 @@
 #include <spam/physics/material_vectors.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 
 namespace spam {
+namespace {
+
+// Of the range: how much farther than rows the list looks.
+constexpr double list_skin = 0.25;
 
 template <int Dim>
-BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
-                          std::vector<std::int32_t> bodies)
-    : range_(range),
-      box_(box),
-      bodies_(std::move(bodies)),
-      list_(range, skin * range, box, 1),
-      rows_{static_cast<std::size_t>(lanes)} {
-    require_one_image(box, (1.0 + skin) * range);
+constexpr auto position_kinds() {
+    std::array<NumberKind, Dim + 1> kinds{};  // the last one is the body
+    for (std::size_t a = 0; a < Dim; ++a)
+        kinds[a] = {Quantity::position, static_cast<unsigned char>(a)};
+    return kinds;
 }
 
+/// The partners of one particle, to be asked for by number.
+class Partners {
+  public:
+    template <int Dim>
+    Partners(const BondRows<Dim>& rows, std::size_t k)
+        : mask_(std::bit_ceil(2 * rows.row(k) + 1) - 1),
+          held_(mask_ + 1, nobody) {
+        for (std::size_t m = 0; m < rows.row(k); ++m)
+            if (!rows.vacant(k, m)) *place(rows.partner(k, m)) = rows.partner(k, m);
+    }
+    bool contain(std::uint32_t j) { return *place(j) == j; }
+
+  private:
+    static constexpr std::uint32_t nobody = ~0U;
+    std::uint32_t* place(std::uint32_t j) {
+        std::size_t at = j & mask_;
+        while (held_[at] != j && held_[at] != nobody) at = (at + 1) & mask_;
+        return &held_[at];
+    }
+
+    std::size_t mask_;
+    std::vector<std::uint32_t> held_;
+};
+
+}  // namespace
+
 template <int Dim>
-Vec<Dim> BondTable<Dim>::Rows::X(std::size_t k, std::size_t m) const {
-    Vec<Dim> X;
-    for (int a = 0; a < Dim; ++a) X[a] = vectors[number(k, m, static_cast<std::size_t>(a))];
-    return X;
+BondTable<Dim>::BondTable(double range, const Box<Dim>& box, const BondSweeps<Dim>& sweeps,
+                          const Points<Dim>& x, std::vector<std::int32_t> bodies)
+    : range_(range),
+      box_(box),
+      sweeps_(sweeps),
+      bodies_(std::move(bodies)),
+      list_((1.0 + skin) * range, list_skin * range, box, sweeps.lanes, Dim + 1),
+      rows_(static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(sweeps.lanes)) {
+    require_one_image(box, (1.0 + skin) * range);
+    const std::size_t filled = groups() * rows_.lanes();
+    x_.assign(filled * Dim, 0.0);
+    neighbours_.assign(filled, 0.0);
+    anchoring_.assign(filled * Dim * Dim, 0.0);
+    renew(x, 0.0);
+    admit();
+    for (const Newcomer& bond : newcomers_) set_X(bond.k, bond.row, bond.r);
 }
 
 template <int Dim>
 void BondTable<Dim>::set_X(std::size_t k, std::size_t m, const Vec<Dim>& X) {
-    for (int a = 0; a < Dim; ++a)
-        rows_.vectors[rows_.number(k, m, static_cast<std::size_t>(a))] = X[a];
-    rows_.vectors[rows_.number(k, m, Dim)] = material_weight(std::sqrt(dot(X, X)), range_);
+    rows_.set(k, m, X, material_weight(std::sqrt(dot(X, X)), range_));
 }
 
 template <int Dim>
@@ -48,14 +88,28 @@ Vec<Dim> BondTable<Dim>::separation(const double* x, std::size_t k, std::size_t 
 }
 
 template <int Dim>
-BondView<Dim> BondTable<Dim>::view() {
+void BondTable<Dim>::load(const double* x) {
+    double* const to = x_.data();
+    if (!box_.periodic()) {
+        parallel_for(particles(), [=](std::size_t i) {
+            for (std::size_t a = 0; a < Dim; ++a) to[i * Dim + a] = x[i * Dim + a];
+        });
+        return;
+    }
+    parallel_for(particles(), [&](std::size_t i) {
+        for (std::size_t a = 0; a < Dim; ++a)
+            to[i * Dim + a] = box_.periodic(static_cast<int>(a))
+                                  ? box_.wrap(static_cast<int>(a), x[i * Dim + a])
+                                  : x[i * Dim + a];
+    });
+}
+
+template <int Dim>
+BondView<Dim> BondTable<Dim>::view(double N0) {
     BondView<Dim> view{};
-    view.particles = particles();
-    view.first = rows_.first.data();
-    view.partner = rows_.partner.data();
-    view.reverse = rows_.reverse.data();
-    view.vectors = rows_.vectors.data();
-    view.t = t_.data();
+    rows_.show(view);
+    view.little = FitSolver<Dim, double>::little(N0);
+    view.x = x_.data();
     view.inverse_range = 1.0 / range_;
     for (int a = 0; a < Dim; ++a) {
         view.length[a] = box_.length(a);
@@ -64,137 +118,161 @@ BondView<Dim> BondTable<Dim>::view() {
     return view;
 }
 
-/// Room for rows of these lengths; all bonds are those of particles with themselves.
 template <int Dim>
-void BondTable<Dim>::lay_out(std::vector<std::uint32_t> count) {
-    const std::size_t lanes = rows_.lanes, n = count.size(), groups = (n + lanes - 1) / lanes;
-    rows_.count = std::move(count);
-    rows_.first.assign(groups + 1, 0);
-    bonds_ = 0;
-    for (std::size_t group = 0; group < groups; ++group) {
-        std::size_t longest = 0;
-        for (std::size_t k = group * lanes; k < std::min(n, (group + 1) * lanes); ++k) {
-            longest = std::max(longest, row(k));
-            bonds_ += row(k);
-        }
-        rows_.first[group + 1] = rows_.first[group] + longest * lanes;
-    }
-    const std::size_t slots = rows_.first.back();
-    rows_.partner.resize(slots);
-    rows_.reverse.resize(slots);
-    t_.resize(slots * Dim);
-    rows_.vectors.assign(slots * (Dim + 1), 0.0);
-    parallel_for(
-        groups,
-        [&](std::size_t group) {
-            for (std::size_t s = rows_.first[group]; s < rows_.first[group + 1]; ++s) {
-                rows_.partner[s] = static_cast<std::uint32_t>(group * lanes + s % lanes);
-                rows_.reverse[s] =
-                    static_cast<std::uint32_t>(s / lanes * lanes + place_of_lane(s % lanes, lanes));
-            }
-        },
-        lanes);
+void BondTable<Dim>::list_neighbours(const Eigen::Ref<const Points<Dim>>& x) {
+    list_.build(x);
+    slot_of_.resize(particles());
+    for (std::size_t slot = 0; slot < particles(); ++slot)
+        slot_of_[list_.order()[slot]] = static_cast<std::uint32_t>(slot);
+    rows_.tidy();
+    find_reach();
+}
+
+/// How many of its body are nearer than range + skin, by particle.
+template <int Dim>
+void BondTable<Dim>::count_neighbours(const double* x) {
+    constexpr std::size_t stride = Dim + 1;
+    const double reach = (1.0 + skin) * range_;
+    records_.resize(list_.slots() * stride);
+    const Home<Dim> home = list_.home();
+    const auto order = list_.order();
+    parallel_for(order.size(), [&](std::size_t slot) {
+        const std::size_t i = order[slot];
+        double* const record = &records_[slot * stride];
+        for (std::size_t a = 0; a < Dim; ++a) record[a] = home(i, a, x[i * Dim + a]);
+        record[Dim] = 2.0 * reach * bodies_[i];  // another body is far away
+    });
+    list_.refresh(records_.data(), position_kinds<Dim>());
+    const ClusterView view = list_.view();
+    parallel_blocks(view.clusters, [&](std::size_t first, std::size_t count) {
+        sweeps_.count(view, records_.data(), reach * reach, neighbours_.data(), first,
+                      first + count);
+    });
 }
 
 template <int Dim>
-void BondTable<Dim>::find_reverse() {
-    parallel_for(particles(), [&](std::size_t k) {
-        for (std::size_t m = 0; m < row(k); ++m) {
-            const std::size_t j = partner(k, m);
-            std::size_t low = 0, high = row(j);
-            while (low < high) {  // where k stands in the row of j
-                const std::size_t middle = (low + high) / 2;
-                if (partner(j, middle) < k)
-                    low = middle + 1;
-                else
-                    high = middle;
+void BondTable<Dim>::newcomers_of(std::size_t k, const double* x,
+                                  std::vector<Newcomer>& newcomers) const {
+    const double reach2 = (1.0 + skin) * (1.0 + skin) * range_ * range_;
+    const std::size_t cluster = slot_of_[k] / rows_.lanes(), before = newcomers.size();
+    Partners partners(rows_, k);
+    for (const std::uint32_t entry : list_.entries(cluster)) {
+        const std::uint32_t j = list_.particle(entry / (Dim + 1));
+        if (j == k || bodies_[j] != bodies_[k]) continue;
+        const Vec<Dim> r = separation(x, k, j);
+        if (dot(r, r) < reach2 && !partners.contain(j))
+            newcomers.push_back({static_cast<std::uint32_t>(k), j, r});
+    }
+    const auto begin = newcomers.begin() + static_cast<std::ptrdiff_t>(before);
+    std::sort(begin, newcomers.end(),
+              [](const Newcomer& a, const Newcomer& b) { return a.j < b.j; });
+    newcomers.erase(std::unique(begin, newcomers.end(),
+                                [](const Newcomer& a, const Newcomer& b) { return a.j == b.j; }),
+                    newcomers.end());
+}
+
+template <int Dim>
+void BondTable<Dim>::idle_of(std::size_t k, const double* x, std::vector<Newcomer>& idle) const {
+    for (std::size_t m = 0; m < row(k); ++m) {
+        if (vacant(k, m) || g(k, m) > 0.0) continue;
+        const Vec<Dim> r = separation(x, k, partner(k, m));
+        if (dot(r, r) < range_ * range_)
+            idle.push_back({static_cast<std::uint32_t>(k), partner(k, m), r, m});
+    }
+}
+
+template <int Dim>
+void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
+    if (!list_.serves(x)) list_neighbours(x);
+    motion_.begin(x);
+    ++updates_;
+    load(x.data());
+    count_neighbours(x.data());
+    const double reach = (1.0 + skin) * range_;
+    std::vector<typename BondRenewal<Dim>::Lanes> found(groups());
+    const BondRenewal<Dim> renewal{reach * reach, N0, neighbours_.data(), anchoring_.data(),
+                                   found.data()};
+    const BondView<Dim> view = this->view(N0);
+    struct Found {
+        std::vector<Newcomer> newcomers, idle;
+    };
+    std::vector<Found> of_block((particles() + block - 1) / block);
+    rows_.discount(parallel_count(
+        of_block.size(),
+        [&](std::size_t b) {
+            const std::size_t lanes = rows_.lanes(), first = b * block / lanes,
+                              last = std::min(groups(), first + block / lanes);
+            sweeps_.renew(view, renewal, first, last);
+            std::size_t gone = 0;
+            for (std::size_t group = first; group < last; ++group) {
+                gone += found[group].gone;
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const std::size_t k = group * lanes + l;
+                    if ((found[group].fewer >> l & 1) != 0)
+                        newcomers_of(k, x.data(), of_block[b].newcomers);
+                    if ((found[group].idle >> l & 1) != 0) idle_of(k, x.data(), of_block[b].idle);
+                }
             }
-            const std::size_t back = rows_.slot(j, low), lanes = rows_.lanes;
-            rows_.reverse[rows_.slot(k, m)] = static_cast<std::uint32_t>(
-                back / lanes * lanes + place_of_lane(back % lanes, lanes));
-        }
-    });
+            return gone;
+        },
+        block));
+    newcomers_.clear();
+    idle_.clear();
+    for (const Found& some : of_block) {
+        newcomers_.insert(newcomers_.end(), some.newcomers.begin(), some.newcomers.end());
+        idle_.insert(idle_.end(), some.idle.begin(), some.idle.end());
+    }
+}
+
+template <int Dim>
+Mat<Dim> BondTable<Dim>::anchoring(std::size_t k) const {
+    Mat<Dim> back;
+    std::copy_n(&anchoring_[k * back.c.size()], back.c.size(), back.c.begin());
+    return back;
+}
+
+template <int Dim>
+void BondTable<Dim>::admit() {
+    rows_.enter(newcomers_);
+    for (const Newcomer& bond : newcomers_) {
+        Reach& reach = reach_[bond.k / block];
+        reach.first = std::min<std::size_t>(reach.first, bond.j / block);
+        reach.last = std::max<std::size_t>(reach.last, bond.j / block);
+    }
 }
 
 template <int Dim>
 void BondTable<Dim>::find_reach() {
     const std::size_t n = particles();
     reach_.resize((n + block - 1) / block);
-    for (std::size_t b = 0; b < reach_.size(); ++b) {
-        reach_[b] = {b, b};
-        for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k)
-            if (row(k) > 0) {
-                reach_[b].first = std::min<std::size_t>(reach_[b].first, partner(k, 0) / block);
-                reach_[b].last =
-                    std::max<std::size_t>(reach_[b].last, partner(k, row(k) - 1) / block);
-            }
-    }
-}
-
-template <int Dim>
-void BondTable<Dim>::update(const Eigen::Ref<const Points<Dim>>& x, const Anchor& anchor) {
-    list_.build(x);
-    built_at_.assign(x.data(), x.data() + x.size());
-    const std::size_t n = list_.size();
-    const double reach2 = (1.0 + skin) * (1.0 + skin) * range_ * range_;
-    std::vector<std::size_t> cluster(n);  // of a particle
-    for (std::size_t c = 0; c < n; ++c) cluster[list_.order()[c]] = c;
-    const auto near = [&](std::size_t k, const auto& visit) {  // partners ascending
-        for (const std::uint32_t entry : list_.entries(cluster[k])) {
-            const std::uint32_t j = list_.particle(entry);
-            if (j == k || bodies_[j] != bodies_[k]) continue;
-            const Vec<Dim> r = separation(built_at_.data(), k, j);
-            if (dot(r, r) < reach2) visit(j, r);
-        }
-    };
-    std::vector<std::uint32_t> count(n);
     parallel_for(
-        n, [&](std::size_t k) { near(k, [&](std::uint32_t, const Vec<Dim>&) { ++count[k]; }); });
-    const Rows before = std::move(rows_);
-    rows_ = {before.lanes};
-    lay_out(std::move(count));
-    parallel_for(n, [&](std::size_t k) {
-        std::size_t m = 0, old = 0;
-        const std::size_t row = before.count.empty() ? 0 : before.count[k];
-        near(k, [&](std::uint32_t j, const Vec<Dim>& r) {
-            while (old < row && before.partner[before.slot(k, old)] < j) ++old;
-            const bool weighs = old < row && before.partner[before.slot(k, old)] == j &&
-                                before.vectors[before.number(k, old, Dim)] > 0.0 &&
-                                dot(r, r) < range_ * range_;
-            rows_.partner[rows_.slot(k, m)] = j;
-            set_X(k, m++, weighs ? before.X(k, old) : anchor(k, r));
-        });
-    });
-    find_reverse();
-    find_reach();
+        reach_.size(),
+        [&](std::size_t b) {
+            reach_[b] = {b, b};
+            for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k)
+                for (std::size_t m = 0; m < row(k); ++m) {
+                    reach_[b].first = std::min<std::size_t>(reach_[b].first, partner(k, m) / block);
+                    reach_[b].last = std::max<std::size_t>(reach_[b].last, partner(k, m) / block);
+                }
+        },
+        block);
 }
 
-/// Rows without what fills groups, so that lanes do not matter.
 template <int Dim>
 void BondTable<Dim>::remember(Archive& archive) {
-    std::vector<std::uint32_t> count = rows_.count, partners;
-    std::vector<double> vectors;
-    for (std::size_t k = 0; k < particles(); ++k)
-        for (std::size_t m = 0; m < row(k); ++m) {
-            partners.push_back(partner(k, m));
-            const Vec<Dim> one = X(k, m);
-            vectors.insert(vectors.end(), one.c.begin(), one.c.end());
-        }
-    archive(built_at_, count, partners, vectors);
+    const auto flat = [](const Points<Dim>& x) {
+        return std::vector<double>(x.data(), x.data() + x.size());
+    };
+    const auto points = [](const std::vector<double>& x) {
+        return Eigen::Map<const Points<Dim>>(x.data(), Dim,
+                                             static_cast<Eigen::Index>(x.size() / Dim));
+    };
+    std::vector<double> listed_at = flat(list_.built_at()), sought_at = flat(motion_.then());
+    archive(listed_at, sought_at);
+    rows_.remember(archive);
     if (!archive.reading()) return;
-    list_.build(Eigen::Map<const Points<Dim>>(built_at_.data(), Dim,
-                                              static_cast<Eigen::Index>(built_at_.size() / Dim)));
-    lay_out(std::move(count));
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < particles(); ++k)
-        for (std::size_t m = 0; m < row(k); ++m, ++at) {
-            rows_.partner[rows_.slot(k, m)] = partners[at];
-            Vec<Dim> one;
-            std::copy_n(&vectors[at * Dim], Dim, one.c.begin());
-            set_X(k, m, one);
-        }
-    find_reverse();
-    find_reach();
+    motion_.begin(points(sought_at));
+    list_neighbours(points(listed_at));
 }
 
 template class BondTable<2>;

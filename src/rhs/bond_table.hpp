@@ -1,47 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "bond_sweeps.hpp"
-#include <spam/core/archive.hpp>
-#include <spam/core/tensor.hpp>
+#include "bond_rows.hpp"
 #include <spam/neighbors/cluster_list.hpp>
-
-#include <functional>
-#include <vector>
 
 namespace spam {
 
-/// Who is whose neighbour, and the material vector of each: rows of bonds by particle k, partners j
-/// ascending, every pair in both rows. A row holds whoever is nearer than range + skin; what is beyond the
-/// range weighs exactly nothing, so that a neighbour enters and leaves with no trace, and rows serve until
-/// particles have moved by half the skin (a common rigid motion apart).
+/// Who is whose neighbour, and the material vector of each. Rows hold whoever is nearer than range + skin of the
+/// same body: what is beyond the range weighs exactly nothing, so that a neighbour enters and leaves with no
+/// trace, and rows serve until particles have moved by half the skin (a common rigid motion apart). Then a list of
+/// those that are somewhat farther still, which lasts longer, tells how many neighbours each particle has now; who
+/// has as many bonds has nobody new.
 template <int Dim>
 class BondTable {
   public:
     static constexpr double skin = 0.1;  ///< of the range
-    /// The material vector of a bond that is new or weighs nothing: r_kj is its separation.
-    using Anchor = std::function<Vec<Dim>(std::size_t k, const Vec<Dim>& r_kj)>;
+    using Newcomer = typename BondRows<Dim>::Newcomer;
 
-    /// Only particles of the same body share bonds. Throws InputError where a periodic length is not above
-    /// twice range + skin.
-    BondTable(double range, const Box<Dim>& box, int lanes, std::vector<std::int32_t> bodies);
+    /// Throws InputError where a periodic length is not above twice range + skin.
+    BondTable(double range, const Box<Dim>& box, const BondSweeps<Dim>& sweeps,
+              const Points<Dim>& x, std::vector<std::int32_t> bodies);
 
     /// Whether everybody nearer than the range is in these rows.
-    bool serves(const Eigen::Ref<const Points<Dim>>& x) { return list_.serves(x); }
-    /// Rows anew. Bonds that weigh something keep their vectors.
-    void update(const Eigen::Ref<const Points<Dim>>& x, const Anchor& anchor);
-
-    std::size_t particles() const { return rows_.count.size(); }
-    std::size_t groups() const { return rows_.first.empty() ? 0 : rows_.first.size() - 1; }
-    std::size_t bonds() const { return bonds_; }  ///< both directions of each pair
-    std::size_t builds() const { return list_.builds(); }
-
-    std::size_t row(std::size_t k) const { return rows_.count[k]; }
-    std::uint32_t partner(std::size_t k, std::size_t m) const {
-        return rows_.partner[rows_.slot(k, m)];
+    bool serves(const Eigen::Ref<const Points<Dim>>& x) {
+        return motion_.within(0.5 * skin * range_, x, box_);
     }
+    /// Drops bonds that are beyond range + skin, gives others that are beyond the range vectors without misfit, and
+    /// finds who has come nearer and is in no row yet. N0: of a whole particle (Wholeness).
+    void renew(const Eigen::Ref<const Points<Dim>>& x, double N0);
+    /// Of the last renew(), ascending by k, then j, both directions of every pair; to be admitted, and their
+    /// vectors set.
+    const std::vector<Newcomer>& newcomers() const { return newcomers_; }
+    void admit();
+    /// Bonds within the range that weigh nothing, because their vectors are too long: they may be anchored anew.
+    const std::vector<Newcomer>& idle() const { return idle_; }
+    /// F^-1 at the last renew(), before anybody was admitted; 1 where there is none.
+    Mat<Dim> anchoring(std::size_t k) const;
+
+    std::size_t particles() const { return rows_.particles(); }
+    std::size_t groups() const { return rows_.groups(); }
+    std::size_t bonds() const { return rows_.bonds(); }  ///< both directions of each pair
+    std::size_t updates() const { return updates_; }
+
+    std::size_t row(std::size_t k) const { return rows_.row(k); }
+    /// No bond, but the place of one: of weight 0.
+    bool vacant(std::size_t k, std::size_t m) const { return rows_.vacant(k, m); }
+    std::uint32_t partner(std::size_t k, std::size_t m) const { return rows_.partner(k, m); }
     Vec<Dim> X(std::size_t k, std::size_t m) const { return rows_.X(k, m); }
-    double g(std::size_t k, std::size_t m) const { return rows_.vectors[rows_.number(k, m, Dim)]; }
+    double g(std::size_t k, std::size_t m) const { return rows_.g(k, m); }
     /// The partner sees no change: its vector to k is another one.
     void set_X(std::size_t k, std::size_t m, const Vec<Dim>& X);
     /// x_j - x_k, the nearest image.
@@ -56,42 +62,33 @@ class BondTable {
     };
     const Reach& reach(std::size_t b) const { return reach_[b]; }
 
-    /// For the loops of right-hand sides, which write t.
-    BondView<Dim> view();
+    /// Positions for the loops of right-hand sides: inside a periodic box, and some behind the last one.
+    void load(const double* x);
+    /// For these loops, which write t.
+    BondView<Dim> view(double N0);
 
     /// After reading, rows and their age are those that were written.
     void remember(Archive& archive);
 
   private:
-    /// Bond m of particle k, with those of its group.
-    struct Rows {
-        std::size_t lanes;
-        std::vector<std::uint32_t> count{};  ///< by particle
-        std::vector<std::size_t> first{};    ///< by group
-        std::vector<std::uint32_t> partner{}, reverse{};
-        std::vector<double> vectors{};
-
-        std::size_t slot(std::size_t k, std::size_t m) const {
-            return first[k / lanes] + m * lanes + k % lanes;
-        }
-        std::size_t number(std::size_t k, std::size_t m, std::size_t a) const {
-            return (first[k / lanes] + m * lanes) * (Dim + 1) + a * lanes + k % lanes;
-        }
-        Vec<Dim> X(std::size_t k, std::size_t m) const;
-    };
-    void lay_out(std::vector<std::uint32_t> count);
-    void find_reverse();
+    void list_neighbours(const Eigen::Ref<const Points<Dim>>& x);
+    void count_neighbours(const double* x);
+    void newcomers_of(std::size_t k, const double* x, std::vector<Newcomer>& newcomers) const;
+    void idle_of(std::size_t k, const double* x, std::vector<Newcomer>& idle) const;
     void find_reach();
 
     double range_;
     Box<Dim> box_;
-    std::size_t bonds_ = 0;
+    BondSweeps<Dim> sweeps_;
     std::vector<std::int32_t> bodies_;
     ClusterList<Dim> list_;
-    std::vector<double> built_at_;
-    Rows rows_;
+    std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle
+    MotionSince<Dim> motion_;             ///< since newcomers were looked for
+    BondRows<Dim> rows_;
     std::vector<Reach> reach_;  ///< by block
-    std::vector<double> t_;
+    std::vector<double> x_, records_, neighbours_, anchoring_;
+    std::vector<Newcomer> newcomers_, idle_;
+    std::size_t updates_ = 0;
 };
 
 extern template class BondTable<2>;

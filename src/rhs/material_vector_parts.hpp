@@ -18,17 +18,12 @@ struct MaterialVectors<Dim>::Parts {
     BondSweeps<Dim> sweeps;
     BondTable<Dim> table;
     double N0 = 0.0;  ///< tr N/D of a whole particle
-    std::vector<double> x{}, volume{}, heat{};
+    std::vector<double> volume{}, heat{};
     double stiffness = 0.0;  ///< c_k/V_k = kappa eta/N0
     std::vector<std::uint32_t> numbers{};
     std::vector<unsigned char> left{};  ///< by block
 
-    double little() const { return 1e-13 * N0; }
-    BondView<Dim> view() {
-        BondView<Dim> view = table.view();
-        view.little = little();
-        return view;
-    }
+    BondView<Dim> view() { return table.view(N0); }
     /// find(first, last) for blocks of groups, then give(first, last), as soon as everybody who has bonds with
     /// the block has been found: what was found of bonds is then still in the cache. Every thread has blocks
     /// that follow each other, and leaves to the end those with bonds beyond.

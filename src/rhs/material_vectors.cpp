@@ -65,15 +65,13 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
         return bond_sweeps<Dim, level>(this->box().periodic());
     });
     const Particles<Dim>& all = this->particles();
-    parts_ = std::make_unique<Parts>(
-        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps.lanes, all.body)});
+    parts_ =
+        std::make_unique<Parts>(Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps,
+                                                             all.reference_position, all.body)});
     Parts& p = *parts_;
-    p.table.update(all.reference_position, [](std::size_t, const Vec<Dim>& r) { return r; });
-    const std::size_t n = all.size(),
-                      full = p.table.groups() * static_cast<std::size_t>(sweeps.lanes);
+    const std::size_t n = all.size();
     p.numbers.resize(n);
     std::iota(p.numbers.begin(), p.numbers.end(), 0U);
-    p.x.assign(full * Dim, 0.0);
     p.heat.assign(n, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
         BondFit<Dim, double> sums;
@@ -86,25 +84,6 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
     p.stiffness = scheme.penalty * material.stiffness() / p.N0;
     for (std::size_t k = 0; k < n; ++k) p.volume.push_back(all.mass[k] / scheme.density);
-}
-
-/// Positions as the sweeps want them: inside a periodic box, and some behind the last one.
-template <int Dim>
-void MaterialVectors<Dim>::load(const double* x) {
-    const Box<Dim>& box = this->box();
-    double* const to = parts_->x.data();
-    if (!box.periodic()) {
-        parallel_for(this->particles().size(), [=](std::size_t i) {
-            for (std::size_t a = 0; a < Dim; ++a) to[i * Dim + a] = x[i * Dim + a];
-        });
-        return;
-    }
-    parallel_for(this->particles().size(), [&](std::size_t i) {
-        for (std::size_t a = 0; a < Dim; ++a)
-            to[i * Dim + a] = box.periodic(static_cast<int>(a))
-                                  ? box.wrap(static_cast<int>(a), x[i * Dim + a])
-                                  : x[i * Dim + a];
-    });
 }
 
 /// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. Returns false
@@ -146,7 +125,7 @@ bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const Con
 template <int Dim>
 std::string MaterialVectors<Dim>::rates(const Now& now) {
     Parts& p = *parts_;
-    load(now.state.position().data());
+    p.table.load(now.state.position().data());
     const BondView<Dim> view = p.view();
     const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
     std::atomic<bool> finite = true;
@@ -156,7 +135,7 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
         const std::size_t k = first * lanes, filled = std::min(last * lanes, view.particles) - k;
         std::fill(records.data() + filled * numbers,
                   records.data() + (last - first) * lanes * numbers, 0.0);
-        p.sweeps.fit(view, p.x.data(), records.data(), first, last);
+        p.sweeps.fit(view, records.data(), first, last);
         bool whole = true;
         if (!close(k, filled, now.state, records.data(), whole)) finite = false;
         p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
@@ -194,7 +173,7 @@ std::size_t MaterialVectors<Dim>::pairs() const {
 
 template <int Dim>
 std::size_t MaterialVectors<Dim>::list_builds() const {
-    return parts_->table.builds();
+    return parts_->table.updates();
 }
 
 template <int Dim>

@@ -3,6 +3,7 @@
 #include "material_vector_parts.hpp"
 #include <spam/core/sums.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spam {
@@ -19,7 +20,7 @@ typename MaterialVectors<Dim>::Fit MaterialVectors<Dim>::fit(const double* x, st
         sums.add(weight(m, r), r, table.X(k, m));
     }
     Fit fit;
-    const FitSolver<Dim, double> solver(sums.N, parts_->little());
+    const FitSolver<Dim, double> solver(sums.N, FitSolver<Dim, double>::little(parts_->N0));
     fit.K = solver.inverse();
     fit.F = solver.divided(sums.A);
     for (std::size_t m = 0; m < table.row(k); ++m) {
@@ -92,31 +93,33 @@ template <int Dim>
 bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
     Parts& p = *parts_;
     const double* const x = state.position().data();
-    const std::size_t n = p.numbers.size();
-    std::vector<Mat<Dim>> back(n);  // F^-1
-    std::vector<double> before(n);
-    parallel_for(n, [&](std::size_t k) {
-        const Fit now = fit(x, k);
-        before[k] = energy_of(now, k, state);
-        // Where neighbours do not span space there is no F^-1, and r is as good as any.
-        if (Wholeness::of(now.K, p.N0).spans() && std::abs(determinant(now.F)) > 1e-3)
-            back[k] = inverse(now.F);
-        else
-            for (int a = 0; a < Dim; ++a) back[k](a, a) = 1.0;
-    });
-    std::vector<unsigned char> entered(n, 0);
-    const double range2 = scheme_.range * scheme_.range;
-    p.table.update(state.position(), [&](std::size_t k, const Vec<Dim>& r) {
-        const Vec<Dim> X = back[k] * r;
-        if (dot(r, r) < range2 && material_weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0)
-            entered[k] = 1;
-        return X;
-    });
-    return parallel_count(n, [&](std::size_t k) -> std::size_t {
-               if (entered[k] == 0) return 0;
-               p.heat[k] += before[k] - energy_of(fit(x, k), k, state);
-               return 1;
-           }) > 0;
+    p.table.renew(state.position(), p.N0);
+    const auto anchored = [&](const auto& bond) { return p.table.anchoring(bond.k) * bond.r; };
+    const auto weighs = [&](const auto& bond) {
+        const Vec<Dim> X = anchored(bond);
+        return dot(bond.r, bond.r) < scheme_.range * scheme_.range &&
+               material_weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0;
+    };
+    std::vector<std::uint32_t> changed;  // whose sums are others
+    for (const auto* bonds : {&p.table.newcomers(), &p.table.idle()})
+        for (const auto& bond : *bonds)
+            if (weighs(bond)) changed.push_back(bond.k);
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    const auto book = [&](double sign) {
+        parallel_for(changed.size(), [&](std::size_t n) {
+            p.heat[changed[n]] += sign * energy_of(fit(x, changed[n]), changed[n], state);
+        });
+    };
+    book(1.0);
+    p.table.admit();
+    for (const auto* bonds : {&p.table.newcomers(), &p.table.idle()})
+        parallel_for(bonds->size(), [&](std::size_t n) {
+            const auto& bond = (*bonds)[n];
+            p.table.set_X(bond.k, bond.row, anchored(bond));
+        });
+    book(-1.0);
+    return !changed.empty();
 }
 
 template <int Dim>
@@ -146,6 +149,7 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     const BondTable<Dim>& table = parts_->table;
     std::vector<Bond> bonds;
     for (std::size_t m = 0; m < table.row(k); ++m) {
+        if (table.vacant(k, m)) continue;
         const std::uint32_t j = table.partner(k, m);
         const Vec<Dim> r = table.separation(x, k, j);
         bonds.push_back(

@@ -104,8 +104,8 @@ constexpr Vec<Dim, T> operator*(const SymTensor<Dim, T>& s, const Vec<Dim, T>& v
     return r;
 }
 
-template <int Dim>
-constexpr double determinant(const Mat<Dim>& m) {
+template <int Dim, class T>
+constexpr T determinant(const Mat<Dim, T>& m) {
     if constexpr (Dim == 1)
         return m(0, 0);
     else if constexpr (Dim == 2)
@@ -117,10 +117,10 @@ constexpr double determinant(const Mat<Dim>& m) {
 }
 
 /// By cofactors; infinite or NaN where there is none.
-template <int Dim>
-constexpr Mat<Dim> inverse(const Mat<Dim>& m) {
-    const double scale = 1.0 / determinant(m);
-    Mat<Dim> r;
+template <int Dim, class T>
+constexpr Mat<Dim, T> inverse(const Mat<Dim, T>& m) {
+    const T scale = T(1.0) / determinant(m);
+    Mat<Dim, T> r;
     if constexpr (Dim == 1) {
         r(0, 0) = scale;
     } else if constexpr (Dim == 2) {

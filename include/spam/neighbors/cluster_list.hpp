@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/rigid_motion.hpp>
 #include <spam/neighbors/cluster_boxes.hpp>
 #include <spam/neighbors/cluster_view.hpp>
-#include <spam/neighbors/displacement.hpp>
 #include <spam/neighbors/ghosts.hpp>
 #include <spam/neighbors/home.hpp>
+#include <spam/neighbors/motion_since.hpp>
 
 #include <span>
 #include <vector>
@@ -45,9 +44,11 @@ class ClusterList {
     /// true where a position is not finite.
     bool serves(const Eigen::Ref<const Points<Dim>>& position);
 
+    /// The positions of the last build, Dim x N.
+    const Points<Dim>& built_at() const { return motion_.then(); }
     /// Who has moved by more than half the skin since the build, the rigid motion known last taken
     /// off. Where nobody has, the list serves.
-    Displacement<Dim> displacement() const;
+    Displacement<Dim> displacement() const { return motion_.displacement(0.5 * skin_); }
 
     /// For sweeps over records whose positions the list serves.
     ClusterView view() const;
@@ -93,7 +94,6 @@ class ClusterList {
     std::size_t counted_each() const { return !in_order_ && boxes_.size() >= 256 ? 8 : 1; }
     /// A little more than the list must hold, whatever rounding does to bounds.
     double reach() const { return (range_ + skin_) * (1.0 + 1e-9); }
-    bool near_build(const Eigen::Ref<const Points<Dim>>& position) const;
 
     double range_, skin_;
     Box<Dim> box_;
@@ -107,12 +107,11 @@ class ClusterList {
     double strip_volume_ = 0.0;    ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
     std::array<std::vector<double>, Dim> x_;  ///< at home, by slot; behind them those of ghosts
-    Points<Dim> built_at_;
-    Points<Dim> at_home_;                ///< where the box is periodic
-    std::vector<std::int32_t> periods_;  ///< Dim x N, taken off there
+    MotionSince<Dim> motion_;                 ///< since the last build
+    Points<Dim> at_home_;                     ///< where the box is periodic
+    std::vector<std::int32_t> periods_;       ///< Dim x N, taken off there
     Home<Dim> home_;
     Ghosts<Dim> ghosts_;
-    RigidMotion<Dim> motion_;  ///< since the last build, roughly
     std::vector<ClusterView::Range> range_of_;
     std::vector<std::vector<std::uint32_t>> slices_;
     std::vector<const std::uint32_t*> slice_of_;

@@ -16,8 +16,9 @@ namespace spam {
 
 /// The part g(|X|) of the weight, fixed as long as X is: (1 - |X|/(1.25 h))^2 inside 1.25 h. Decided by
 /// what has been, it weakens no bond because the body is stretched: no tensile instability.
-inline double material_weight(double length, double range) {
-    const double z = positive_part(1.0 - length / (1.25 * range));
+template <class T>
+constexpr T material_weight(const T& length, double range) {
+    const T z = positive_part(T(1.0) - length / T(1.25 * range));
     return z * z;
 }
 
@@ -50,12 +51,14 @@ struct BondFit {
 };
 
 /// What divides by N + little: Cholesky's L D L^t, which finds all that N says of directions that few neighbours
-/// span. `little`: 1e-13 of a whole particle's N, for those that none spans; what it does to Phi is below
-/// rounding.
+/// span. `little` is for those that none spans; what it does to Phi is below rounding.
 template <int Dim, class T>
 struct FitSolver {
     Mat<Dim, T> R;  ///< L^-1, unit lower triangle
     Vec<Dim, T> inverse_D;
+
+    /// For particles that are whole with N0.
+    static constexpr double little(double N0) { return 1e-13 * N0; }
 
     constexpr FitSolver(const SymTensor<Dim, T>& N, double little) {
         Mat<Dim, T> L;
@@ -113,7 +116,8 @@ struct FitSolver {
 struct Wholeness {
     double th, slope;
 
-    /// Whether F means anything in every direction; its error is below 1e-8 then.
+    /// The q/N0 above which F means something in every direction: th > 1e-6; its error is below 1e-8 then.
+    static constexpr double spanning = 5.775e-5;
     bool spans() const { return th > 1e-6; }
 
     template <int Dim>

@@ -76,7 +76,6 @@ class MaterialVectors final : public Term<Dim> {
   private:
     struct Parts;
     struct Fit;
-    void load(const double* x);
     std::vector<Bond> bonds_at(const double* x, std::size_t k) const;
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/rigid_motion.hpp>
+#include <spam/neighbors/box.hpp>
+#include <spam/neighbors/displacement.hpp>
+
+namespace spam {
+
+/// How far particles have moved since a time when something was found of their neighbours, the best rigid
+/// motion of all taken off: a body that only turns and flies keeps what was found. Where the box is periodic, only
+/// a translation is taken off, and none towards a wall.
+template <int Dim>
+class MotionSince {
+  public:
+    /// Takes these positions, Dim x N, as those from which particles move.
+    void begin(const Eigen::Ref<const Points<Dim>>& position);
+    const Points<Dim>& then() const { return then_; }
+
+    /// Whether no particle has moved farther than that. Never true where a position is not finite.
+    bool within(double distance, const Eigen::Ref<const Points<Dim>>& position,
+                const Box<Dim>& box);
+    /// Who has moved farther, the rigid motion known last taken off. Where nobody has, within() is true.
+    Displacement<Dim> displacement(double distance) const;
+
+  private:
+    bool nobody_beyond(double distance, const Eigen::Ref<const Points<Dim>>& position) const;
+
+    Points<Dim> then_;
+    RigidMotion<Dim> motion_;  ///< since then, roughly
+};
+
+extern template class MotionSince<1>;
+extern template class MotionSince<2>;
+extern template class MotionSince<3>;
+
+}  // namespace spam

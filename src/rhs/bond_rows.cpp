@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bond_rows.hpp"
+
+#include <spam/core/parallel.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace spam {
+
+template <int Dim>
+BondRows<Dim>::BondRows(std::size_t particles, std::size_t lanes)
+    : lanes_(lanes),
+      count_(particles, 0),
+      first_((particles + lanes - 1) / lanes + 1, 0) {}
+
+template <int Dim>
+Vec<Dim> BondRows<Dim>::X(std::size_t k, std::size_t m) const {
+    Vec<Dim> X;
+    for (int a = 0; a < Dim; ++a) X[a] = vectors_[number(k, m, static_cast<std::size_t>(a))];
+    return X;
+}
+
+template <int Dim>
+void BondRows<Dim>::set(std::size_t k, std::size_t m, const Vec<Dim>& X, double g) {
+    for (int a = 0; a < Dim; ++a) vectors_[number(k, m, static_cast<std::size_t>(a))] = X[a];
+    vectors_[number(k, m, Dim)] = g;
+}
+
+template <int Dim>
+void BondRows<Dim>::vacate(std::size_t begin, std::size_t end, std::size_t group) {
+    for (std::size_t s = begin; s < end; ++s) {
+        partner_[s] = static_cast<std::uint32_t>(group * lanes_ + s % lanes_);
+        reverse_[s] =
+            static_cast<std::uint32_t>(s / lanes_ * lanes_ + place_of_lane(s % lanes_, lanes_));
+    }
+    std::fill(vectors_.begin() + static_cast<std::ptrdiff_t>(begin * (Dim + 1)),
+              vectors_.begin() + static_cast<std::ptrdiff_t>(end * (Dim + 1)), 0.0);
+}
+
+/// Room for rows of groups with these lengths, none shorter than before; what is in rows stays.
+template <int Dim>
+void BondRows<Dim>::lay_out(const std::vector<std::uint32_t>& capacity) {
+    std::vector<std::size_t> first(groups() + 1, 0);
+    for (std::size_t group = 0; group < groups(); ++group)
+        first[group + 1] = first[group] + capacity[group] * lanes_;
+    const std::vector<std::size_t> first_before = std::exchange(first_, std::move(first));
+    const auto partner = std::exchange(partner_, std::vector<std::uint32_t>(first_.back())),
+               reverse = std::exchange(reverse_, std::vector<std::uint32_t>(first_.back()));
+    const auto vectors =
+        std::exchange(vectors_, std::vector<double>(first_.back() * (Dim + 1), 0.0));
+    t_.assign(first_.back() * Dim, 0.0);
+    parallel_for(
+        groups(),
+        [&](std::size_t group) {
+            const std::size_t from = first_before[group], to = first_[group],
+                              held = first_before[group + 1] - from;
+            for (std::size_t s = 0; s < held; ++s) {
+                const std::uint32_t j = partner[from + s];
+                partner_[to + s] = j;
+                reverse_[to + s] = static_cast<std::uint32_t>(
+                    reverse[from + s] - first_before[j / lanes_] + first_[j / lanes_]);
+            }
+            std::copy_n(&vectors[0] + from * (Dim + 1), held * (Dim + 1),
+                        &vectors_[0] + to * (Dim + 1));
+            vacate(to + held, first_[group + 1], group);
+        },
+        lanes_);
+}
+
+/// Finds places in rows, and makes those longer that do not suffice.
+template <int Dim>
+void BondRows<Dim>::make_room(std::vector<Newcomer>& newcomers) {
+    if (newcomers.empty()) return;
+    // What once was full is given more than it needs, but for the first rows of all: those of a solid that does
+    // not flow stay as they are.
+    const std::uint32_t spare = first_.back() == 0 ? 0 : 4;
+    std::vector<std::uint32_t> capacity(groups());
+    bool grows = false;
+    for (std::size_t group = 0; group < groups(); ++group)
+        capacity[group] = static_cast<std::uint32_t>((first_[group + 1] - first_[group]) / lanes_);
+    for (std::size_t n = 0; n < newcomers.size();) {
+        const std::size_t k = newcomers[n].k;
+        std::size_t m = 0;
+        for (; n < newcomers.size() && newcomers[n].k == k; ++n, ++m) {
+            while (m < count_[k] && !vacant(k, m)) ++m;
+            newcomers[n].row = m;
+        }
+        count_[k] = std::max(count_[k], static_cast<std::uint32_t>(m));
+        if (count_[k] > capacity[k / lanes_]) {
+            capacity[k / lanes_] = count_[k] + spare;
+            grows = true;
+        }
+    }
+    if (grows) lay_out(capacity);
+}
+
+template <int Dim>
+void BondRows<Dim>::enter(std::vector<Newcomer>& newcomers) {
+    make_room(newcomers);
+    parallel_for(newcomers.size(), [&](std::size_t n) {
+        const Newcomer& bond = newcomers[n];
+        partner_[slot(bond.k, bond.row)] = bond.j;
+    });
+    parallel_for(newcomers.size(),
+                 [&](std::size_t n) { find_way_back(newcomers[n].k, newcomers[n].row); });
+    bonds_ += newcomers.size();
+}
+
+template <int Dim>
+void BondRows<Dim>::leave(std::size_t k, std::size_t m) {
+    partner_[slot(k, m)] = static_cast<std::uint32_t>(k);
+    reverse_[slot(k, m)] = place(k, m);
+    set(k, m, {}, 0.0);
+    --bonds_;
+}
+
+/// Where k stands in the row of its partner.
+template <int Dim>
+void BondRows<Dim>::find_way_back(std::size_t k, std::size_t m) {
+    const std::size_t j = partner(k, m);
+    std::size_t back = 0;
+    while (back < row(j) && partner(j, back) != k) ++back;
+    reverse_[slot(k, m)] = place(j, back);
+}
+
+/// What the rows hold, one after the other.
+template <int Dim>
+struct BondRows<Dim>::Contents {
+    std::vector<std::uint32_t> count, partners;
+    std::vector<double> vectors;  ///< X and g
+
+    void add(const BondRows& rows, std::size_t k, std::size_t m) {
+        ++count[k];
+        partners.push_back(rows.partner(k, m));
+        const Vec<Dim> X = rows.X(k, m);
+        vectors.insert(vectors.end(), X.c.begin(), X.c.end());
+        vectors.push_back(rows.g(k, m));
+    }
+};
+
+template <int Dim>
+void BondRows<Dim>::hold(const Contents& contents) {
+    count_ = contents.count;
+    std::vector<std::uint32_t> capacity(groups(), 0);
+    for (std::size_t k = 0; k < particles(); ++k)
+        capacity[k / lanes_] = std::max(capacity[k / lanes_], count_[k]);
+    std::fill(first_.begin(), first_.end(), 0);
+    lay_out(capacity);
+    bonds_ = 0;
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < particles(); ++k)
+        for (std::size_t m = 0; m < row(k); ++m, ++at) {
+            partner_[slot(k, m)] = contents.partners[at];
+            Vec<Dim> X;
+            std::copy_n(&contents.vectors[at * (Dim + 1)], Dim, X.c.begin());
+            set(k, m, X, contents.vectors[at * (Dim + 1) + Dim]);
+            if (!vacant(k, m)) ++bonds_;
+        }
+    parallel_for(particles(), [&](std::size_t k) {
+        for (std::size_t m = 0; m < row(k); ++m)
+            if (!vacant(k, m)) find_way_back(k, m);
+    });
+}
+
+template <int Dim>
+void BondRows<Dim>::tidy() {
+    const std::size_t used = std::accumulate(count_.begin(), count_.end(), std::size_t{0});
+    if (5 * used <= 6 * bonds_) return;
+    Contents contents{std::vector<std::uint32_t>(particles(), 0), {}, {}};
+    std::vector<std::uint32_t> order;
+    for (std::size_t k = 0; k < particles(); ++k) {
+        order.clear();
+        for (std::uint32_t m = 0; m < row(k); ++m)
+            if (!vacant(k, m)) order.push_back(m);
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return partner(k, a) < partner(k, b); });
+        for (const std::uint32_t m : order) contents.add(*this, k, m);
+    }
+    hold(contents);
+}
+
+template <int Dim>
+void BondRows<Dim>::show(BondView<Dim>& view) {
+    view.particles = particles();
+    view.first = first_.data();
+    view.partner = partner_.data();
+    view.reverse = reverse_.data();
+    view.vectors = vectors_.data();
+    view.t = t_.data();
+}
+
+template <int Dim>
+void BondRows<Dim>::remember(Archive& archive) {
+    Contents contents{std::vector<std::uint32_t>(particles(), 0), {}, {}};
+    if (!archive.reading())
+        for (std::size_t k = 0; k < particles(); ++k)
+            for (std::size_t m = 0; m < row(k); ++m) contents.add(*this, k, m);
+    archive(contents.count, contents.partners, contents.vectors);
+    if (archive.reading()) hold(contents);
+}
+
+template class BondRows<2>;
+template class BondRows<3>;
+
+}  // namespace spam

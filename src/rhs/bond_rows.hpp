@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "bond_sweeps.hpp"
+#include <spam/core/archive.hpp>
+#include <spam/core/tensor.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace spam {
+
+/// Bonds by particle k: row(k) of them, each with a partner, its material vector X and the fixed part g of its
+/// weight; every pair stands in both rows. Rows of as many particles as there are lanes, a group, lie together
+/// and are as long as the longest. A bond that is gone leaves a vacancy, whose partner is k itself and whose
+/// X and g are 0: it adds exact zeros to every sum. The order of a row is that in which bonds came, whatever the
+/// number of lanes.
+template <int Dim>
+class BondRows {
+  public:
+    BondRows(std::size_t particles, std::size_t lanes);
+
+    std::size_t particles() const { return count_.size(); }
+    std::size_t groups() const { return first_.size() - 1; }
+    std::size_t lanes() const { return lanes_; }
+    /// Without vacancies; both directions of each pair.
+    std::size_t bonds() const { return bonds_; }
+
+    std::size_t row(std::size_t k) const { return count_[k]; }  ///< with vacancies
+    bool vacant(std::size_t k, std::size_t m) const { return partner(k, m) == k; }
+    std::uint32_t partner(std::size_t k, std::size_t m) const { return partner_[slot(k, m)]; }
+    Vec<Dim> X(std::size_t k, std::size_t m) const;
+    double g(std::size_t k, std::size_t m) const { return vectors_[number(k, m, Dim)]; }
+    void set(std::size_t k, std::size_t m, const Vec<Dim>& X, double g);
+
+    /// A bond that is to come.
+    struct Newcomer {
+        std::uint32_t k, j;
+        Vec<Dim> r;           ///< x_j - x_k
+        std::size_t row = 0;  ///< where it stands; set by enter()
+    };
+    /// Takes them in, where vacancies are first, and says which row of k each has; with X = g = 0 until set().
+    /// `newcomers`: ascending by k, then j; both directions of every pair.
+    void enter(std::vector<Newcomer>& newcomers);
+    /// Leaves a vacancy in row k only.
+    void leave(std::size_t k, std::size_t m);
+    /// What bonds are left after so many have gone, where loops have written vacancies.
+    void discount(std::size_t gone) { bonds_ -= gone; }
+    /// Rows without vacancies, partners ascending, where these have become many.
+    void tidy();
+
+    /// All of a BondView that rows know.
+    void show(BondView<Dim>& view);
+    /// Rows in their order, vacancies included; nothing that depends on lanes.
+    void remember(Archive& archive);
+
+  private:
+    std::size_t slot(std::size_t k, std::size_t m) const {
+        return first_[k / lanes_] + m * lanes_ + k % lanes_;
+    }
+    std::size_t number(std::size_t k, std::size_t m, std::size_t a) const {
+        return (first_[k / lanes_] + m * lanes_) * (Dim + 1) + a * lanes_ + k % lanes_;
+    }
+    /// The place in t of a bond (place_of_lane).
+    std::uint32_t place(std::size_t k, std::size_t m) const {
+        return static_cast<std::uint32_t>(first_[k / lanes_] + m * lanes_ +
+                                          place_of_lane(k % lanes_, lanes_));
+    }
+    std::size_t capacity(std::size_t k) const {
+        return (first_[k / lanes_ + 1] - first_[k / lanes_]) / lanes_;
+    }
+    struct Contents;
+    void hold(const Contents& contents);
+    void make_room(std::vector<Newcomer>& newcomers);
+    void lay_out(const std::vector<std::uint32_t>& capacity);
+    void vacate(std::size_t begin, std::size_t end, std::size_t group);
+    void find_way_back(std::size_t k, std::size_t m);
+
+    std::size_t lanes_, bonds_ = 0;
+    std::vector<std::uint32_t> count_;  ///< by particle
+    std::vector<std::size_t> first_;    ///< by group
+    std::vector<std::uint32_t> partner_, reverse_;
+    std::vector<double> vectors_, t_;
+};
+
+extern template class BondRows<2>;
+extern template class BondRows<3>;
+
+}  // namespace spam

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The solid with material vectors: its right-hand sides in turn with those of the plain elastic solid on the same
+// particles, and what it costs to change its table of bonds.
+#include "systems.hpp"
+#include <spam/core/parallel.hpp>
+#include <spam/material/polynomial_solid.hpp>
+#include <spam/rhs/material_vectors.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spam::bench {
+namespace {
+
+struct BondedSystem {
+    MaterialVectorModel<2> model;
+    std::vector<double> y, y_dot;
+
+    explicit BondedSystem(const ElasticSystem& like)
+        : model(like.model.particles(), PolynomialSolid{0.43, 0.43}, {.density = 1.15}) {
+        const std::size_t n = model.particles().size();
+        y.assign(like.y.begin(), like.y.begin() + static_cast<std::ptrdiff_t>(4 * n));
+        y_dot.resize(y.size());
+    }
+    void rates() { model.rates(0.0, y, y_dot); }
+};
+
+template <class Body>
+double least_seconds(double least, const Body& body) {
+    const Stopwatch watch;
+    body();
+    return std::min(least, watch.seconds());
+}
+
+/// Counters over_elastic (times the plain right-hand side) and ns_per_particle.
+void material_vectors_over_elastic(benchmark::State& state) {
+    set_threads(1);
+    ElasticSystem elastic(state.range(0), monaghan);
+    BondedSystem bonded(elastic);
+    double plain = HUGE_VAL, own = HUGE_VAL;
+    for ([[maybe_unused]] auto _ : state) {
+        plain = least_seconds(plain, [&] { elastic.rates(); });
+        own = least_seconds(own, [&] { bonded.rates(); });
+    }
+    state.counters["over_elastic"] = own / plain;
+    state.counters["ns_per_particle"] =
+        1e9 * own / static_cast<double>(bonded.model.particles().size());
+}
+
+/// After displacements of a tenth of the range, back and forth, that change who is near whom. Counter
+/// in_rates: times the right-hand side.
+void material_vectors_update(benchmark::State& state) {
+    set_threads(1);
+    BondedSystem bonded(ElasticSystem(state.range(0), monaghan));
+    const std::size_t n = bonded.model.particles().size();
+    std::vector<double> moved = bonded.y;
+    for (std::size_t i = 0; i < 2 * n; ++i)
+        moved[i] += 0.3 * std::sin(1e4 * static_cast<double>(i));
+    double update = HUGE_VAL, own = HUGE_VAL;
+    for ([[maybe_unused]] auto _ : state) {
+        std::swap(bonded.y, moved);
+        update = least_seconds(update, [&] { bonded.model.settle(0.0, bonded.y); });
+        bonded.rates();
+        own = least_seconds(own, [&] { bonded.rates(); });
+    }
+    state.counters["in_rates"] = update / own;
+    state.counters["ns_per_particle"] = 1e9 * update / static_cast<double>(n);
+}
+
+}  // namespace
+
+BENCHMARK(material_vectors_over_elastic)
+    ->Arg(2000)
+    ->Arg(5000)
+    ->Arg(20000)
+    ->Arg(200000)
+    ->Iterations(40)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(material_vectors_update)
+    ->Arg(2000)
+    ->Arg(20000)
+    ->Arg(200000)
+    ->Iterations(10)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace spam::bench
