@@ -24,27 +24,27 @@ constexpr auto position_kinds() {
     return kinds;
 }
 
-/// The partners of one particle, to be asked for by number.
+/// Whether somebody is among the partners of a particle, answered by a table of hashes.
 class Partners {
   public:
     template <int Dim>
-    Partners(const BondRows<Dim>& rows, std::size_t k)
-        : mask_(std::bit_ceil(2 * rows.row(k) + 1) - 1),
-          held_(mask_ + 1, nobody) {
+    void take(const BondRows<Dim>& rows, std::size_t k) {
+        mask_ = std::bit_ceil(2 * rows.row(k) + 1) - 1;
+        held_.assign(mask_ + 1, nobody);
         for (std::size_t m = 0; m < rows.row(k); ++m)
-            if (!rows.vacant(k, m)) *place(rows.partner(k, m)) = rows.partner(k, m);
+            if (!rows.vacant(k, m)) held_[place(rows.partner(k, m))] = rows.partner(k, m);
     }
-    bool contain(std::uint32_t j) { return *place(j) == j; }
+    bool contain(std::uint32_t j) const { return held_[place(j)] == j; }
 
   private:
     static constexpr std::uint32_t nobody = ~0U;
-    std::uint32_t* place(std::uint32_t j) {
+    std::size_t place(std::uint32_t j) const {
         std::size_t at = j & mask_;
         while (held_[at] != j && held_[at] != nobody) at = (at + 1) & mask_;
-        return &held_[at];
+        return at;
     }
 
-    std::size_t mask_;
+    std::size_t mask_ = 0;
     std::vector<std::uint32_t> held_;
 };
 
@@ -151,17 +151,24 @@ void BondTable<Dim>::count_neighbours(const double* x) {
 }
 
 template <int Dim>
-void BondTable<Dim>::newcomers_of(std::size_t k, const double* x,
+template <class Partners>
+void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& partners,
                                   std::vector<Newcomer>& newcomers) const {
+    constexpr std::size_t stride = Dim + 1;
     const double reach2 = (1.0 + skin) * (1.0 + skin) * range_ * range_;
     const std::size_t cluster = slot_of_[k] / rows_.lanes(), before = newcomers.size();
-    Partners partners(rows_, k);
+    const double* const own = &records_[slot_of_[k] * stride];
+    partners.take(rows_, k);
     for (const std::uint32_t entry : list_.entries(cluster)) {
-        const std::uint32_t j = list_.particle(entry / (Dim + 1));
-        if (j == k || bodies_[j] != bodies_[k]) continue;
-        const Vec<Dim> r = separation(x, k, j);
-        if (dot(r, r) < reach2 && !partners.contain(j))
-            newcomers.push_back({static_cast<std::uint32_t>(k), j, r});
+        double r2 = 0.0;
+        for (std::size_t a = 0; a < stride; ++a) {
+            const double r = records_[entry + a] - own[a];
+            r2 += r * r;
+        }
+        if (!(r2 < reach2)) continue;
+        const std::uint32_t j = list_.particle(entry / stride);
+        if (j != k && !partners.contain(j))
+            newcomers.push_back({static_cast<std::uint32_t>(k), j, separation(x, k, j)});
     }
     const auto begin = newcomers.begin() + static_cast<std::ptrdiff_t>(before);
     std::sort(begin, newcomers.end(),
@@ -203,13 +210,14 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
             const std::size_t lanes = rows_.lanes(), first = b * block / lanes,
                               last = std::min(groups(), first + block / lanes);
             sweeps_.renew(view, renewal, first, last);
+            Partners partners;
             std::size_t gone = 0;
             for (std::size_t group = first; group < last; ++group) {
                 gone += found[group].gone;
                 for (std::size_t l = 0; l < lanes; ++l) {
                     const std::size_t k = group * lanes + l;
                     if ((found[group].fewer >> l & 1) != 0)
-                        newcomers_of(k, x.data(), of_block[b].newcomers);
+                        newcomers_of(k, x.data(), partners, of_block[b].newcomers);
                     if ((found[group].idle >> l & 1) != 0) idle_of(k, x.data(), of_block[b].idle);
                 }
             }

@@ -73,7 +73,9 @@ class BondTable {
   private:
     void list_neighbours(const Eigen::Ref<const Points<Dim>>& x);
     void count_neighbours(const double* x);
-    void newcomers_of(std::size_t k, const double* x, std::vector<Newcomer>& newcomers) const;
+    template <class Partners>
+    void newcomers_of(std::size_t k, const double* x, Partners& partners,
+                      std::vector<Newcomer>& newcomers) const;
     void idle_of(std::size_t k, const double* x, std::vector<Newcomer>& idle) const;
     void find_reach();
 
