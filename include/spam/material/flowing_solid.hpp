@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/error.hpp>
 #include <spam/core/symmetric_eigen.hpp>
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/von_mises.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spam {
 
@@ -18,15 +19,25 @@ namespace spam {
 /// stored or spent at least, perfect plasticity with the flow normal to the surface,
 ///     psi(F) = min over G of W(F G) + Y d + p_c v,   P = dpsi/dF = dW/d(F G) G,
 /// G = exp(-D_p) with the axes of F^t F, d^2 = D_p':D_p'/k of the deviator of D_p, v = tr D_p >= 0. Where q and p
-/// are within their limits, G = 1. Stated by squared stretches, all of it is smooth where a particle is turned
-/// inside out. Derived here; P against psi in tests/material/flowing_solid.cpp.
+/// are within their limits, G = 1. What is crushed to less than half its volume becomes harder, Y times
+/// 1 + ((1/2 - J)/J)^2, and does not flow when turned inside out, where flow would let F vanish; no tear
+/// closes to less than 3/5 of the volume, above which p grows with J. Derived here; P against psi, and that psi is the
+/// least: tests/material/flowing_solid.cpp.
 struct FlowingSolid {
     static constexpr double never = std::numeric_limits<double>::infinity();
 
     PolynomialSolid elastic;
     double yield_stress = never;   ///< Y
-    double tension_limit = never;  ///< of the mean stress
+    double tension_limit = never;  ///< p_c
 
+    /// Throws InputError for limits that are not above 0.
+    void validate() const {
+        for (const auto& [name, limit] :
+             {std::pair{"yield_stress", yield_stress}, {"tension_limit", tension_limit}})
+            if (!(limit > 0.0))
+                throw InputError(fmt::format(
+                    "{}: {} must be above 0; leave it out where there is none", name, limit));
+    }
     double stiffness() const { return elastic.stiffness(); }
     double yield_strain() const { return yield_stress / (2.0 * elastic.eta); }
     std::string describe() const {
@@ -61,6 +72,8 @@ struct FlowingSolid {
     }
 
   private:
+    static constexpr double crushed = 0.5, closed = 0.6;
+
     /// F^t F and what follows from it without its axes.
     template <int Dim>
     struct Stretch {
@@ -80,11 +93,11 @@ struct FlowingSolid {
         }
         static constexpr double factor = Dim == 3 ? 1.5 : 2.0;  // k
     };
-    /// `work`: what is spent, Y d + p_c v.
+    /// `work`: what is spent. `slope`: what its dependence on J adds to P, times cof F.
     template <int Dim>
     struct Return {
         SymTensor<Dim> G;
-        double work;
+        double work = 0.0, slope = 0.0;
     };
 
     /// tr tau/D, by tr F F^t and J.
@@ -93,127 +106,99 @@ struct FlowingSolid {
         return elastic.eta * trace / Dim +
                ((elastic.lambda + elastic.eta) * (J - 1.0) - elastic.eta) * J;
     }
+    double yield_stress_at(double J) const {
+        if (J < crushed && J > 0.0) {
+            const double less = (crushed - J) / J;
+            return yield_stress * (1.0 + less * less);
+        }
+        return J > 0.0 ? yield_stress : never;
+    }
+    /// Its derivative by J.
+    double hardening(double J) const {
+        return J < crushed ? -2.0 * yield_stress * crushed * (crushed - J) / (J * J * J) : 0.0;
+    }
     template <int Dim>
     bool bears(const Stretch<Dim>& s, double by = 1.0) const {
-        const double limit = by * yield_stress / elastic.eta;
+        const double limit = by * yield_stress_at(s.J) / elastic.eta;
         return !(s.spread2 > limit * limit) &&
-               !(mean_tension<Dim>(s.trace, s.J) > by * tension_limit);
+               !(s.J > closed && mean_tension<Dim>(s.trace, s.J) > by * tension_limit);
     }
     template <int Dim>
     [[gnu::noinline]] Mat<Dim> returned_stress(const Mat<Dim>& F, const Stretch<Dim>& trial) const {
-        const SymTensor<Dim> G = returned(trial).G;
-        return elastic.stress(F * G) * G;
+        const Return<Dim> back = returned(trial);
+        Mat<Dim> P = elastic.stress(F * back.G) * back.G;
+        if (back.slope != 0.0) P += back.slope * PolynomialSolid::cofactors(F);
+        return P;
     }
 
-    /// W by tr F F^t and J.
-    template <int Dim>
-    double stored(double trace, double J) const {
-        return 0.5 * elastic.eta * (trace - Dim) - elastic.eta * (J - 1.0) +
-               0.5 * (elastic.lambda + elastic.eta) * (J - 1.0) * (J - 1.0);
-    }
-    /// The growth = det G, 0 < growth < 1, at which the tension is at its limit and least is stored and spent: a
-    /// solid sheared by much can bear the same tension at another density. at(growth) returns tr F F^t and what
-    /// flow spends besides.
-    template <int Dim, class At>
-    double growth_at_the_limit(double J, const At& at) const {
-        constexpr int parts = 16;
-        const auto excess = [&](double growth) {
-            return mean_tension<Dim>(at(growth)[0], growth * J) - tension_limit;
+    /// det G at which the tension is at its limit, or the least there may be. trace(growth): tr F F^t there, on the
+    /// yield surface where that is reached. Sets the slope of what is spent.
+    template <int Dim, class Trace>
+    double growth_at_the_limit(double J, const Trace& trace, double& slope) const {
+        const auto excess = [&](double less) {
+            return mean_tension<Dim>(trace(1.0 - less), (1.0 - less) * J) - tension_limit;
         };
-        double best = 1.0, least = never, high = 1.0, f_high = excess(1.0);
-        for (int k = parts - 1; k >= 0; --k) {
-            const double stretch = static_cast<double>(k) / parts;
-            const double low = Dim == 2 ? stretch * stretch : stretch * stretch * stretch;
-            const double f_low = k == 0 ? -tension_limit : excess(low);
-            if (f_high > 0.0 && f_low <= 0.0) {
-                const double growth = high - falling_root(high - low, [&](double less) {
-                                          return less < high ? excess(high - less) : f_low;
-                                      });
-                const std::array<double, 2> there = at(growth);
-                const double cost =
-                    stored<Dim>(there[0], growth * J) + there[1] - tension_limit * std::log(growth);
-                if (cost < least) {
-                    least = cost;
-                    best = growth;
-                }
-            }
-            high = low;
-            f_high = f_low;
-        }
-        return best;
+        const double most = 1.0 - closed / J, left = excess(most);
+        if (!(left > 0.0)) return 1.0 - falling_root(most, excess);
+        slope = -left / J;  // beyond that tension is what is spent, not what is stored
+        return closed / J;
     }
 
     /// In the plane C has the squared stretches (tr C +- spread)/2, and G = a + b C.
     [[gnu::noinline]] Return<2> returned(const Stretch<2>& s) const {
-        const double eta = elastic.eta, spread = std::sqrt(s.spread2);
-        const double longer = 0.5 * (s.trace + spread);
-        const bool yields = eta * spread > yield_stress;
-        const auto beyond = [&](double growth) {
-            return yields && eta * growth * spread > yield_stress;
-        };
-        // On the surface: tr C, and the first stretch of G squared.
-        const auto sum = [&](double growth) {
+        const double spread = std::sqrt(s.spread2), longer = 0.5 * (s.trace + spread);
+        const double Y = yield_stress_at(s.J), gap = Y / elastic.eta;
+        const auto yields = [&](double growth) { return growth * spread > gap; };
+        const auto trace = [&](double growth) {
             const double J = growth * s.J;
-            return std::sqrt(yield_stress * yield_stress / (eta * eta) + 4.0 * J * J);
+            return yields(growth) ? std::sqrt(gap * gap + 4.0 * J * J) : growth * s.trace;
         };
-        const auto first2 = [&](double growth) {
-            return 0.5 * (yield_stress / eta + sum(growth)) / longer;
-        };
-        const auto flow_work = [&](double growth) {
-            return 0.5 * yield_stress * std::log(growth / first2(growth));
-        };
+        Return<2> r;
         double growth = 1.0;
-        if (mean_tension<2>(yields ? sum(1.0) : s.trace, s.J) > tension_limit) {
-            if (yields) {
-                growth = growth_at_the_limit<2>(s.J, [&](double g) {
-                    return beyond(g) ? std::array{sum(g), flow_work(g)}
-                                     : std::array{g * s.trace, 0.0};
-                });
-            } else {  // growth (A + B growth) = p_c
-                const double A = 0.5 * eta * s.trace - (elastic.lambda + 2.0 * eta) * s.J;
-                const double B = (elastic.lambda + eta) * s.J * s.J;
-                const double root = std::sqrt(A * A + 4.0 * B * tension_limit);
-                growth = A > 0.0 ? 2.0 * tension_limit / (A + root) : 0.5 * (root - A) / B;
-            }
+        if (s.J > closed && mean_tension<2>(trace(1.0), s.J) > tension_limit) {
+            growth = growth_at_the_limit<2>(s.J, trace, r.slope);
+            r.work = -tension_limit * std::log(growth);
         }
-        Return<2> r{{}, growth < 1.0 ? -tension_limit * std::log(growth) : 0.0};
-        double first = std::sqrt(growth), slope = 0.0;
-        if (beyond(growth)) {
-            first = std::sqrt(first2(growth));
-            slope = (first - growth / first) / spread;
-            r.work += flow_work(growth);
+        double first = std::sqrt(growth), difference = 0.0;
+        if (yields(growth)) {
+            first = std::sqrt(0.5 * (gap + trace(growth)) / longer);
+            difference = (first - growth / first) / spread;
+            const double strain = 0.5 * std::log(growth / (first * first));
+            r.work += Y * strain;
+            r.slope += hardening(s.J) * strain;
         }
-        r.G = slope * s.C;
-        for (int a = 0; a < 2; ++a) r.G(a, a) += first - slope * longer;
+        r.G = difference * s.C;
+        for (int a = 0; a < 2; ++a) r.G(a, a) += first - difference * longer;
         return r;
     }
 
     [[gnu::noinline]] Return<3> returned(const Stretch<3>& s) const {
-        const double eta = elastic.eta, spread = std::sqrt(s.spread2);
+        const double spread = std::sqrt(s.spread2);
+        const double Y = yield_stress_at(s.J), gap = Y / elastic.eta;
         const SymmetricEigen<3> principal = symmetric_eigen(s.C);
-        Deviator d(principal.value, yield_stress / eta);
+        Deviator surface(principal.value, gap);
         const auto scale2 = [](double growth) { return std::cbrt(growth * growth); };
-        const auto beyond = [&](double growth) {
-            return eta * scale2(growth) * spread > yield_stress;
+        const auto yields = [&](double growth) { return scale2(growth) * spread > gap; };
+        const auto trace = [&](double growth) {
+            if (!yields(growth)) return scale2(growth) * s.trace;
+            surface.close(s.J, growth);
+            return 3.0 * surface.mean;
         };
-        const auto flow_work = [&] {
-            return yield_stress * std::sqrt(2.0 / 3.0) * dot(d.n, d.strain);
-        };
-        const auto at = [&](double growth) {
-            if (!beyond(growth)) return std::array{scale2(growth) * s.trace, 0.0};
-            d.close(s.J, growth);
-            return std::array{3.0 * d.mean, flow_work()};
-        };
+        Return<3> r;
         double growth = 1.0;
-        if (mean_tension<3>(at(1.0)[0], s.J) > tension_limit) {
-            growth = growth_at_the_limit<3>(s.J, at);
-            at(growth);
+        if (s.J > closed && mean_tension<3>(trace(1.0), s.J) > tension_limit) {
+            growth = growth_at_the_limit<3>(s.J, trace, r.slope);
+            r.work = -tension_limit * std::log(growth);
         }
-        Return<3> r{{}, growth < 1.0 ? -tension_limit * std::log(growth) : 0.0};
         Vec<3> g;
-        for (int a = 0; a < 3; ++a)
-            g[a] = beyond(growth) ? std::exp(-d.strain[a]) : std::cbrt(growth);
-        if (beyond(growth)) r.work += flow_work();
+        for (double& x : g.c) x = std::cbrt(growth);
+        if (yields(growth)) {
+            surface.close(s.J, growth);
+            for (int a = 0; a < 3; ++a) g[a] = std::exp(-surface.strain[a]);
+            const double strain = std::sqrt(2.0 / 3.0) * dot(surface.n, surface.strain);
+            r.work += Y * strain;
+            r.slope += hardening(s.J) * strain;
+        }
         r.G = from_eigen(g, principal.vectors);
         return r;
     }

@@ -21,7 +21,9 @@ class HyperelasticMaterial {
     template <class Law>
     requires HyperelasticLaw<Law, Dim> || HyperelasticLawWithMemory<Law, Dim> HyperelasticMaterial(
         const Law& law)
-        : loop_(std::make_shared<LoopOver<Law>>(law)) {}
+        : loop_(std::make_shared<LoopOver<Law>>(law)) {
+        if constexpr (requires { law.validate(); }) law.validate();
+    }
 
     /// P of the particles with these numbers, rows of Dim x Dim numbers, `stride` numbers from one particle
     /// to the next, F given in the same way. False where one of them is not finite.

@@ -23,8 +23,9 @@ struct MaterialVectorScheme {
 ///
 ///     enter   a neighbour that is new within 1.1 h, where it weighs nothing: X_kj = F_k^-1 r_kj
 ///     leave   beyond that, with weight 0
-///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays; what
-///             that takes off the energy is heat()
+///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays. Rates are those
+///             of the returned stress within steps as well, and stay as they are: weights g(|X|) follow when
+///             rows are made anew. What flow and new weights take off the energy is heat()
 ///
 /// Between such changes the motion is Hamiltonian, at the first two the energy stays as it is: p is kept exactly, L
 /// and E to integrator error, and there is no tensile instability. Where a step is so long that somebody enters
@@ -84,6 +85,8 @@ class MaterialVectors final : public Term<Dim> {
     bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, double* records,
                bool& whole);
     bool flow(const ConstState<Dim>& state);
+    bool flow(std::size_t k, const ConstState<Dim>& state);
+    bool weigh(const ConstState<Dim>& state);
     bool update(const ConstState<Dim>& state);
     std::string complaint(const ConstState<Dim>& state) const;
 
