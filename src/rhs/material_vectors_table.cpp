@@ -3,7 +3,6 @@
 #include "material_vector_parts.hpp"
 #include <spam/core/sums.hpp>
 
-#include <array>
 #include <cmath>
 
 namespace spam {
@@ -68,77 +67,12 @@ template <int Dim>
 bool MaterialVectors<Dim>::settle(double, const State<Dim>& state) {
     const ConstState<Dim> now(state);
     bool changed = material_.flows() && flow(now);
+    if (parts_->brittle) changed = break_bonds(now) || changed;
     if (!parts_->table.serves(state.position())) {
         if (material_.flows()) changed = weigh(now) || changed;
         changed = update(now) || changed;
     }
     return changed;
-}
-
-/// F <- F G, X <- G^-1 X: F X stays. So does g until rows are made anew: then F is the same fit, and rates change by
-/// rounding alone.
-template <int Dim>
-bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
-    Parts& p = *parts_;
-    const double* const x = state.position().data();
-    load(x);
-    const BondView<Dim> view = p.view();
-    const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
-    const std::size_t each = p.table.block / lanes;
-    return parallel_count(
-               p.table.blocks(),
-               [&](std::size_t b) {
-                   using Record = BondRecord<Dim>;
-                   std::array<double, BondTable<Dim>::block * Record::numbers> records;
-                   const std::size_t first = b * each,
-                                     last = std::min(p.table.groups(), first + each);
-                   p.sweeps.fit(view, p.x.data(), records.data(), first, last);
-                   std::size_t flowed = 0;
-                   for (std::size_t k = first * lanes; k < std::min(last * lanes, view.particles);
-                        ++k) {
-                       Mat<Dim> F;
-                       std::copy_n(&records[(k - first * lanes) * Record::numbers + Record::F],
-                                   F.c.size(), F.c.begin());
-                       flowed += material_.flow(F) && flow(k, state);
-                   }
-                   return flowed;
-               },
-               p.table.block) > 0;
-}
-
-template <int Dim>
-bool MaterialVectors<Dim>::flow(std::size_t k, const ConstState<Dim>& state) {
-    Parts& p = *parts_;
-    const double* const x = state.position().data();
-    const Fit before = fit(x, k);
-    if (!Wholeness::of(before.K, p.N0).spans()) return false;
-    const std::optional<Mat<Dim>> G = material_.flow(before.F);
-    if (!G) return false;
-    const Mat<Dim> back = inverse(*G);
-    for (std::size_t m = 0; m < p.table.row(k); ++m)
-        p.table.set_bond(k, m, back * p.table.X(k, m), p.table.g(k, m));
-    p.heat[k] += energy_of(before, k, state) - energy_of(fit(x, k), k, state);
-    return true;
-}
-
-/// g by the vectors, where these have changed by flow.
-template <int Dim>
-bool MaterialVectors<Dim>::weigh(const ConstState<Dim>& state) {
-    Parts& p = *parts_;
-    const double* const x = state.position().data();
-    return parallel_count(p.numbers.size(), [&](std::size_t k) -> std::size_t {
-               std::size_t m = 0;
-               const auto changed = [&] {
-                   const Vec<Dim> X = p.table.X(k, m);
-                   return p.table.g(k, m) != material_weight(std::sqrt(dot(X, X)), scheme_.range);
-               };
-               while (m < p.table.row(k) && !changed()) ++m;
-               if (m == p.table.row(k)) return 0;
-               const double before = energy_of(fit(x, k), k, state);
-               for (; m < p.table.row(k); ++m) p.table.set_X(k, m, p.table.X(k, m));
-               p.heat[k] += before - energy_of(fit(x, k), k, state);
-               return 1;
-           }) > 0;
 }
 
 /// Whether somebody has entered who weighs something: else the rates are the same bits as before.
@@ -166,6 +100,7 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
             entered[k] = 1;
         return X;
     });
+    exclude(x);
     return parallel_count(n, [&](std::size_t k) -> std::size_t {
                if (entered[k] == 0) return 0;
                p.heat[k] += before[k] - energy_of(fit(x, k), k, state);
@@ -216,9 +151,6 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template double MaterialVectors<D>::energy(std::span<const double>) const;                   \
     template double MaterialVectors<D>::heat() const;                                            \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
-    template bool MaterialVectors<D>::flow(const ConstState<D>&);                                \
-    template bool MaterialVectors<D>::flow(std::size_t, const ConstState<D>&);                   \
-    template bool MaterialVectors<D>::weigh(const ConstState<D>&);                               \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
     template std::vector<Mat<D>> MaterialVectors<D>::deformation_gradients(                      \
         std::span<const double>) const;                                                          \
