@@ -116,13 +116,10 @@ void BondRows<Dim>::leave(std::size_t k, std::size_t m) {
     --bonds_;
 }
 
-/// Where k stands in the row of its partner: probably near the end.
 template <int Dim>
 void BondRows<Dim>::find_way_back(std::size_t k, std::size_t m) {
     const std::size_t j = partner(k, m);
-    std::size_t back = row(j) - 1;
-    while (partner(j, back) != k) --back;
-    reverse_[slot(k, m)] = place(j, back);
+    reverse_[slot(k, m)] = place(j, place_of(j, k));
 }
 
 /// What the rows hold, one after the other.

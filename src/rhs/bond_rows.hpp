@@ -29,6 +29,16 @@ class BondRows {
     std::size_t row(std::size_t k) const { return count_[k]; }  ///< with vacancies
     bool vacant(std::size_t k, std::size_t m) const { return partner(k, m) == k; }
     std::uint32_t partner(std::size_t k, std::size_t m) const { return partner_[slot(k, m)]; }
+    /// Where j stands in the row of k, which has it; probably near the end.
+    std::size_t place_of(std::size_t k, std::size_t j) const {
+        std::size_t m = row(k) - 1;
+        while (partner(k, m) != j) --m;
+        return m;
+    }
+    /// Where k stands in the row of the partner of its bond m.
+    std::size_t way_back(std::size_t k, std::size_t m) const {
+        return (reverse_[slot(k, m)] - first_[partner(k, m) / lanes_]) / lanes_;
+    }
     Vec<Dim> X(std::size_t k, std::size_t m) const;
     double g(std::size_t k, std::size_t m) const { return vectors_[number(k, m, Dim)]; }
     void set(std::size_t k, std::size_t m, const Vec<Dim>& X, double g);

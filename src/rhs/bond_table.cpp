@@ -71,7 +71,12 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, const BondSweeps<Di
 
 template <int Dim>
 void BondTable<Dim>::set_X(std::size_t k, std::size_t m, const Vec<Dim>& X) {
-    rows_.set(k, m, X, material_weight(std::sqrt(dot(X, X)), range_));
+    set_bond(k, m, X, material_weight(std::sqrt(dot(X, X)), range_));
+}
+
+template <int Dim>
+void BondTable<Dim>::set_bond(std::size_t k, std::size_t m, const Vec<Dim>& X, double g) {
+    rows_.set(k, m, X, g);
 }
 
 template <int Dim>

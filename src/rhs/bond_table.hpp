@@ -46,10 +46,16 @@ class BondTable {
     /// No bond, but the place of one: of weight 0.
     bool vacant(std::size_t k, std::size_t m) const { return rows_.vacant(k, m); }
     std::uint32_t partner(std::size_t k, std::size_t m) const { return rows_.partner(k, m); }
+    /// Where j stands in the row of k, which has it.
+    std::size_t place_of(std::size_t k, std::size_t j) const { return rows_.place_of(k, j); }
+    /// Where k stands in the row of the partner of its bond m.
+    std::size_t way_back(std::size_t k, std::size_t m) const { return rows_.way_back(k, m); }
     Vec<Dim> X(std::size_t k, std::size_t m) const { return rows_.X(k, m); }
     double g(std::size_t k, std::size_t m) const { return rows_.g(k, m); }
-    /// The partner sees no change: its vector to k is another one.
+    /// The partner sees no change: its vector to k is another one. g is that of X.
     void set_X(std::size_t k, std::size_t m, const Vec<Dim>& X);
+    /// The same with another g, which stays until X is set again or rows are made anew.
+    void set_bond(std::size_t k, std::size_t m, const Vec<Dim>& X, double g);
     /// x_j - x_k, the nearest image.
     Vec<Dim> separation(const double* x, std::size_t k, std::size_t j) const;
 
