@@ -28,6 +28,10 @@ typename MaterialVectors<Dim>::Fit MaterialVectors<Dim>::fit(const double* x, st
         e -= fit.F * table.X(k, m);
         fit.misfit += weight(m, r) * dot(e, e);
     }
+    // F minimises both together: where it matters, along rows of particles, forces are the slope of both.
+    double square = -Dim;
+    for (const double f : fit.F.c) square += f * f;
+    fit.misfit += parts_->little() * square;
     return fit;
 }
 
@@ -61,6 +65,11 @@ double MaterialVectors<Dim>::heat() const {
     CompensatedSum sum;
     for (const double heat : parts_->heat) sum += heat;
     return sum;
+}
+
+template <int Dim>
+const std::vector<double>& MaterialVectors<Dim>::heat_of_particles() const {
+    return parts_->heat;
 }
 
 template <int Dim>
@@ -161,6 +170,7 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template std::vector<double> MaterialVectors<D>::energies(const ConstState<D>&) const;       \
     template double MaterialVectors<D>::energy(std::span<const double>) const;                   \
     template double MaterialVectors<D>::heat() const;                                            \
+    template const std::vector<double>& MaterialVectors<D>::heat_of_particles() const;           \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
     template bool MaterialVectors<D>::flow(const ConstState<D>&);                                \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
