@@ -28,10 +28,6 @@ typename MaterialVectors<Dim>::Fit MaterialVectors<Dim>::fit(const double* x, st
         e -= fit.F * table.X(k, m);
         fit.misfit += weight(m, r) * dot(e, e);
     }
-    // F minimises both together: where it matters, along rows of particles, forces are the slope of both.
-    double square = -Dim;
-    for (const double f : fit.F.c) square += f * f;
-    fit.misfit += parts_->little() * square;
     return fit;
 }
 
@@ -39,8 +35,8 @@ template <int Dim>
 double MaterialVectors<Dim>::energy_of(const Fit& fit, std::size_t k,
                                        const ConstState<Dim>& state) const {
     const double V = parts_->volume[k], th = Wholeness::of(fit.K, parts_->N0).th;
-    const double misfit = 0.5 * V * parts_->stiffness * fit.misfit;
-    return th == 0.0 ? misfit : V * th * material_.energy(k, fit.F, state) + misfit;
+    if (th == 0.0) return 0.0;
+    return V * th * (material_.energy(k, fit.F, state) + 0.5 * parts_->stiffness * fit.misfit);
 }
 
 template <int Dim>
