@@ -33,7 +33,9 @@ void add_options(Options& options, Parameters& p) {
                    positive());
     options.number("core", p.matter.core,
                    "energy of the core that keeps two particles apart; 0 for none", non_negative());
-    options.number("core-range", p.matter.core_range, "distance at which cores touch", positive())
+    options
+        .number("core-range", p.matter.core_range, "distance at which cores touch",
+                between(0.01, 100.0))
         .only_when(
             {"core"}, [&p] { return p.matter.core > 0.0; },
             "has no meaning without a core; give --core 1, or leave it out");
@@ -41,16 +43,17 @@ void add_options(Options& options, Parameters& p) {
         "contact", p.contact_kind, {ContactKind::repulsive, ContactKind::none},
         "with repulsive, particles of projectile and bar only push each other away; with none they "
         "become neighbours like any others, and are welded");
-    options
-        .number("contact-energy", p.contact.energy, "energy e_c of the contact", positive())
-        .only_when({"contact"}, [&p] { return p.repulsion().has_value(); },
-                   "has no meaning without a contact; give --contact repulsive");
+    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive())
+        .only_when(
+            {"contact"}, [&p] { return p.repulsion().has_value(); },
+            "has no meaning without a contact; give --contact repulsive");
     options
         .number("contact-range", p.contact.range,
                 "distance at which particles of projectile and bar touch, at most a spacing",
                 positive())
-        .only_when({"contact"}, [&p] { return p.repulsion().has_value(); },
-                   "has no meaning without a contact; give --contact repulsive");
+        .only_when(
+            {"contact"}, [&p] { return p.repulsion().has_value(); },
+            "has no meaning without a contact; give --contact repulsive");
 }
 
 }  // namespace
@@ -58,7 +61,7 @@ void add_options(Options& options, Parameters& p) {
 
 int main(int argc, char** argv) {
     using namespace spam;
-    Problem problem("pierced_bar", "a projectile goes through a bar that flows and breaks", 0.1);
+    Problem problem("pierced_bar", "a projectile goes through a bar that flows and breaks", 0.025);
     pierced_bar::Parameters p;
     pierced_bar::add_options(problem.options(), p);
     return problem.main(argc, argv, [&](Session& session) {
@@ -74,11 +77,11 @@ int main(int argc, char** argv) {
         PiecesInMotion pieces(pierced_bar::least_particles);
         plan.observe(pieces.observer());
         std::vector<breaking::HeatFrame> frames;
-        for (const double part : {0.0, 0.1, 0.25, 1.0}) frames.push_back({part * plan.t_end});
+        for (const double part : {0.0, 0.075, 0.15, 0.35}) frames.push_back({part * plan.t_end});
         plan.observe(keep_frames(frames, *shot.law));
         const auto run = session.run<2>(*shot.model, shot.y0, std::move(plan));
         pierced_bar::write_pieces(session.folder(), pieces);
-        pierced_bar::report(session, p, run, pieces);
-        if (session.plots()) pierced_bar::draw(session, p, frames, run, pieces);
+        pierced_bar::report(session, run, pieces);
+        if (session.plots()) pierced_bar::draw(session, frames, run, pieces);
     });
 }

@@ -57,8 +57,8 @@ std::vector<PiecesInMotion::Flight> PiecesInMotion::flights() const {
     for (const Piece& last : rows_.back().pieces) {
         Flight flight{last, {}, {}, {}};
         for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
-            const auto same = std::find_if(
-                row->pieces.begin(), row->pieces.end(), [&last](const Piece& p) {
+            const auto same =
+                std::find_if(row->pieces.begin(), row->pieces.end(), [&last](const Piece& p) {
                     return p.key == last.key && p.particles == last.particles;
                 });
             if (same == row->pieces.end()) break;
@@ -79,10 +79,11 @@ double PiecesInMotion::Flight::spin_change() const {
     return change;
 }
 
-double PiecesInMotion::Flight::turned() const {
-    double angle = 0.0;
+std::vector<double> PiecesInMotion::Flight::angles() const {
+    std::vector<double> angle(t.size(), 0.0);
     for (std::size_t k = 1; k < t.size(); ++k)
-        angle += 0.5 * (t[k] - t[k - 1]) * (angular_velocity[k] + angular_velocity[k - 1]);
+        angle[k] = angle[k - 1] +
+                   0.5 * (t[k] - t[k - 1]) * (angular_velocity[k] + angular_velocity[k - 1]);
     return angle;
 }
 

@@ -17,9 +17,7 @@ struct Piece {
     double inertia = 0.0;  ///< moment of inertia about that
     double angular_velocity() const { return spin / inertia; }
 
-    void remember(Archive& a) {
-        a(particles, key, mass, position, velocity, spin, inertia);
-    }
+    void remember(Archive& a) { a(particles, key, mass, position, velocity, spin, inertia); }
 };
 
 /// Of `least` particles or more, in the order of their first particles.
@@ -37,8 +35,8 @@ class PiecesInMotion {
     struct Flight {
         Piece last;
         std::vector<double> t, spin, angular_velocity;
-        double spin_change() const;  ///< the largest
-        double turned() const;       ///< the angle, by trapezia
+        double spin_change() const;          ///< the largest
+        std::vector<double> angles() const;  ///< by which it has turned, by trapezia
     };
 
     explicit PiecesInMotion(std::size_t least) : least_(least) {}

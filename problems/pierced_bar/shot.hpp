@@ -17,7 +17,7 @@ std::string_view to_string(ContactKind kind);
 
 struct Parameters {
     Target target{.offset = 0.0};
-    breaking::FlowingMatter matter;
+    breaking::FlowingMatter matter{.core = 1.0};
     ContactKind contact_kind = ContactKind::repulsive;
     ContactScheme contact{.energy = 1.0};
 
@@ -38,15 +38,14 @@ constexpr std::size_t least_particles = 5;
 
 Shot make_shot(const Parameters& p);
 
-/// `plastic_heat`, `pieces`, `largest_piece`, `projectile_speed`, `closest_pair`.
+/// `plastic_heat`, `pieces`, `largest_piece`, `closest_pair`.
 std::vector<Column<2>> columns_of(const Shot& shot);
 
 /// pieces.csv: where every piece is at every row, and how it turns.
 void write_pieces(const RunFolder& folder, const PiecesInMotion& pieces);
 
-void report(Session& session, const Parameters& p, const RunRecord& run,
-            const PiecesInMotion& pieces);
-void draw(Session& session, const Parameters& p, const std::vector<breaking::HeatFrame>& frames,
-          const RunRecord& run, const PiecesInMotion& pieces);
+void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces);
+void draw(Session& session, const std::vector<breaking::HeatFrame>& frames, const RunRecord& run,
+          const PiecesInMotion& pieces);
 
 }  // namespace pierced_bar
