@@ -29,9 +29,14 @@ Vec<Dim> BondTable<Dim>::Rows::X(std::size_t k, std::size_t m) const {
 
 template <int Dim>
 void BondTable<Dim>::set_X(std::size_t k, std::size_t m, const Vec<Dim>& X) {
+    set_bond(k, m, X, material_weight(std::sqrt(dot(X, X)), range_));
+}
+
+template <int Dim>
+void BondTable<Dim>::set_bond(std::size_t k, std::size_t m, const Vec<Dim>& X, double g) {
     for (int a = 0; a < Dim; ++a)
         rows_.vectors[rows_.number(k, m, static_cast<std::size_t>(a))] = X[a];
-    rows_.vectors[rows_.number(k, m, Dim)] = material_weight(std::sqrt(dot(X, X)), range_);
+    rows_.vectors[rows_.number(k, m, Dim)] = g;
 }
 
 template <int Dim>
@@ -179,6 +184,7 @@ void BondTable<Dim>::remember(Archive& archive) {
             partners.push_back(partner(k, m));
             const Vec<Dim> one = X(k, m);
             vectors.insert(vectors.end(), one.c.begin(), one.c.end());
+            vectors.push_back(g(k, m));
         }
     archive(built_at_, count, partners, vectors);
     if (!archive.reading()) return;
@@ -190,8 +196,8 @@ void BondTable<Dim>::remember(Archive& archive) {
         for (std::size_t m = 0; m < row(k); ++m, ++at) {
             rows_.partner[rows_.slot(k, m)] = partners[at];
             Vec<Dim> one;
-            std::copy_n(&vectors[at * Dim], Dim, one.c.begin());
-            set_X(k, m, one);
+            std::copy_n(&vectors[at * (Dim + 1)], Dim, one.c.begin());
+            set_bond(k, m, one, vectors[at * (Dim + 1) + Dim]);
         }
     find_reverse();
     find_reach();

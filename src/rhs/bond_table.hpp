@@ -42,8 +42,10 @@ class BondTable {
     }
     Vec<Dim> X(std::size_t k, std::size_t m) const { return rows_.X(k, m); }
     double g(std::size_t k, std::size_t m) const { return rows_.vectors[rows_.number(k, m, Dim)]; }
-    /// The partner sees no change: its vector to k is another one.
+    /// The partner sees no change: its vector to k is another one. g is that of X.
     void set_X(std::size_t k, std::size_t m, const Vec<Dim>& X);
+    /// The same with another g, which stays until X is set again or rows are made anew.
+    void set_bond(std::size_t k, std::size_t m, const Vec<Dim>& X, double g);
     /// x_j - x_k, the nearest image.
     Vec<Dim> separation(const double* x, std::size_t k, std::size_t j) const;
 

@@ -8,6 +8,8 @@
 #include <spam/rhs/material_vectors.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace spam {
 
@@ -22,6 +24,35 @@ struct MaterialVectors<Dim>::Parts {
     double stiffness = 0.0;  ///< c_k/V_k = kappa eta/N0
     std::vector<std::uint32_t> numbers{};
     std::vector<unsigned char> left{};  ///< by block
+    double misfit_limit = HUGE_VAL;     ///< |e|/|F X|
+    bool brittle = false;
+    BondBreaks breaks{};
+    std::size_t told = 0;  ///< pairs, by the latest remark
+    /// Pairs k < j that have broken and have not been apart since, ascending.
+    std::vector<std::array<std::uint32_t, 2>> excluded{};
+    std::vector<unsigned char> breaking{};  ///< by particle
+    std::vector<SymTensor<Dim>> tau{};      ///< likewise
+
+    void book(std::size_t k, double loss) { heat[k] += loss; }
+    /// Where j stands in the row of k, which has it.
+    std::size_t place(std::size_t k, std::size_t j) const {
+        std::size_t low = 0, high = table.row(k);
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            if (table.partner(k, middle) < j)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low;
+    }
+    /// No weight for the bonds of this pair.
+    void part(const std::array<std::uint32_t, 2>& pair) {
+        for (const auto& [k, j] : {pair, {pair[1], pair[0]}}) {
+            const std::size_t m = place(k, j);
+            table.set_bond(k, m, table.X(k, m), 0.0);
+        }
+    }
 
     double little() const { return 1e-13 * N0; }
     BondView<Dim> view() {

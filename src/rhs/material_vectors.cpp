@@ -30,6 +30,19 @@ MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particl
             "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
             "another material",
             scheme.penalty, material.stiffness()));
+    if (!(scheme.bond_yield >= 0.0) || !std::isfinite(scheme.bond_yield))
+        throw InputError(fmt::format(
+            "bond_yield: {} must be a number not below 0, in yield strains; try 4, or 0 "
+            "for bonds that do not yield",
+            scheme.bond_yield));
+    if (!(scheme.stretch_limit > 1.0))
+        throw InputError(fmt::format(
+            "stretch_limit: {} must be above 1; leave it out where bonds do not break by stretch",
+            scheme.stretch_limit));
+    if (!(scheme.stress_limit > 0.0))
+        throw InputError(fmt::format(
+            "stress_limit: {} must be above 0; leave it out where bonds do not break by stress",
+            scheme.stress_limit));
     if (!material.history().empty())
         throw InputError(fmt::format(
             "material: '{}' remembers its plastic flow from a reference configuration, and material "
@@ -85,6 +98,8 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     }
     if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
     p.stiffness = scheme.penalty * material.stiffness() / p.N0;
+    if (scheme.bond_yield > 0.0) p.misfit_limit = scheme.bond_yield * material.yield_strain();
+    p.brittle = std::min(scheme.stretch_limit, scheme.stress_limit) < HUGE_VAL;
     for (std::size_t k = 0; k < n; ++k) p.volume.push_back(all.mass[k] / scheme.density);
 }
 
@@ -202,13 +217,22 @@ std::size_t MaterialVectors<Dim>::list_builds() const {
 
 template <int Dim>
 void MaterialVectors<Dim>::remember(Archive& archive) {
-    archive(parts_->heat, parts_->table);
+    Parts& p = *parts_;
+    archive(p.heat, p.table, p.excluded, p.breaks, p.told);
 }
 
 template <int Dim>
 std::string MaterialVectors<Dim>::describe() const {
-    return fmt::format("material vectors, {}, density {:.6g}, range {}, penalty kappa = {}",
-                       material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+    std::string words =
+        fmt::format("material vectors, {}, density {:.6g}, range {}, penalty kappa = {}",
+                    material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+    if (parts_->misfit_limit < HUGE_VAL)
+        words += fmt::format(", bonds yield at {:g} yield strains", scheme_.bond_yield);
+    if (scheme_.stretch_limit < HUGE_VAL)
+        words += fmt::format(", bonds break at {:g} times their length", scheme_.stretch_limit);
+    if (scheme_.stress_limit < HUGE_VAL)
+        words += fmt::format(", bonds break at stress {:g}", scheme_.stress_limit);
+    return words;
 }
 
 template class MaterialVectors<2>;

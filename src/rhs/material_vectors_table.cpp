@@ -70,26 +70,14 @@ const std::vector<double>& MaterialVectors<Dim>::heat_of_particles() const {
 
 template <int Dim>
 bool MaterialVectors<Dim>::settle(double, const State<Dim>& state) {
-    const bool flowed = material_.flows() && flow(ConstState<Dim>(state));
-    return (!parts_->table.serves(state.position()) && update(ConstState<Dim>(state))) || flowed;
-}
-
-/// F <- F G, X <- G^-1 X: F X stays.
-template <int Dim>
-bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
-    Parts& p = *parts_;
-    const double* const x = state.position().data();
-    return parallel_count(p.numbers.size(), [&](std::size_t k) -> std::size_t {
-               const Fit before = fit(x, k);
-               if (!Wholeness::of(before.K, p.N0).spans()) return 0;
-               const std::optional<Mat<Dim>> G = material_.flow(before.F);
-               if (!G) return 0;
-               const Mat<Dim> back = inverse(*G);
-               for (std::size_t m = 0; m < p.table.row(k); ++m)
-                   p.table.set_X(k, m, back * p.table.X(k, m));
-               p.heat[k] += energy_of(before, k, state) - energy_of(fit(x, k), k, state);
-               return 1;
-           }) > 0;
+    const ConstState<Dim> now(state);
+    bool changed = material_.flows() && flow(now);
+    if (parts_->brittle) changed = break_bonds(now) || changed;
+    if (!parts_->table.serves(state.position())) {
+        if (material_.flows()) changed = weigh(now) || changed;
+        changed = update(now) || changed;
+    }
+    return changed;
 }
 
 /// Whether somebody has entered who weighs something: else the rates are the same bits as before.
@@ -117,6 +105,7 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
             entered[k] = 1;
         return X;
     });
+    exclude(x);
     return parallel_count(n, [&](std::size_t k) -> std::size_t {
                if (entered[k] == 0) return 0;
                p.heat[k] += before[k] - energy_of(fit(x, k), k, state);
@@ -168,7 +157,6 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template double MaterialVectors<D>::heat() const;                                            \
     template const std::vector<double>& MaterialVectors<D>::heat_of_particles() const;           \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
-    template bool MaterialVectors<D>::flow(const ConstState<D>&);                                \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
     template std::vector<Mat<D>> MaterialVectors<D>::deformation_gradients(                      \
         std::span<const double>) const;                                                          \

@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(a_hexagon_spun_to_pieces) {
     MaterialVectorModel<2> model(make_particles<2>(triangular_hexagon(8), 1.0),
                                  FlowingSolid{solid, 0.05, 0.05}, {rho});
     const auto y0 = initial_state<2>(model, 1.0, 1.0, rigid_rotation(0.8 / 8));
-    Motion<2> motion(model, y0, {.method = "rk4", .dt = 0.1});
+    Motion<2> motion(model, y0, {.method = "rk4", .dt = 0.05});
     const auto start = measure_invariants(model, motion.y());
     motion.advance_to(effort(150.0, 40.0));
     const auto end = measure_invariants(model, motion.y());

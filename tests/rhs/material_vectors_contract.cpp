@@ -7,6 +7,7 @@
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/diagnostics/total_energy.hpp>
+#include <spam/material/flowing_solid.hpp>
 #include <spam/material/hencky_solid.hpp>
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
@@ -28,7 +29,9 @@ const MaterialVectorScheme usual{1.2, 2.6, 1.0};
 
 /// A block that is sheared until all have other neighbours.
 struct Sheared {
-    MaterialVectorModel<2> model{make_particles<2>(triangular_block(12, 12), 1.0), solid, usual};
+    explicit Sheared(const HyperelasticMaterial<2>& law = solid)
+        : model(make_particles<2>(triangular_block(12, 12), 1.0), law, usual) {}
+    MaterialVectorModel<2> model;
     std::vector<double> y0 = initial_state<2>(
         model, 1.2, 0.43, [](const Point<2>& x) { return Point<2>(0.25 * x.y(), 0.0); });
 };
@@ -45,13 +48,14 @@ std::string refused(const MaterialVectorScheme& scheme, const HyperelasticMateri
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(threads_leave_no_trace) {
+namespace {
+void check_threads(const HyperelasticMaterial<2>& law) {
     const auto particles = jittered_particles<2>(40, 102);
     BOOST_TEST(particles.size() > parallel_threshold);
     std::vector<Bits> outcomes;
     for (const int threads : {1, 2, 3}) {
         set_threads(threads);
-        MaterialVectorModel<2> model(particles, solid, usual);
+        MaterialVectorModel<2> model(particles, law, usual);
         auto y = moved(model, 0.2, 103), other = moved(model, 0.6, 104);
         Bits all = rates_of(model, y);
         model.settle(0.0, other);
@@ -63,6 +67,12 @@ BOOST_AUTO_TEST_CASE(threads_leave_no_trace) {
     set_threads(1);
     BOOST_TEST((outcomes[0] == outcomes[1]));
     BOOST_TEST((outcomes[0] == outcomes[2]));
+}
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(threads_leave_no_trace) {
+    check_threads(solid);
+    check_threads(FlowingSolid{solid, 0.05, 0.03});
 }
 
 BOOST_AUTO_TEST_CASE(states_that_are_not_accepted_leave_no_trace) {
@@ -80,34 +90,36 @@ BOOST_AUTO_TEST_CASE(restarts_while_neighbours_change) {
          {IntegratorOptions{.method = "leapfrog", .dt = 0.2},
           IntegratorOptions{.method = "rk4", .dt = 0.2},
           IntegratorOptions{.method = "arkode:DORMAND_PRINCE_7_4_5", .dt = {}}}) {
-        BOOST_TEST_CONTEXT(options.method) {
-            Sheared first;
-            Motion<2> motion(first.model, first.y0, options);
-            motion.advance_to(4.0);
-            Archive written;
-            motion.remember(written);
-            Archive back(written.bytes());
-            motion.remember(back);
-            const Bits half = bits(motion.y());
-            const std::size_t pairs = first.model.pairs(), builds = first.model.list_builds();
-            motion.advance_to(8.0);
-            BOOST_TEST(builds > 2U);
-            BOOST_TEST(first.model.list_builds() > builds);
+        for (const HyperelasticMaterial<2>& law :
+             {HyperelasticMaterial<2>(solid), HyperelasticMaterial<2>(FlowingSolid{solid, 0.05})})
+            BOOST_TEST_CONTEXT(options.method << ", " << law.describe()) {
+                Sheared first(law);
+                Motion<2> motion(first.model, first.y0, options);
+                motion.advance_to(4.0);
+                Archive written;
+                motion.remember(written);
+                Archive back(written.bytes());
+                motion.remember(back);
+                const Bits half = bits(motion.y());
+                const std::size_t pairs = first.model.pairs(), builds = first.model.list_builds();
+                motion.advance_to(8.0);
+                BOOST_TEST(builds > 2U);
+                BOOST_TEST(first.model.list_builds() > builds);
 
-            for (const bool remembers : {true, false}) {
-                Sheared second;
-                BOOST_TEST(second.model.pairs() != pairs);
-                Motion<2> again(second.model, half, options, remembers ? 0.0 : 4.0);
-                if (remembers) {
-                    Archive reading(written.bytes());
-                    again.remember(reading);
-                    reading.expect_end();
-                    BOOST_TEST(second.model.pairs() == pairs);
+                for (const bool remembers : {true, false}) {
+                    Sheared second(law);
+                    BOOST_TEST(second.model.pairs() != pairs);
+                    Motion<2> again(second.model, half, options, remembers ? 0.0 : 4.0);
+                    if (remembers) {
+                        Archive reading(written.bytes());
+                        again.remember(reading);
+                        reading.expect_end();
+                        BOOST_TEST(second.model.pairs() == pairs);
+                    }
+                    again.advance_to(8.0);
+                    BOOST_TEST((bits(again.y()) == bits(motion.y())) == remembers);
                 }
-                again.advance_to(8.0);
-                BOOST_TEST((bits(again.y()) == bits(motion.y())) == remembers);
             }
-        }
     }
 }
 

@@ -50,11 +50,14 @@ concept HyperelasticLawWithRates = HyperelasticLawWithMemory<Law, Dim> &&
 };
 
 /// One that flows where neighbours remember the material (physics/material_vectors.hpp): flow(F) is the G by
-/// which F is returned, F <- F G, where the stress is beyond what the law bears; nothing where it is not. Its
-/// stress and energy are those of the elastic part alone.
+/// which F is returned, F <- F G, where the stress is beyond what the law bears; nothing where it is not. `energy`
+/// holds what such a return would spend, and `stress` is its derivative: the return changes neither the
+/// stress, stress(F) = stress(F G) G^t, nor the energy with what is spent. `yield_strain`: the deviatoric
+/// strain at which it flows, infinite where it does not.
 template <class Law, int Dim>
 concept FlowingLaw = HyperelasticLaw<Law, Dim> && requires(const Law law, Mat<Dim> F) {
     { law.flow(F) } -> std::same_as<std::optional<Mat<Dim>>>;
+    { law.yield_strain() } -> std::convertible_to<double>;
 };
 
 }  // namespace spam

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,7 +21,9 @@ class HyperelasticMaterial {
     template <class Law>
     requires HyperelasticLaw<Law, Dim> || HyperelasticLawWithMemory<Law, Dim> HyperelasticMaterial(
         const Law& law)
-        : loop_(std::make_shared<LoopOver<Law>>(law)) {}
+        : loop_(std::make_shared<LoopOver<Law>>(law)) {
+        if constexpr (requires { law.validate(); }) law.validate();
+    }
 
     /// P of the particles with these numbers, rows of Dim x Dim numbers, `stride` numbers from one particle
     /// to the next, F given in the same way. False where one of them is not finite.
@@ -50,6 +53,8 @@ class HyperelasticMaterial {
     /// Whether the law is a FlowingLaw, and its flow.
     bool flows() const { return loop_->flows(); }
     std::optional<Mat<Dim>> flow(const Mat<Dim>& F) const { return loop_->flow(F); }
+    /// Infinite where the law does not flow.
+    double yield_strain() const { return loop_->yield_strain(); }
     double stiffness() const { return loop_->stiffness(); }
     std::string describe() const { return loop_->describe(); }
 
@@ -67,6 +72,7 @@ class HyperelasticMaterial {
         virtual bool keeps_energy() const = 0;
         virtual bool flows() const = 0;
         virtual std::optional<Mat<Dim>> flow(const Mat<Dim>&) const = 0;
+        virtual double yield_strain() const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
     };
@@ -132,6 +138,10 @@ class HyperelasticMaterial {
         std::optional<Mat<Dim>> flow([[maybe_unused]] const Mat<Dim>& F) const override {
             if constexpr (FlowingLaw<Law, Dim>) return law.flow(F);
             return {};
+        }
+        double yield_strain() const override {
+            if constexpr (FlowingLaw<Law, Dim>) return law.yield_strain();
+            return std::numeric_limits<double>::infinity();
         }
         double stiffness() const override { return law.stiffness(); }
         std::string describe() const override { return law.describe(); }

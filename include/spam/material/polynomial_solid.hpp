@@ -36,7 +36,6 @@ struct PolynomialSolid {
         return eta * F + ((lambda + eta) * (determinant(F) - 1.0) - eta) * cofactors(F);
     }
 
-  private:
     /// d det F / dF
     template <int Dim>
     static Mat<Dim> cofactors(const Mat<Dim>& F) {

@@ -4,6 +4,7 @@
 #include <spam/material/hyperelastic_material.hpp>
 #include <spam/rhs/particle_model.hpp>
 
+#include <limits>
 #include <memory>
 
 namespace spam {
@@ -15,6 +16,25 @@ struct MaterialVectorScheme {
     /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness: stable for
     /// 1.5 times the largest tension or more; above 3 short waves become stiff.
     double penalty = 1.0;
+    /// Where the law yields: no misfit e_kj is longer than this times the yield strain Y/(2 eta) times
+    /// |F_k X_kj|; 0: misfits do not flow. Without, plastic flow leaves misfits that harden the body; 2 or less
+    /// lets particles clump.
+    double bond_yield = 0.0;
+    /// A pair breaks for good where the distance is more than this times one of its material vectors, and ...
+    double stretch_limit = std::numeric_limits<double>::infinity();
+    /// ... where the mean of the Kirchhoff stresses of its two particles pulls along it by more than this.
+    double stress_limit = std::numeric_limits<double>::infinity();
+};
+
+/// What bonds that break have done so far.
+struct BondBreaks {
+    std::size_t pairs = 0;  ///< that have broken
+    /// How often a particle's energy became larger all the same by what broke at it, and by how much in sum: one
+    /// whose bonds do not span space.
+    std::size_t gains = 0;
+    double gained = 0.0;
+
+    void remember(Archive& archive) { archive(pairs, gains, gained); }
 };
 
 /// A solid of smooth particles that meet new neighbours: each particle remembers a material vector for each
@@ -23,8 +43,15 @@ struct MaterialVectorScheme {
 ///
 ///     enter   a neighbour that is new within 1.1 h, where it weighs nothing: X_kj = F_k^-1 r_kj
 ///     leave   beyond that, with weight 0
-///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays; what
-///             that takes off the energy is heat()
+///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays. Rates are those
+///             of the returned stress within steps as well, and stay as they are: weights g(|X|) follow when
+///             rows are made anew. What flow and new weights take off the energy is heat()
+///
+///     bonds   of a law that yields, with bond_yield: where a misfit is beyond its limit, X_kj takes up the rest
+///     break   beyond a stretch or a stress: both bonds of the pair weigh nothing, and none is made before
+///             the particles have been seen farther apart than h (a Core keeps them from passing through each
+///             other). Where the new fit F would store more, what is left at the particle is given vectors
+///             X = F^-1 r of the old one: heat() does not fall
 ///
 /// Between such changes the motion is Hamiltonian, at the first two the energy stays as it is: p is kept exactly, L
 /// and E to integrator error, and there is no tensile instability. Where a step is so long that somebody enters
@@ -60,12 +87,15 @@ class MaterialVectors final : public Term<Dim> {
     double reach() const override { return scheme_.range; }
     std::size_t list_builds() const override;
     void remember(Archive& archive) override;
+    /// Remarks when the first pairs break, and whenever twice as many have as at the last remark.
+    std::vector<Remark> watch(double t, std::span<const double> y) override;
 
     const MaterialVectorScheme& scheme() const { return scheme_; }
     /// Energy that changes of the table have taken out of the motion so far.
     double heat() const;
     /// The same of each particle, N numbers.
     const std::vector<double>& heat_of_particles() const;
+    const BondBreaks& breaks() const;
     /// F of all particles, in their order; F_ab = d x_a / d X_b.
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
 
@@ -88,6 +118,13 @@ class MaterialVectors final : public Term<Dim> {
     bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, double* records,
                bool& whole);
     bool flow(const ConstState<Dim>& state);
+    bool flow_of_particle(std::size_t k, const ConstState<Dim>& state);
+    bool flow_of_bonds(std::size_t k, const Mat<Dim>& F, const ConstState<Dim>& state);
+    bool weigh(const ConstState<Dim>& state);
+    SymTensor<Dim> kirchhoff_stress(std::size_t k, const ConstState<Dim>& state) const;
+    bool break_bonds(const ConstState<Dim>& state);
+    bool anchor(std::size_t k, const Fit& fit, const double* x);
+    void exclude(const double* x);
     bool update(const ConstState<Dim>& state);
     std::string complaint(const ConstState<Dim>& state) const;
 

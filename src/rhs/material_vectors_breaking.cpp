@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Brittle bonds of a solid with material vectors, after accepted steps.
+#include "material_vector_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace spam {
+
+/// F F's Kirchhoff stress P F^t, by the rates' law.
+template <int Dim>
+SymTensor<Dim> MaterialVectors<Dim>::kirchhoff_stress(std::size_t k,
+                                                      const ConstState<Dim>& state) const {
+    SymTensor<Dim> tau;
+    const Fit now = fit(state.position().data(), k);
+    const Wholeness whole = Wholeness::of(now.K, parts_->N0);
+    if (!whole.spans()) return tau;
+    Mat<Dim> P;
+    material_.stresses({&parts_->numbers[k], 1}, now.F.c.size(), now.F.c.data(), P.c.data(), state);
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b)
+            for (int c = 0; c < Dim; ++c) tau(a, b) += whole.th * P(a, c) * now.F(b, c);
+    return tau;
+}
+
+/// Takes the weight from both bonds of every pair beyond a limit.
+template <int Dim>
+bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
+    Parts& p = *parts_;
+    const double* const x = state.position().data();
+    const std::size_t n = p.numbers.size();
+    const double stretch2 = scheme_.stretch_limit * scheme_.stretch_limit,
+                 range2 = scheme_.range * scheme_.range;
+    const bool by_stress = scheme_.stress_limit < HUGE_VAL;
+    p.tau.resize(by_stress ? n : 0);
+    if (by_stress) parallel_for(n, [&](std::size_t k) { p.tau[k] = kirchhoff_stress(k, state); });
+
+    const auto beyond = [&](std::size_t k, std::size_t m) {
+        const std::uint32_t j = p.table.partner(k, m);
+        if (j <= k) return false;
+        const Vec<Dim> r = p.table.separation(x, k, j);
+        const double r2 = dot(r, r);
+        if (!(r2 < range2)) return false;
+        const std::size_t back = p.place(j, k);
+        const Vec<Dim> X = p.table.X(k, m), Y = p.table.X(j, back);
+        const bool from = p.table.g(k, m) > 0.0, to = p.table.g(j, back) > 0.0;
+        if (!from && !to) return false;
+        if ((from && r2 > stretch2 * dot(X, X)) || (to && r2 > stretch2 * dot(Y, Y))) return true;
+        return by_stress && dot(r, (p.tau[k] + p.tau[j]) * r) > 2.0 * scheme_.stress_limit * r2;
+    };
+    p.breaking.assign(n, 0);
+    const bool any = parallel_count(n, [&](std::size_t k) -> std::size_t {
+                         for (std::size_t m = 0; m < p.table.row(k); ++m)
+                             if (beyond(k, m)) p.breaking[k] = 1;
+                         return p.breaking[k];
+                     }) > 0;
+    if (!any) return false;
+
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (std::uint32_t k = 0; k < n; ++k)
+        if (p.breaking[k] != 0)
+            for (std::size_t m = 0; m < p.table.row(k); ++m)
+                if (beyond(k, m)) pairs.push_back({k, p.table.partner(k, m)});
+    std::vector<std::uint32_t> ends;
+    for (const auto& pair : pairs) ends.insert(ends.end(), pair.begin(), pair.end());
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+
+    std::vector<Fit> before(ends.size());
+    parallel_for(ends.size(), [&](std::size_t e) { before[e] = fit(x, ends[e]); });
+    for (const auto& pair : pairs) p.part(pair);
+    std::vector<double> loss(ends.size());
+    parallel_for(ends.size(), [&](std::size_t e) {
+        const std::size_t k = ends[e];
+        const double energy = energy_of(before[e], k, state);
+        loss[e] = energy - energy_of(fit(x, k), k, state);
+        // Another fit of F may store more. The old one stays where what is left has no misfit to it.
+        if (loss[e] < 0.0 && anchor(k, before[e], x))
+            loss[e] = energy - energy_of(fit(x, k), k, state);
+        p.book(k, loss[e]);
+    });
+    for (const double one : loss)
+        if (one < 0.0) {
+            ++p.breaks.gains;
+            p.breaks.gained -= one;
+        }
+    p.breaks.pairs += pairs.size();
+    p.excluded.insert(p.excluded.end(), pairs.begin(), pairs.end());
+    std::sort(p.excluded.begin(), p.excluded.end());
+    return true;
+}
+
+/// X = F^-1 r for all bonds, which leaves them their weights. Returns false where there is no F^-1.
+template <int Dim>
+bool MaterialVectors<Dim>::anchor(std::size_t k, const Fit& fit, const double* x) {
+    BondTable<Dim>& table = parts_->table;
+    if (!Wholeness::of(fit.K, parts_->N0).spans() || std::abs(determinant(fit.F)) < 1e-3)
+        return false;
+    const Mat<Dim> back = inverse(fit.F);
+    for (std::size_t m = 0; m < table.row(k); ++m)
+        table.set_bond(k, m, back * table.separation(x, k, table.partner(k, m)), table.g(k, m));
+    return true;
+}
+
+/// After rows have been made anew: pairs that have broken weigh nothing until they have been apart.
+template <int Dim>
+void MaterialVectors<Dim>::exclude(const double* x) {
+    Parts& p = *parts_;
+    const auto apart = [&](const std::array<std::uint32_t, 2>& pair) {
+        const Vec<Dim> r = p.table.separation(x, pair[0], pair[1]);
+        if (dot(r, r) >= scheme_.range * scheme_.range) return true;
+        p.part(pair);
+        return false;
+    };
+    p.excluded.erase(std::remove_if(p.excluded.begin(), p.excluded.end(), apart), p.excluded.end());
+}
+
+template <int Dim>
+std::vector<Remark> MaterialVectors<Dim>::watch(double, std::span<const double>) {
+    const BondBreaks& breaks = parts_->breaks;
+    std::size_t& told = parts_->told;
+    if (breaks.pairs == 0 || breaks.pairs < 2 * told) return {};
+    told = breaks.pairs;
+    std::vector<Remark> remarks{
+        {"pairs of particles whose bond has broken", static_cast<double>(told)}};
+    if (breaks.gains > 0)
+        remarks.push_back({"energy that breaking bonds have taken from heat", breaks.gained});
+    return remarks;
+}
+
+template <int Dim>
+const BondBreaks& MaterialVectors<Dim>::breaks() const {
+    return parts_->breaks;
+}
+
+#define SPAM_INSTANTIATE(D)                                                                       \
+    template SymTensor<D> MaterialVectors<D>::kirchhoff_stress(std::size_t, const ConstState<D>&) \
+        const;                                                                                    \
+    template bool MaterialVectors<D>::break_bonds(const ConstState<D>&);                          \
+    template bool MaterialVectors<D>::anchor(std::size_t, const Fit&, const double*);             \
+    template void MaterialVectors<D>::exclude(const double*);                                     \
+    template std::vector<Remark> MaterialVectors<D>::watch(double, std::span<const double>);      \
+    template const BondBreaks& MaterialVectors<D>::breaks() const;
+SPAM_INSTANTIATE(2)
+SPAM_INSTANTIATE(3)
+#undef SPAM_INSTANTIATE
+
+}  // namespace spam
