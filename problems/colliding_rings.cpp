@@ -15,10 +15,13 @@
 //
 // Where the rings have parted, part of their kinetic energy is in vibrations: restitution is the speed at
 // which the centres part by the one at which they met.
+#include "breaking/pieces.hpp"
 #include "formulation.hpp"
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/nearest_state.hpp>
 #include <spam/rhs/contact.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 #include <spam/spam.hpp>
 
@@ -38,8 +41,13 @@ struct Parameters {
     double speed = 0.05;  // of each ring
     double offset = 0.0;
     Formulation formulation = Formulation::total_lagrangian;
-    double range = 3.0, penalty = 0.1, viscosity = 1.0;
+    double range = 3.0, viscosity = 1.0;
+    std::optional<double> penalty;
     ContactScheme contact{};
+
+    double kappa() const {
+        return penalty.value_or(formulation == Formulation::material_vectors ? 1.0 : 0.1);
+    }
 };
 
 Points<2> ring(const Parameters& p) {
@@ -81,10 +89,14 @@ std::unique_ptr<ParticleModel<2>> make_model(const Parameters& p) {
                 Scheme{.angular_momentum = AngularMomentum::torque_pair,
                        .viscosity = p.viscosity,
                        .range = p.range});
+        else if (p.formulation == Formulation::material_vectors)
+            model->add_term_among<MaterialVectors<2>>(
+                first, n, PolynomialSolid::like(solid),
+                MaterialVectorScheme{rho, p.range, p.kappa()});
         else
             model->add_term_among<TotalLagrangian<2>>(
                 first, n, StVenantKirchhoff::like(solid),
-                TotalLagrangianScheme{rho, p.range, p.penalty});
+                TotalLagrangianScheme{rho, p.range, p.kappa()});
     model->add_term<Contact<2>>(p.contact);
     return model;
 }
@@ -114,6 +126,8 @@ std::vector<Column<2>> columns(const Contact<2>& contact) {
          }},
         {"contact_energy", [&contact](const Model<2>&, State y) { return contact.energy(y); }},
         {"closest_contact", [&contact](const Model<2>&, State y) { return contact.closest(y); }},
+        {"pieces", [](const Model<2>& m,
+                      State y) { return static_cast<double>(breaking::piece_sizes(m, y).size()); }},
         closest_pair_column<2>()};
 }
 
@@ -149,6 +163,8 @@ void report(Session& session, const RunRecord& run) {
                     "by the energy at the start");
     session.measure("smallest_separation", h.smallest("separation"));
     session.measure("closest_pair", h.smallest("closest_pair"));
+    session.measure("pieces", h.last("pieces"),
+                    "linked by pairs nearer than 1.5 spacings, at the end");
     session.check_promises(run);
 }
 
@@ -182,21 +198,26 @@ void add_options(Options& options, Parameters& p) {
                    non_negative());
     options.number("speed", p.speed, "speed of each ring at the start", positive());
     options.number("offset", p.offset, "height of one centre above the other", any_number());
-    options.choice<Formulation>("formulation", p.formulation,
-                                {Formulation::total_lagrangian, Formulation::updated},
-                                "sums over the initial neighbours, or over the present ones");
-    options.number("range", p.range, "distance at which Lucy's weight function vanishes",
-                   positive());
-    options.number("penalty", p.penalty, "penalty kappa against zero-energy modes", non_negative())
+    options.choice<Formulation>(
+        "formulation", p.formulation,
+        {Formulation::total_lagrangian, Formulation::updated, Formulation::material_vectors},
+        "sums over the initial neighbours, over the present ones, or over "
+        "the present ones with a memory");
+    options.number("range", p.range, "distance at which the weight function vanishes", positive());
+    options
+        .number("penalty", p.penalty,
+                "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
+                "material_vectors (default 1)",
+                non_negative())
         .only_when(
-            {"formulation"}, [&p] { return p.formulation == Formulation::total_lagrangian; },
+            {"formulation"}, [&p] { return p.formulation != Formulation::updated; },
             "has no meaning for --formulation updated; leave it out");
     options
         .number("viscosity", p.viscosity, "alpha of von Neumann's artificial viscosity",
                 non_negative())
         .only_when(
             {"formulation"}, [&p] { return p.formulation == Formulation::updated; },
-            "has no meaning for --formulation total_lagrangian; leave it out");
+            "has no meaning for {by}; leave it out");
     options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive());
     options.number("contact-range", p.contact.range,
                    "distance at which particles of different rings touch, at most a spacing",

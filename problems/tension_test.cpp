@@ -14,8 +14,11 @@
 //     --model embedded_atom  potentials of the density, a core, and a strength by the curvature: ductile
 //     --model spam           smooth particles of an elastic, perfectly plastic solid, and a core: necks, then
 //                            parts. Every particle begins with the density of the lattice at rest
+//     --model material_vectors  the same with a vector for each neighbour (rhs/material_vectors.hpp); with
+//                            --end-speed it has no load: it flies apart, necks where its ends are left
+//                            behind, and parts into three
 //     --model elements       finite elements of the same solid, drawn out at their ends: necks in the middle
-//     --model all            the three kinds of particles, each with a step of its own
+//     --model all            the four kinds of particles, each with a step of its own
 //
 // A bar of molecules that is loaded slowly parts where its rows are torn: bonds bear 5.30, a load f pulls with
 // 15 f on each row of the middle, f = 0.353. It takes a while to move apart: at 0.364 with load-rate 1/1500 (the
@@ -31,19 +34,22 @@ namespace {
 
 Plan<2> plan_of(const Session& session, PulledBar& bar, bool several) {
     Plan<2> plan;
-    plan.t_end = bar.largest_load / bar.load_rate;
+    plan.t_end = bar.t_end;
     plan.output_every = plan.t_end / (session.common().smoke ? 200.0 : 1000.0);
     plan.snapshot_every = plan.t_end / 40.0;
     if (several) plan.step = bar.step;
     plan.record(columns_of(bar));
-    plan.observe({.enough = [](const History& h) {
-        const auto t = parted_at(h);
-        return t && h.last("t") >= 1.03 * *t;
-    }});
+    if (bar.load_rate > 0.0)
+        plan.observe({.enough = [](const History& h) {
+            const auto t = parted_at(h);
+            return t && h.last("t") >= 1.03 * *t;
+        }});
     if (several)
         bar.drawn = {{0.6 * plan.t_end}};
-    else
+    else if (bar.load_rate > 0.0)
         bar.drawn = {{0.0}, {0.4 * plan.t_end}, {0.6 * plan.t_end}};
+    else
+        bar.drawn = {{0.0}, {0.2 * plan.t_end}, {0.4 * plan.t_end}};
     plan.observe(keep_nearest<2>(bar.drawn));
     return plan;
 }
@@ -82,16 +88,24 @@ void add_options(Problem& problem, Parameters& p) {
                    non_negative());
     add_matter_options(problem, p.matter,
                        {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
-                        MatterKind::elements, MatterKind::all});
+                        MatterKind::material_vectors, MatterKind::elements, MatterKind::all});
     options.only_when(
         {"load-rate", "damping"}, {"model"}, [&p] { return p.matter.kind != MatterKind::elements; },
         "has no meaning with {by}, whose ends are drawn out; leave it out");
     options
-        .number("end-speed", p.end_speed, "speed at which the ends of elements are drawn out",
-                positive())
+        .number(
+            "end-speed", p.end_speed,
+            "speed at which the ends are drawn out: of elements (default 0.0469), and of material "
+            "vectors in place of the load",
+            positive())
         .only_when(
-            {"model"}, [&p] { return p.matter.kind == MatterKind::elements; },
-            "has no meaning with {by}, on which a load acts; leave it out");
+            {"model"},
+            [&p] {
+                return p.matter.kind == MatterKind::elements ||
+                       p.matter.kind == MatterKind::material_vectors;
+            },
+            "has no meaning with {by}, on which a load acts; leave it out")
+        .excludes({"load-rate", "damping"});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "matter.hpp"
 
 #include "../kernels/lattices.hpp"
+#include "flowing.hpp"
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/yielding_solid.hpp>
 #include <spam/rhs/density_potentials.hpp>
@@ -47,6 +48,12 @@ Material<2> yielding_solid(const Matter& matter) {
         failure);
 }
 
+FlowingSolid flowing_solid(const Matter& matter) {
+    const double yield_stress = matter.yield_stress.value_or(usual_yield_stress);
+    return {PolynomialSolid::like(ElasticSolid::triangular_lattice()), yield_stress,
+            matter.tension_limit.value_or(yield_stress)};
+}
+
 void add_terms_among(const Session& session, const Matter& matter, ParticleModel<2>& model,
                      std::size_t first, std::size_t count) {
     switch (matter.kind) {
@@ -57,13 +64,17 @@ void add_terms_among(const Session& session, const Matter& matter, ParticleModel
             model.add_term_among<DensityPotentialTerm<2>>(first, count,
                                                           potentials_of(session, matter));
             return;
+        case MatterKind::material_vectors:
+            model.add_term_among<MaterialVectors<2>>(
+                first, count, flowing_solid(matter),
+                MaterialVectorScheme{std::sqrt(4.0 / 3.0), session.scheme().range, matter.penalty});
+            break;
         case MatterKind::spam:
         case MatterKind::elements:
         case MatterKind::all:
-            break;
+            model.add_term_among<SmoothParticles<2>>(first, count, yielding_solid(matter),
+                                                     session.scheme());
     }
-    model.add_term_among<SmoothParticles<2>>(first, count, yielding_solid(matter),
-                                             session.scheme());
     if (matter.core > 0.0)
         model.add_term_among<Core<2>>(first, count, CorePotential{matter.core, matter.core_range});
 }
@@ -79,20 +90,23 @@ void refuse_impossible(const Matter& matter) {
 }  // namespace
 
 std::string_view to_string(MatterKind kind) {
-    constexpr std::string_view names[] = {"pair_md", "embedded_atom", "spam", "elements", "all"};
+    constexpr std::string_view names[] = {"pair_md",          "embedded_atom", "spam",
+                                          "material_vectors", "elements",      "all"};
     return names[static_cast<std::size_t>(kind)];
 }
 
 std::string title_of(MatterKind kind) {
-    return kind == MatterKind::pair_md         ? "pair potential"
-           : kind == MatterKind::embedded_atom ? "embedded atoms"
-           : kind == MatterKind::elements      ? "finite elements"
-                                               : "SPAM";
+    return kind == MatterKind::pair_md            ? "pair potential"
+           : kind == MatterKind::embedded_atom    ? "embedded atoms"
+           : kind == MatterKind::elements         ? "finite elements"
+           : kind == MatterKind::material_vectors ? "material vectors"
+                                                  : "SPAM";
 }
 
 std::vector<MatterKind> kinds_of(MatterKind kind) {
     if (kind != MatterKind::all) return {kind};
-    return {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam};
+    return {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
+            MatterKind::material_vectors};
 }
 
 void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds) {
@@ -111,15 +125,30 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
     options.choice<MatterKind>(
         "model", matter.kind, kinds,
         "molecular dynamics with a pair potential, or with potentials of the density; or smooth "
-        "particles or finite elements of a solid that yields");
+        "particles, without or with material vectors, or finite elements of a solid that yields");
     options.number("yield-stress", matter.yield_stress,
                    "stress Y at which a solid yields (default: 0.05)", positive());
     options.number("hardening", matter.hardening,
                    "how fast Y grows with the plastic strain, H; 0 for not at all", non_negative());
     options.number("failure-strain", matter.failure_strain,
                    "plastic strain at which a solid breaks (default: it does not)", positive());
-    only_of({"yield-stress", "hardening", "failure-strain"},
-            {MatterKind::spam, MatterKind::elements}, "molecules yield by themselves");
+    only_of({"yield-stress"},
+            {MatterKind::spam, MatterKind::material_vectors, MatterKind::elements},
+            "molecules yield by themselves");
+    only_of({"hardening", "failure-strain"}, {MatterKind::spam, MatterKind::elements},
+            "it is of solids with a plastic strain");
+    if (std::find(kinds.begin(), kinds.end(), MatterKind::material_vectors) != kinds.end()) {
+        options.number("tension-limit", matter.tension_limit,
+                       "largest mean tension, beyond which material vectors tear (default: the "
+                       "yield stress)",
+                       positive());
+        options.number("penalty", matter.penalty,
+                       "penalty kappa of material vectors against motion that no deformation "
+                       "gradient sees",
+                       non_negative());
+        only_of({"tension-limit", "penalty"}, {MatterKind::material_vectors},
+                "it is of material vectors");
+    }
     options.number("strength", matter.strength,
                    "strength s_c of the curvature, which makes embedded atoms a solid", positive());
     options.number("surface-tension", matter.surface_tension,
@@ -140,12 +169,15 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
             {"disorder"}, [&matter] { return matter.disorder > 0.0; },
             "has no meaning without disorder; give --disorder 0.01, or leave it out");
     only_of({"disorder", "seed"},
-            {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam},
+            {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
+             MatterKind::material_vectors},
             "the mesh is regular");
     problem.use_scheme();
-    only_of({"core", "core-range", "kernel", "range"},
-            {MatterKind::embedded_atom, MatterKind::spam},
+    only_of({"core", "core-range", "range"},
+            {MatterKind::embedded_atom, MatterKind::spam, MatterKind::material_vectors},
             "it has a core or a range of its own, or none");
+    only_of({"kernel"}, {MatterKind::embedded_atom, MatterKind::spam},
+            "it has a weight of its own, or none");
     only_of(Problem::scheme_option_names(), {MatterKind::spam}, "it is of smooth particles");
     // The model's own where they are not given.
     for (const char* name : {"kernel", "range"})

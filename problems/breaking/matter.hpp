@@ -16,26 +16,29 @@ namespace breaking {
 using namespace spam;
 
 enum class MatterKind {
-    pair_md,        ///< molecular dynamics, phi = (2 - r^2)^8 - 2 (2 - r^2)^4
-    embedded_atom,  ///< molecular dynamics with potentials of the density, and a core
-    spam,           ///< smooth particles of an elastic solid that yields, and a core
-    elements,       ///< finite elements of a solid that yields: a twin with options of its own
-    all             ///< all but the elements, one after the other
+    pair_md,           ///< molecular dynamics, phi = (2 - r^2)^8 - 2 (2 - r^2)^4
+    embedded_atom,     ///< molecular dynamics with potentials of the density, and a core
+    spam,              ///< smooth particles of an elastic solid that yields, and a core
+    material_vectors,  ///< the same with a vector for each neighbour: a solid that yields and tears
+    elements,          ///< finite elements of a solid that yields: a twin with options of its own
+    all                ///< all but the elements, one after the other
 };
 
 std::string_view to_string(MatterKind kind);
-/// For pictures: "pair potential", "embedded atoms", "SPAM".
+/// For pictures: "pair potential", "embedded atoms", "SPAM", "material vectors".
 std::string title_of(MatterKind kind);
 
 /// As options give it. What is not set is chosen for the model.
 struct Matter {
     MatterKind kind = MatterKind::spam;
-    std::optional<double> yield_stress{};  ///< Y of SPAM and of elements
+    std::optional<double> yield_stress{};  ///< Y of solids
     double hardening = 0.0;                ///< H
     std::optional<double> failure_strain{};
-    double strength = 0.2;         ///< s_c of embedded atoms
-    double surface_tension = 0.1;  ///< s_g of embedded atoms
-    double core = 1.0;             ///< e_c
+    std::optional<double> tension_limit{};  ///< p_c of material vectors
+    double penalty = 1.0;                   ///< kappa of material vectors
+    double strength = 0.2;                  ///< s_c of embedded atoms
+    double surface_tension = 0.1;           ///< s_g of embedded atoms
+    double core = 1.0;                      ///< e_c
     double core_range = 0.8;
     double disorder = 0.01;  ///< largest random displacement at the start
     int seed = 1;
@@ -44,7 +47,7 @@ struct Matter {
 /// Those that make a body of particles.
 std::vector<MatterKind> kinds_of(MatterKind kind);
 
-/// Y of SPAM where it is not given.
+/// Y where it is not given. p_c is as large as Y where that is not.
 constexpr double usual_yield_stress = 0.05;
 
 /// `--model`, one of `kinds`, the constants above, and those of the scheme of smooth particles, each refused

@@ -9,17 +9,28 @@
 namespace breaking {
 
 std::vector<std::size_t> piece_sizes(const Model<2>& model, std::span<const double> y,
-                                     std::size_t least) {
+                                     std::size_t least, double reach) {
     const Points<2> x = ConstState<2>(model.layout(), y).position();
     std::vector<std::size_t> sizes;
-    for (const auto piece :
-         connected_parts<2>(x, piece_reach * model.particles().spacing, model.box())) {
+    for (const auto piece : connected_parts<2>(x, reach * model.particles().spacing, model.box())) {
         sizes.resize(std::max(sizes.size(), static_cast<std::size_t>(piece) + 1), 0);
         ++sizes[static_cast<std::size_t>(piece)];
     }
     std::erase_if(sizes, [least](std::size_t n) { return n < least; });
     std::sort(sizes.rbegin(), sizes.rend());
     return sizes;
+}
+
+std::vector<Eigen::Index> particles_of_pieces(const Points<2>& position, double spacing,
+                                              std::size_t least) {
+    const auto piece = connected_parts<2>(position, piece_reach * spacing, {});
+    std::vector<std::size_t> size(piece.size(), 0);
+    for (const auto one : piece) ++size[static_cast<std::size_t>(one)];
+    std::vector<Eigen::Index> all;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+        if (size[static_cast<std::size_t>(piece[i])] >= least)
+            all.push_back(static_cast<Eigen::Index>(i));
+    return all;
 }
 
 FirstNeighbours::FirstNeighbours(const Particles<2>& particles)

@@ -16,8 +16,14 @@ using namespace spam;
 constexpr double piece_reach = 1.5;
 
 /// How many particles each piece has, the largest first; pieces of fewer than `least` are left out.
+/// `reach`: in spacings.
 std::vector<std::size_t> piece_sizes(const Model<2>& model, std::span<const double> y,
-                                     std::size_t least = 1);
+                                     std::size_t least = 1, double reach = piece_reach);
+
+/// The particles at `position` (2 x N) that are of pieces of `least` or more: single ones fly far, and pictures
+/// that show them show little else.
+std::vector<Eigen::Index> particles_of_pieces(const Points<2>& position, double spacing,
+                                              std::size_t least);
 
 /// Pairs of particles of one body that are neighbours in the reference configuration, to see which of them
 /// have parted.

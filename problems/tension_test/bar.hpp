@@ -15,14 +15,14 @@ struct Parameters {
     std::optional<int> rows;  ///< 14, or 12 elements
     double taper = 0.1;
     std::optional<double> load_rate, damping;
-    double end_speed = 0.0469;  ///< of elements, whose ends are drawn out
+    std::optional<double> end_speed;  ///< in place of a load
 };
 
 struct PulledBar {
     MatterKind kind;
-    double load_rate;     ///< the load at the ends is load_rate t
-    double step;          ///< of classical Runge-Kutta
-    double largest_load;  ///< at which a run ends at the latest
+    double load_rate;  ///< the load at the ends is load_rate t; 0 where there is none
+    double step;       ///< of classical Runge-Kutta
+    double t_end;      ///< at which a run ends at the latest
     std::shared_ptr<ParticleModel<2>> model;
     std::vector<double> y0{};
     std::vector<NearestState<2>> drawn{};

@@ -10,7 +10,7 @@ tension_elements::Parameters twin_of(const Parameters& p) {
     twin.columns = p.columns;
     twin.rows = p.rows.value_or(twin.rows);
     twin.taper = p.taper;
-    twin.end_speed = p.end_speed;
+    twin.end_speed = p.end_speed.value_or(twin.end_speed);
     twin.yield_stress = p.matter.yield_stress.value_or(twin.yield_stress);
     twin.hardening = p.matter.hardening;
     twin.failure_strain = p.matter.failure_strain.value_or(twin.failure_strain);

@@ -117,8 +117,8 @@ bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const Con
         read(record + Record::K, K);
         read(record + Record::G, P);
         const double V = parts_->volume[first + i];
-        record[Record::c] = V * parts_->stiffness;
         const Wholeness spans = Wholeness::of(K, parts_->N0);
+        record[Record::c] = spans.th * V * parts_->stiffness;
         const Mat<Dim> G = (V * spans.th) * (P * K);
         std::copy(G.c.begin(), G.c.end(), record + Record::G);
         if (spans.slope > 0.0) {
@@ -128,7 +128,10 @@ bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const Con
             for (int a = 0; a < Dim; ++a)
                 for (int b = 0; b < Dim; ++b) root(a, b) = K(a, b);
             const Mat<Dim> square = root * K;
-            const double by = V * spans.slope * material_.energy(first + i, F, state);
+            const double misfit = fit(state.position().data(), first + i).misfit;
+            const double by =
+                V * spans.slope *
+                (material_.energy(first + i, F, state) + 0.5 * parts_->stiffness * misfit);
             for (int a = 0; a < Dim; ++a)
                 for (int b = a; b < Dim; ++b) H(a, b) = by * square(a, b);
         }

@@ -36,8 +36,8 @@ template <int Dim>
 double MaterialVectors<Dim>::energy_of(const Fit& fit, std::size_t k,
                                        const ConstState<Dim>& state) const {
     const double V = parts_->volume[k], th = Wholeness::of(fit.K, parts_->N0).th;
-    const double misfit = 0.5 * V * parts_->stiffness * fit.misfit;
-    return th == 0.0 ? misfit : V * th * material_.energy(k, fit.F, state) + misfit;
+    if (th == 0.0) return 0.0;
+    return V * th * (material_.energy(k, fit.F, state) + 0.5 * parts_->stiffness * fit.misfit);
 }
 
 template <int Dim>
@@ -62,6 +62,11 @@ double MaterialVectors<Dim>::heat() const {
     CompensatedSum sum;
     for (const double heat : parts_->heat) sum += heat;
     return sum;
+}
+
+template <int Dim>
+const std::vector<double>& MaterialVectors<Dim>::heat_of_particles() const {
+    return parts_->heat;
 }
 
 template <int Dim>
@@ -154,6 +159,7 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template std::vector<double> MaterialVectors<D>::energies(const ConstState<D>&) const;       \
     template double MaterialVectors<D>::energy(std::span<const double>) const;                   \
     template double MaterialVectors<D>::heat() const;                                            \
+    template const std::vector<double>& MaterialVectors<D>::heat_of_particles() const;           \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
     template std::vector<Mat<D>> MaterialVectors<D>::deformation_gradients(                      \

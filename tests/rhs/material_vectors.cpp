@@ -158,6 +158,7 @@ void check_that_they_can_fail() {
     for (const auto mutation :
          {BondMutation::no_fade, BondMutation::one_sided, BondMutation::no_misfit})
         BOOST_TEST(slope_error_of(mutation) > 1e-3);
+    BOOST_TEST(slope_error_of(BondMutation::misfit_apart) > 1e-5);
     const auto expected = forces_of<Dim>(model, y);
     for (const auto mutation : {BondMutation::no_fade, BondMutation::one_sided,
                                 BondMutation::fixed_weight, BondMutation::no_misfit})

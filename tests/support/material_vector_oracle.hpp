@@ -18,6 +18,7 @@ enum class BondMutation {
     one_sided,     ///< v_dot from t_ij alone
     fixed_weight,  ///< no g(|X|)
     no_misfit,     ///< kappa in the energy, not in the forces
+    misfit_apart,  ///< the misfit of a particle that loses its neighbours does no work
 };
 
 /// Energy and forces of a solid with material vectors as the formulas stand there, bond by bond, for the
@@ -125,7 +126,6 @@ class MaterialVectorOracle {
         Particle p;
         p.K = N.inverse();
         p.F = A * p.K;
-        p.c = model_.scheme().penalty * eta_ * V / N0_;
         const double J = p.F.determinant(), q = Dim / p.K.trace();
         const double z = std::clamp(q / (0.1 * N0_), 0.0, 1.0);
         p.th = z * z * (3.0 - 2.0 * z);
@@ -134,12 +134,16 @@ class MaterialVectorOracle {
         const Tensor P =
             eta_ * p.F + ((lambda_ + eta_) * (J - 1.0) - eta_) * J * p.F.inverse().transpose();
         p.G = V * p.th * P * p.K;
-        p.H = V * W * 6.0 * z * (1.0 - z) / (0.1 * N0_) * (q * q / Dim) * p.K * p.K;
-        p.energy = V * p.th * W;
+        const double c = model_.scheme().penalty * eta_ * V / N0_;
+        p.c = p.th * c;
+        double whole = V * W;
         for (const Bond& bond : rows_[k]) {
             const Vector r = separation(y, k, bond.partner), X = of(bond.X);
-            p.energy += 0.5 * p.c * g(X) * s(r.norm()) * (r - p.F * X).squaredNorm();
+            whole += 0.5 * c * g(X) * s(r.norm()) * (r - p.F * X).squaredNorm();
         }
+        p.energy = p.th * whole;
+        if (mutation_ == BondMutation::misfit_apart) whole = V * W;
+        p.H = whole * 6.0 * z * (1.0 - z) / (0.1 * N0_) * (q * q / Dim) * p.K * p.K;
         return p;
     }
 

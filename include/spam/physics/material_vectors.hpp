@@ -10,7 +10,7 @@ namespace spam {
 // A solid whose particles k remember, for each present neighbour j, a material vector X_kj. With r_kj = x_j - x_k
 // and w = g(|X_kj|) s(r_kj) the deformation gradient is the least-squares fit of r = F X,
 //     N_k = sum w X (x) X,   F_k = [sum w r (x) X] N_k^-1,   e_kj = r_kj - F_k X_kj,
-// and the energy is Phi = sum_k V_k th_k W(F_k) + (c_k/2) sum_j w |e_kj|^2. It knows neither origin nor
+// and the energy is Phi = sum_k th_k [V_k W(F_k) + (c_k/2) sum_j w |e_kj|^2]. It knows neither origin nor
 // axes, whatever the tables hold: p and L are kept exactly. Written over an arithmetic type, once for
 // double and once for lanes. Derived here; forces against -dPhi/dx in tests/rhs/material_vectors.cpp.
 
@@ -112,7 +112,9 @@ struct FitSolver {
 
 /// How far the neighbours of a particle span space: th, a smoothstep of q/(0.1 N0), q = D/tr(N^-1) between
 /// once and D times the smallest eigenvalue of N, and its derivative, dth = slope N^-2 : dN. 1 inside a
-/// body and at its corners; a particle that has lost its neighbours bears no stress.
+/// body and at its corners; a particle that has lost its neighbours bears no stress and has no
+/// misfit: along a row of particles F across it follows whoever is near with however little weight, faster than
+/// any step.
 struct Wholeness {
     double th, slope;
 
@@ -131,7 +133,7 @@ struct Wholeness {
     }
 };
 
-/// t_kj = dE_k/dr_kj of one bond: with G_k = V th P N^-1 and H_k = V W dth/dN
+/// t_kj = dE_k/dr_kj of one bond: with G_k = V th P N^-1, H_k = [V W + (c_k/2) sum w |e|^2] dth/dN and c = th c_k
 ///     w (G X + c e) + g s'/r r [e.G X + c |e|^2/2 + X.H X].
 /// The change of F with w is there, N being fixed: dF = dw e (x) X N^-1; that of the misfit through F is
 /// none, because F minimises it. The acceleration is m v_dot_i = sum_j (t_ij - t_ji).

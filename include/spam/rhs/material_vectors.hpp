@@ -73,6 +73,8 @@ class MaterialVectors final : public Term<Dim> {
     std::string rates(const Now& now) override;
     bool settle(double t, const State<Dim>& state) override;
     bool settles() const override { return true; }
+    /// A return to the yield surface makes the order of a fixed step less than the method's.
+    bool smooth() const override { return !material_.flows(); }
     /// Of all particles, with heat().
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.
@@ -91,6 +93,8 @@ class MaterialVectors final : public Term<Dim> {
     const MaterialVectorScheme& scheme() const { return scheme_; }
     /// Energy that changes of the table have taken out of the motion so far.
     double heat() const;
+    /// The same of each particle, N numbers.
+    const std::vector<double>& heat_of_particles() const;
     const BondBreaks& breaks() const;
     /// F of all particles, in their order; F_ab = d x_a / d X_b.
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flowing.hpp"
+
+#include <spam/rhs/pair_potentials.hpp>
+
+#include <cmath>
+
+namespace breaking {
+
+void add_flowing_options(Options& options, FlowingMatter& matter) {
+    options.number("yield-stress", matter.yield_stress, "stress Y at which the solid yields",
+                   positive());
+    options.number("tension-limit", matter.tension_limit,
+                   "largest mean tension, beyond which the solid tears", positive());
+    options.number("penalty", matter.penalty,
+                   "penalty kappa against motion that no deformation gradient sees",
+                   non_negative());
+}
+
+MaterialVectors<2>& add_flowing_terms(ParticleModel<2>& model, const FlowingMatter& matter,
+                                      const std::optional<ContactScheme>& contact) {
+    const auto elastic = PolynomialSolid::like(ElasticSolid::triangular_lattice());
+    auto& law = model.add_term<MaterialVectors<2>>(
+        FlowingSolid{elastic, matter.yield_stress, matter.tension_limit},
+        MaterialVectorScheme{std::sqrt(4.0 / 3.0), matter.range, matter.penalty});
+    if (matter.core > 0.0) model.add_term<Core<2>>(CorePotential{matter.core, matter.core_range});
+    if (contact) model.add_term<Contact<2>>(*contact);
+    return law;
+}
+
+}  // namespace breaking
