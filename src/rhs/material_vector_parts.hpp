@@ -22,6 +22,8 @@ struct MaterialVectors<Dim>::Parts {
     double stiffness = 0.0;  ///< c_k/V_k = kappa eta/N0
     std::vector<std::uint32_t> numbers{};
     std::vector<unsigned char> left{};  ///< by block
+    std::size_t watched = 0;            ///< states that watch() was shown
+    bool warned = false;
 
     double little() const { return 1e-13 * N0; }
     BondView<Dim> view() {

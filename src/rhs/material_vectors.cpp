@@ -199,13 +199,15 @@ std::size_t MaterialVectors<Dim>::list_builds() const {
 
 template <int Dim>
 void MaterialVectors<Dim>::remember(Archive& archive) {
-    archive(parts_->heat, parts_->table);
+    archive(parts_->heat, parts_->table, parts_->watched, parts_->warned);
 }
 
 template <int Dim>
 std::string MaterialVectors<Dim>::describe() const {
-    return fmt::format("material vectors, {}, density {:.6g}, range {}, penalty kappa = {}",
-                       material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+    return fmt::format(
+        "material vectors, {}, density {:.6g}, range {}, penalty kappa = {}, stable up to a tension "
+        "of {:.3g}",
+        material_.describe(), scheme_.density, scheme_.range, scheme_.penalty, safe_tension());
 }
 
 template class MaterialVectors<2>;

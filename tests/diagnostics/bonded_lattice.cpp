@@ -9,6 +9,7 @@
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/setup/lattices.hpp>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
@@ -195,6 +196,42 @@ BOOST_AUTO_TEST_CASE(nothing_grows_under_tension) {
         extremes(stress(0.02, 0.02, 0.0), 0.0, 3.0, 60, BondMemory::renewed).growth;
     BOOST_TEST(std::abs(forgetful - 0.0863) < 5e-4);
     BOOST_TEST(extremes(stress(0.0, 0.0, 0.0), 0.0, 3.0, 24, BondMemory::renewed).growth < 1e-7);
+}
+
+/// MaterialVectorScheme::safe_tension() in 15 stresses: uniaxial, biaxial 2 to 1 and shear in five directions
+/// each (one hydrostatic). Stable there; well above, one of them is not.
+BOOST_AUTO_TEST_CASE(the_tension_that_a_penalty_keeps_stable) {
+    const auto grows = [](const Eigen::Matrix2d& basis, double density, double penalty,
+                          double range, double tension) {
+        for (int kind = 0; kind < 15; ++kind) {
+            const double minor = kind == 14 ? 1.0 : kind < 5 ? 0.0 : kind < 10 ? 0.5 : -1.0;
+            const Eigen::Matrix2d turn =
+                Eigen::Rotation2Dd(kind % 5 * std::numbers::pi / 16.0).toRotationMatrix();
+            const Eigen::Matrix2d cauchy =
+                turn * Eigen::Vector2d(tension, minor * tension).asDiagonal() * turn.transpose();
+            const Eigen::Matrix2d F =
+                deformation_under<2>(solid, Eigen::Matrix2d(0.5 * (cauchy + cauchy.transpose())));
+            const BondedLattice<2> modes(basis, solid, {density, range, penalty}, F);
+            const Eigen::Matrix2d reciprocal =
+                2.0 * std::numbers::pi * (F * basis).inverse().transpose();
+            for (int a = 0; a < 12; ++a)
+                for (int b = 0; b <= 6; ++b)
+                    if (a + b > 0 &&
+                        modes.growth_rate(reciprocal * Point<2>(a / 12.0, b / 12.0)) > 1e-8)
+                        return true;
+        }
+        return false;
+    };
+    const Eigen::Matrix2d square = Eigen::Matrix2d::Identity();
+    for (const double range : {2.2, 2.6, 3.0, 3.5, 4.0})
+        for (const double penalty : {0.1, 0.3, 1.0, 3.0})
+            BOOST_TEST_CONTEXT("range " << range << ", penalty " << penalty) {
+                const double safe =
+                    MaterialVectorScheme{rho, range, penalty}.safe_tension(solid.stiffness(), 1.0);
+                BOOST_TEST(!grows(triangular_basis(), rho, penalty, range, safe));
+                BOOST_TEST(grows(triangular_basis(), rho, penalty, range, 2.4 * safe));
+                BOOST_TEST(!grows(square, 1.0, penalty, range, 0.83 * safe));
+            }
 }
 
 BOOST_AUTO_TEST_CASE(long_waves_are_elastic) {
