@@ -133,14 +133,14 @@ BondedLattice<Dim>::BondedLattice(const Tensor& basis, const HyperelasticMateria
         for (int a = 0; a < Dim; ++a) cell[a] = n[static_cast<std::size_t>(a)];
         const Vector X = basis * cell, r = F * X;
         if (cell.squaredNorm() > 0.0) {
-            const double g = material_weight(X.norm(), h);
+            const double g = scheme.weight(X.norm(), h);
             const BondFade<double> fade(r.squaredNorm(), 1.0 / h);
             const double w = g * fade.s;
             N_free += g * BondFade<double>(X.squaredNorm(), 1.0 / h).s * X * X.transpose();
             N += w * X * X.transpose();
             const double step = 1e-5 * h;
             const double slope =
-                (material_weight(X.norm() + step, h) - material_weight(X.norm() - step, h)) /
+                (scheme.weight(X.norm() + step, h) - scheme.weight(X.norm() - step, h)) /
                 (2.0 * step * X.norm());
             if (w > 0.0)
                 bonds_.push_back({X, r, Vector::Zero(), w, g * fade.slope, fade.s * slope});

@@ -11,8 +11,9 @@ namespace spam {
 
 template <int Dim>
 BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
-                          std::vector<std::int32_t> bodies)
+                          std::vector<std::int32_t> bodies, const MaterialWeight& weight)
     : range_(range),
+      weight_(weight),
       box_(box),
       bodies_(std::move(bodies)),
       list_(range, skin * range, box, 1),
@@ -31,7 +32,7 @@ template <int Dim>
 void BondTable<Dim>::set_X(std::size_t k, std::size_t m, const Vec<Dim>& X) {
     for (int a = 0; a < Dim; ++a)
         rows_.vectors[rows_.number(k, m, static_cast<std::size_t>(a))] = X[a];
-    rows_.vectors[rows_.number(k, m, Dim)] = material_weight(std::sqrt(dot(X, X)), range_);
+    rows_.vectors[rows_.number(k, m, Dim)] = weight_(std::sqrt(dot(X, X)), range_);
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <spam/core/archive.hpp>
 #include <spam/core/tensor.hpp>
 #include <spam/neighbors/cluster_list.hpp>
+#include <spam/physics/material_vectors.hpp>
 
 #include <functional>
 #include <vector>
@@ -24,7 +25,8 @@ class BondTable {
 
     /// Only particles of the same body share bonds. Throws InputError where a periodic length is not above
     /// twice range + skin.
-    BondTable(double range, const Box<Dim>& box, int lanes, std::vector<std::int32_t> bodies);
+    BondTable(double range, const Box<Dim>& box, int lanes, std::vector<std::int32_t> bodies,
+              const MaterialWeight& weight = {});
 
     /// Whether everybody nearer than the range is in these rows.
     bool serves(const Eigen::Ref<const Points<Dim>>& x) { return list_.serves(x); }
@@ -84,6 +86,7 @@ class BondTable {
     void find_reach();
 
     double range_;
+    MaterialWeight weight_;
     Box<Dim> box_;
     std::size_t bonds_ = 0;
     std::vector<std::int32_t> bodies_;

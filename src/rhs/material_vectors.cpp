@@ -25,6 +25,11 @@ MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particl
     if (!(scheme.penalty >= 0.0) || !std::isfinite(scheme.penalty))
         throw InputError(fmt::format("penalty: {} must be a number not below 0; try --penalty 1",
                                      scheme.penalty));
+    if (!(scheme.weight.reach > 0.0) || !(scheme.weight.power >= 0.0) ||
+        !std::isfinite(scheme.weight.reach) || !std::isfinite(scheme.weight.power))
+        throw InputError(fmt::format(
+            "weight: a reach of {} ranges must be positive, a power of {} not below 0; 1.25 and 2 are usual",
+            scheme.weight.reach, scheme.weight.power));
     if (scheme.penalty > 0.0 && !(material.stiffness() > 0.0))
         throw InputError(fmt::format(
             "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
@@ -65,8 +70,8 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
         return bond_sweeps<Dim, level>(this->box().periodic());
     });
     const Particles<Dim>& all = this->particles();
-    parts_ = std::make_unique<Parts>(
-        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps.lanes, all.body)});
+    parts_ = std::make_unique<Parts>(Parts{
+        sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps.lanes, all.body, scheme.weight)});
     Parts& p = *parts_;
     p.table.update(all.reference_position, [](std::size_t, const Vec<Dim>& r) { return r; });
     const std::size_t n = all.size(),

@@ -108,7 +108,7 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
     const double range2 = scheme_.range * scheme_.range;
     p.table.update(state.position(), [&](std::size_t k, const Vec<Dim>& r) {
         const Vec<Dim> X = back[k] * r;
-        if (dot(r, r) < range2 && material_weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0)
+        if (dot(r, r) < range2 && scheme_.weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0)
             entered[k] = 1;
         return X;
     });

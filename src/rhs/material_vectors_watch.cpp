@@ -42,7 +42,7 @@ std::vector<Remark> MaterialVectors<Dim>::watch(double, std::span<const double> 
     p.warned = true;
     return {{fmt::format("tension above the {:.3g} that penalty kappa = {:g} keeps stable",
                          safe_tension(), scheme_.penalty),
-             tension}};
+             tension, false, true}};
 }
 
 #define SPAM_INSTANTIATE(D)                                                             \

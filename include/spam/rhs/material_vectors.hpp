@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/material/hyperelastic_material.hpp>
+#include <spam/physics/material_vectors.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <memory>
@@ -15,6 +16,7 @@ struct MaterialVectorScheme {
     /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness; above 3 short
     /// waves become stiff.
     double penalty = 1.0;
+    MaterialWeight weight{};  ///< of bonds, by their material vectors
 
     /// The largest tension (principal Cauchy stress) under which no wave grows: with tau = tension/stiffness
     ///     kappa >= tau/(0.75 - 0.6 tau) where h is 3 spacings or more, tau/(0.6 - 0.8 tau) below that.
