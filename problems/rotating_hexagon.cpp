@@ -247,10 +247,12 @@ int main(int argc, char** argv) {
         {Formulation::updated, Formulation::total_lagrangian, Formulation::material_vectors},
         "sums over the present neighbours, over the initial ones, or over the "
         "present ones with a memory");
-    options.number("penalty", p.penalty,
-                   "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-                   "material_vectors (default 1)",
-                   non_negative());
+    options.number(
+        "penalty", p.penalty,
+        "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
+        "material_vectors (default 1, stable up to a tension of 0.2; the run's first lines "
+        "say it of other values)",
+        non_negative());
 
     options.flag("torques", p.torques,
                  "add columns with the distribution of pair and particle torques, [HHM04] VIII");

@@ -293,7 +293,11 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
                         limiting.empty() ? "" : "  limit " + limiting));
     };
     watchers.remark = [this](double t, const Remark& remark) {
-        terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));
+        if (remark.warning)
+            terminal_.say(
+                fmt::format("warning     {} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
+        else
+            terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));
     };
     watchers.warning = [this](double, const std::string& text) {
         terminal_.say(fmt::format("warning     {}", text));

@@ -6,6 +6,7 @@
 #include "../core/levels.hpp"
 #include <spam/core/instruction_set.hpp>
 #include <spam/neighbors/cluster_view.hpp>
+#include <spam/physics/material_vectors.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -50,8 +51,9 @@ struct BondRecord {
 /// What an update of rows wants to know of a group, by group, and of its particles.
 template <int Dim>
 struct BondRenewal {
-    double reach2;             ///< of rows, squared
-    double N0;                 ///< of a whole particle; 0 where there are no bonds yet
+    double reach2;  ///< of rows, squared
+    double N0;      ///< of a whole particle; 0 where there are no bonds yet
+    MaterialWeight weight;
     const double* neighbours;  ///< within the reach, by particle
     double* anchoring;         ///< by particle: F^-1, or 1 where there is none
     struct Lanes {

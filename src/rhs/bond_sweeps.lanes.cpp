@@ -259,6 +259,16 @@ SPAM_INLINE void replace_beyond(double* numbers, const T& r2, double limit2, con
                              (value - where_below(r2, T(limit2), value)));
 }
 
+/// MaterialWeight, in lanes.
+SPAM_INLINE T weight_of(const MaterialWeight& weight, const T& length, double range) {
+    const T z = positive_part(T(1.0) - length / T(weight.reach * range));
+    if (weight.power == 2.0) return z * z;
+    T g;
+    for (int l = 0; l < W; ++l)
+        set_lane(g, l, lane(z, l) > 0.0 ? __builtin_pow(lane(z, l), weight.power) : 0.0);
+    return g;
+}
+
 template <int Dim, bool Periodic>
 void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size_t first,
            std::size_t last) {
@@ -281,7 +291,8 @@ void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size
             if (lanes_below(r2, T(range2)) == (1U << W) - 1) continue;
             const Vec<Dim, T> X = back * r;
             for (int a = 0; a < Dim; ++a) replace_beyond(numbers + a * W, r2, range2, X[a]);
-            replace_beyond(numbers + Dim * W, r2, range2, material_weight(sqrt(dot(X, X)), range));
+            replace_beyond(numbers + Dim * W, r2, range2,
+                           weight_of(renewal.weight, sqrt(dot(X, X)), range));
             for (unsigned far = lanes_below(T(reach2), r2); far != 0; far &= far - 1, ++gone) {
                 const auto l = static_cast<std::size_t>(__builtin_ctz(far));
                 view.partner[bond + l] = static_cast<std::uint32_t>(group * W + l);

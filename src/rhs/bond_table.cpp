@@ -52,8 +52,10 @@ class Partners {
 
 template <int Dim>
 BondTable<Dim>::BondTable(double range, const Box<Dim>& box, const BondSweeps<Dim>& sweeps,
-                          const Points<Dim>& x, std::vector<std::int32_t> bodies)
+                          const Points<Dim>& x, std::vector<std::int32_t> bodies,
+                          const MaterialWeight& weight)
     : range_(range),
+      weight_(weight),
       box_(box),
       sweeps_(sweeps),
       bodies_(std::move(bodies)),
@@ -71,7 +73,7 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, const BondSweeps<Di
 
 template <int Dim>
 void BondTable<Dim>::set_X(std::size_t k, std::size_t m, const Vec<Dim>& X) {
-    set_bond(k, m, X, material_weight(std::sqrt(dot(X, X)), range_));
+    set_bond(k, m, X, weight_(std::sqrt(dot(X, X)), range_));
 }
 
 template <int Dim>
@@ -202,8 +204,8 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
     count_neighbours(x.data());
     const double reach = (1.0 + skin) * range_;
     std::vector<typename BondRenewal<Dim>::Lanes> found(groups());
-    const BondRenewal<Dim> renewal{reach * reach, N0, neighbours_.data(), anchoring_.data(),
-                                   found.data()};
+    const BondRenewal<Dim> renewal{reach * reach,     N0,          weight_, neighbours_.data(),
+                                   anchoring_.data(), found.data()};
     const BondView<Dim> view = this->view(N0);
     struct Found {
         std::vector<Newcomer> newcomers, idle;

@@ -3,6 +3,7 @@
 
 #include "bond_rows.hpp"
 #include <spam/neighbors/cluster_list.hpp>
+#include <spam/physics/material_vectors.hpp>
 
 namespace spam {
 
@@ -19,7 +20,8 @@ class BondTable {
 
     /// Throws InputError where a periodic length is not above twice range + skin.
     BondTable(double range, const Box<Dim>& box, const BondSweeps<Dim>& sweeps,
-              const Points<Dim>& x, std::vector<std::int32_t> bodies);
+              const Points<Dim>& x, std::vector<std::int32_t> bodies,
+              const MaterialWeight& weight = {});
 
     /// Whether everybody nearer than the range is in these rows.
     bool serves(const Eigen::Ref<const Points<Dim>>& x) {
@@ -86,6 +88,7 @@ class BondTable {
     void find_reach();
 
     double range_;
+    MaterialWeight weight_;
     Box<Dim> box_;
     BondSweeps<Dim> sweeps_;
     std::vector<std::int32_t> bodies_;

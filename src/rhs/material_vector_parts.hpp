@@ -32,6 +32,8 @@ struct MaterialVectors<Dim>::Parts {
     std::vector<std::array<std::uint32_t, 2>> excluded{};
     std::vector<unsigned char> breaking{};  ///< by particle
     std::vector<SymTensor<Dim>> tau{};      ///< likewise
+    std::size_t watched = 0;                ///< states that watch() was shown
+    bool warned = false;
 
     void book(std::size_t k, double loss) { heat[k] += loss; }
     bool excludes(std::uint32_t k, std::uint32_t j) const {

@@ -25,6 +25,11 @@ MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particl
     if (!(scheme.penalty >= 0.0) || !std::isfinite(scheme.penalty))
         throw InputError(fmt::format("penalty: {} must be a number not below 0; try --penalty 1",
                                      scheme.penalty));
+    if (!(scheme.weight.reach > 0.0) || !(scheme.weight.power >= 0.0) ||
+        !std::isfinite(scheme.weight.reach) || !std::isfinite(scheme.weight.power))
+        throw InputError(fmt::format(
+            "weight: a reach of {} ranges must be positive, a power of {} not below 0; 1.25 and 2 are usual",
+            scheme.weight.reach, scheme.weight.power));
     if (scheme.penalty > 0.0 && !(material.stiffness() > 0.0))
         throw InputError(fmt::format(
             "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
@@ -78,9 +83,9 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
         return bond_sweeps<Dim, level>(this->box().periodic());
     });
     const Particles<Dim>& all = this->particles();
-    parts_ =
-        std::make_unique<Parts>(Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps,
-                                                             all.reference_position, all.body)});
+    parts_ = std::make_unique<Parts>(
+        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps, all.reference_position,
+                                     all.body, scheme.weight)});
     Parts& p = *parts_;
     const std::size_t n = all.size();
     p.numbers.resize(n);
@@ -197,14 +202,15 @@ std::size_t MaterialVectors<Dim>::list_builds() const {
 template <int Dim>
 void MaterialVectors<Dim>::remember(Archive& archive) {
     Parts& p = *parts_;
-    archive(p.heat, p.table, p.excluded, p.breaks, p.told);
+    archive(p.heat, p.table, p.excluded, p.breaks, p.told, p.watched, p.warned);
 }
 
 template <int Dim>
 std::string MaterialVectors<Dim>::describe() const {
-    std::string words =
-        fmt::format("material vectors, {}, density {:.6g}, range {}, penalty kappa = {}",
-                    material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+    std::string words = fmt::format(
+        "material vectors, {}, density {:.6g}, range {}, penalty kappa = {}, stable up to a tension "
+        "of {:.3g}",
+        material_.describe(), scheme_.density, scheme_.range, scheme_.penalty, safe_tension());
     if (parts_->misfit_limit < HUGE_VAL)
         words += fmt::format(", bonds yield at {:g} yield strains", scheme_.bond_yield);
     if (scheme_.stretch_limit < HUGE_VAL)

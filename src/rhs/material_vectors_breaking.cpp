@@ -117,16 +117,14 @@ void MaterialVectors<Dim>::exclude(const double* x) {
 }
 
 template <int Dim>
-std::vector<Remark> MaterialVectors<Dim>::watch(double, std::span<const double>) {
+void MaterialVectors<Dim>::tell_breaks(std::vector<Remark>& remarks) {
     const BondBreaks& breaks = parts_->breaks;
     std::size_t& told = parts_->told;
-    if (breaks.pairs == 0 || breaks.pairs < 2 * told) return {};
+    if (breaks.pairs == 0 || breaks.pairs < 2 * told) return;
     told = breaks.pairs;
-    std::vector<Remark> remarks{
-        {"pairs of particles whose bond has broken", static_cast<double>(told)}};
+    remarks.push_back({"pairs of particles whose bond has broken", static_cast<double>(told)});
     if (breaks.gains > 0)
         remarks.push_back({"energy that breaking bonds have taken from heat", breaks.gained});
-    return remarks;
 }
 
 template <int Dim>
@@ -140,7 +138,7 @@ const BondBreaks& MaterialVectors<Dim>::breaks() const {
     template bool MaterialVectors<D>::break_bonds(const ConstState<D>&);                          \
     template bool MaterialVectors<D>::anchor(std::size_t, const Fit&, const double*);             \
     template void MaterialVectors<D>::exclude(const double*);                                     \
-    template std::vector<Remark> MaterialVectors<D>::watch(double, std::span<const double>);      \
+    template void MaterialVectors<D>::tell_breaks(std::vector<Remark>&);                          \
     template const BondBreaks& MaterialVectors<D>::breaks() const;
 SPAM_INSTANTIATE(2)
 SPAM_INSTANTIATE(3)

@@ -96,7 +96,7 @@ bool MaterialVectors<Dim>::weigh(const ConstState<Dim>& state) {
                const auto changed = [&](std::size_t m) {
                    const Vec<Dim> X = p.table.X(k, m);
                    const double g = p.table.g(k, m);
-                   const double own = material_weight(std::sqrt(dot(X, X)), scheme_.range);
+                   const double own = scheme_.weight(std::sqrt(dot(X, X)), scheme_.range);
                    return g > 0.0 && std::abs(g - own) > 1e-14;  // rounding apart
                };
                std::size_t m = 0;

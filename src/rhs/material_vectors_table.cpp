@@ -91,7 +91,7 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
     const auto weighs = [&](const auto& bond) {
         const Vec<Dim> X = anchored(bond);
         return dot(bond.r, bond.r) < scheme_.range * scheme_.range &&
-               material_weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0;
+               scheme_.weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0;
     };
     std::vector<std::uint32_t> changed;  // whose sums are others
     for (const auto* bonds : {&p.table.newcomers(), &p.table.idle()})

@@ -14,13 +14,17 @@ namespace spam {
 // axes, whatever the tables hold: p and L are kept exactly. Written over an arithmetic type, once for
 // double and once for lanes. Derived here; forces against -dPhi/dx in tests/rhs/material_vectors.cpp.
 
-/// The part g(|X|) of the weight, fixed as long as X is: (1 - |X|/(1.25 h))^2 inside 1.25 h. Decided by
-/// what has been, it weakens no bond because the body is stretched: no tensile instability.
-template <class T>
-constexpr T material_weight(const T& length, double range) {
-    const T z = positive_part(T(1.0) - length / T(1.25 * range));
-    return z * z;
-}
+/// The part g(|X|) of the weight, fixed as long as X is: (1 - |X|/(reach h))^power inside reach h. Decided by
+/// what has been, it weakens no bond because the body is stretched: no tensile instability. What stands here is
+/// what wins in problems/material_vectors_study.cpp.
+struct MaterialWeight {
+    double reach = 1.25, power = 2.0;
+
+    double operator()(double length, double range) const {
+        const double z = positive_part(1.0 - length / (reach * range));
+        return power == 2.0 ? z * z : z > 0.0 ? std::pow(z, power) : 0.0;
+    }
+};
 
 /// The part s(r) = z^2 (3 - 2z), z = (1 - r^2/h^2)/0.51 clipped to [0, 1], which lets neighbours come and go
 /// between 0.7 h and h. Of r^2, so that no bond costs a root or a quotient.

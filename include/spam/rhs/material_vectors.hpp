@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/material/hyperelastic_material.hpp>
+#include <spam/physics/material_vectors.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <limits>
@@ -13,8 +14,8 @@ namespace spam {
 struct MaterialVectorScheme {
     double density;  ///< rho_0 at the start, free of stress; sqrt(4/3) m in the triangular lattice
     double range = 3.0;  ///< h, beyond which bonds weigh nothing
-    /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness: stable for
-    /// 1.5 times the largest tension or more; above 3 short waves become stiff.
+    /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness; above 3 short
+    /// waves become stiff.
     double penalty = 1.0;
     /// Where the law yields: no misfit e_kj is longer than this times the yield strain Y/(2 eta) times
     /// |F_k X_kj|; 0: misfits do not flow. Without, plastic flow leaves misfits that harden the body; 2 or less
@@ -24,6 +25,19 @@ struct MaterialVectorScheme {
     double stretch_limit = std::numeric_limits<double>::infinity();
     /// ... where the mean of the Kirchhoff stresses of its two particles pulls along it by more than this.
     double stress_limit = std::numeric_limits<double>::infinity();
+    MaterialWeight weight{};  ///< of bonds, by their material vectors
+
+    /// The largest tension (principal Cauchy stress) under which no wave grows: with tau = tension/stiffness
+    ///     kappa >= tau/(0.75 - 0.6 tau) where h is 3 spacings or more, tau/(0.6 - 0.8 tau) below that.
+    /// Under 15 stresses of as many directions, from hydrostatic to shear, growth begins 1.0 to 2.4 times as high
+    /// in triangular lattices, and up to a sixth lower in square ones (kappa > 1, h from 3 spacings). Greater kappa
+    /// helps less and less: a lattice so much strained that shells of neighbours leave the range grows
+    /// unstable anyhow. From the growth rates of BondedLattice (analysis/bonded_lattice.hpp, with its test).
+    double safe_tension(double stiffness, double spacing) const {
+        const bool many = range >= 3.0 * spacing * (1.0 - 1e-9);
+        return penalty * stiffness *
+               (many ? 0.75 / (1.0 + 0.6 * penalty) : 0.6 / (1.0 + 0.8 * penalty));
+    }
 };
 
 /// What bonds that break have done so far.
@@ -87,10 +101,18 @@ class MaterialVectors final : public Term<Dim> {
     double reach() const override { return scheme_.range; }
     std::size_t list_builds() const override;
     void remember(Archive& archive) override;
-    /// Remarks when the first pairs break, and whenever twice as many have as at the last remark.
+    /// Once a run: that the tension is above the one that the penalty keeps stable. Looks at every 32nd state,
+    /// because what grows takes longer than that. And when the first pairs break, and whenever twice as many have as
+    /// at the last remark.
     std::vector<Remark> watch(double t, std::span<const double> y) override;
+    /// The largest principal Cauchy stress of all whole particles; below 0 where all are compressed.
+    double largest_tension(std::span<const double> y) const;
 
     const MaterialVectorScheme& scheme() const { return scheme_; }
+    /// MaterialVectorScheme::safe_tension() of this solid.
+    double safe_tension() const {
+        return scheme_.safe_tension(material_.stiffness(), this->particles().spacing);
+    }
     /// Energy that changes of the table have taken out of the motion so far.
     double heat() const;
     /// The same of each particle, N numbers.
@@ -124,6 +146,7 @@ class MaterialVectors final : public Term<Dim> {
     bool break_bonds(const ConstState<Dim>& state);
     bool anchor(std::size_t k, const Fit& fit, const double* x);
     void exclude(const double* x);
+    void tell_breaks(std::vector<Remark>& remarks);
     bool update(const ConstState<Dim>& state);
     std::string complaint(const ConstState<Dim>& state) const;
 

@@ -17,7 +17,8 @@ namespace spam {
 struct Remark {
     std::string what;
     double value;
-    bool stop = false;  ///< the run must not go on
+    bool stop = false;     ///< the run must not go on
+    bool warning = false;  ///< said on the terminal as well, not in the log alone
 
     void remember(Archive& archive) { archive(what, value, stop); }
 };
