@@ -13,7 +13,8 @@ template <int Dim>
 BondRows<Dim>::BondRows(std::size_t particles, std::size_t lanes)
     : lanes_(lanes),
       count_(particles, 0),
-      first_((particles + lanes - 1) / lanes + 1, 0) {}
+      first_((particles + lanes - 1) / lanes + 1, 0),
+      shift_((particles + block - 1) / block, 0) {}
 
 template <int Dim>
 Vec<Dim> BondRows<Dim>::X(std::size_t k, std::size_t m) const {
@@ -33,7 +34,8 @@ void BondRows<Dim>::vacate(std::size_t begin, std::size_t end, std::size_t group
     for (std::size_t s = begin; s < end; ++s) {
         partner_[s] = static_cast<std::uint32_t>(group * lanes_ + s % lanes_);
         reverse_[s] =
-            static_cast<std::uint32_t>(s / lanes_ * lanes_ + place_of_lane(s % lanes_, lanes_));
+            static_cast<std::uint32_t>(s / lanes_ * lanes_ + place_of_lane(s % lanes_, lanes_)) +
+            shift_[group * lanes_ / block];
     }
     std::fill(vectors_.begin() + static_cast<std::ptrdiff_t>(begin * (Dim + 1)),
               vectors_.begin() + static_cast<std::ptrdiff_t>(end * (Dim + 1)), 0.0);
@@ -50,7 +52,8 @@ void BondRows<Dim>::lay_out(const std::vector<std::uint32_t>& capacity) {
                reverse = std::exchange(reverse_, std::vector<std::uint32_t>(first_.back()));
     const auto vectors =
         std::exchange(vectors_, std::vector<double>(first_.back() * (Dim + 1), 0.0));
-    t_.assign(first_.back() * Dim, 0.0);
+    const auto shift_before = std::exchange(shift_, std::vector<std::uint32_t>(shift_.size(), 0));
+    scheduled_ = false;
     parallel_for(
         groups(),
         [&](std::size_t group) {
@@ -59,8 +62,9 @@ void BondRows<Dim>::lay_out(const std::vector<std::uint32_t>& capacity) {
             for (std::size_t s = 0; s < held; ++s) {
                 const std::uint32_t j = partner[from + s];
                 partner_[to + s] = j;
-                reverse_[to + s] = static_cast<std::uint32_t>(
-                    reverse[from + s] - first_before[j / lanes_] + first_[j / lanes_]);
+                reverse_[to + s] =
+                    static_cast<std::uint32_t>(reverse[from + s] - shift_before[j / block] -
+                                               first_before[j / lanes_] + first_[j / lanes_]);
             }
             std::copy_n(&vectors[0] + from * (Dim + 1), held * (Dim + 1),
                         &vectors_[0] + to * (Dim + 1));
@@ -106,6 +110,11 @@ void BondRows<Dim>::enter(std::vector<Newcomer>& newcomers) {
     parallel_for(newcomers.size(),
                  [&](std::size_t n) { find_way_back(newcomers[n].k, newcomers[n].row); });
     bonds_ += newcomers.size();
+    for (const Newcomer& bond : newcomers) {
+        if (!scheduled_) break;
+        const BondSchedule::Reach& reach = reach_[bond.k / block];
+        scheduled_ = reach.first <= bond.j / block && bond.j / block <= reach.last;
+    }
 }
 
 template <int Dim>
@@ -179,6 +188,53 @@ void BondRows<Dim>::tidy() {
 }
 
 template <int Dim>
+void BondRows<Dim>::find_reach() {
+    const std::size_t n = particles();
+    reach_.resize(shift_.size());
+    parallel_for(
+        reach_.size(),
+        [&](std::size_t b) {
+            reach_[b] = {b, b};
+            for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k)
+                for (std::size_t m = 0; m < row(k); ++m) {
+                    reach_[b].first = std::min<std::size_t>(reach_[b].first, partner(k, m) / block);
+                    reach_[b].last = std::max<std::size_t>(reach_[b].last, partner(k, m) / block);
+                }
+        },
+        block);
+}
+
+template <int Dim>
+const BondSchedule& BondRows<Dim>::schedule(std::size_t threads) {
+    if (scheduled_ &&
+        schedule_.threads() == std::max<std::size_t>(1, std::min(threads, shift_.size())))
+        return schedule_;
+    find_reach();
+    schedule_ = BondSchedule(reach_, threads);
+    scheduled_ = true;
+    const auto begins = [&](std::size_t b) {  // slots of a block
+        return first_[std::min(groups(), b * block / lanes_)];
+    };
+    std::size_t largest = 0;
+    for (std::size_t b = 0; b < shift_.size(); ++b)
+        largest = std::max(largest, begins(b + 1) - begins(b));
+    t_.resize(schedule_.rooms() * largest * Dim);
+    std::vector<std::uint32_t> change(shift_.size());
+    for (std::size_t b = 0; b < shift_.size(); ++b) {
+        const auto shift = static_cast<std::uint32_t>(schedule_.room(b) * largest - begins(b));
+        change[b] = shift - std::exchange(shift_[b], shift);
+    }
+    parallel_for(
+        groups(),
+        [&](std::size_t group) {
+            for (std::size_t s = first_[group]; s < first_[group + 1]; ++s)
+                reverse_[s] += change[partner_[s] / block];
+        },
+        lanes_);
+    return schedule_;
+}
+
+template <int Dim>
 void BondRows<Dim>::show(BondView<Dim>& view) {
     view.particles = particles();
     view.first = first_.data();
@@ -186,6 +242,8 @@ void BondRows<Dim>::show(BondView<Dim>& view) {
     view.reverse = reverse_.data();
     view.vectors = vectors_.data();
     view.t = t_.data();
+    view.shift = shift_.data();
+    view.block = block / lanes_;
 }
 
 template <int Dim>

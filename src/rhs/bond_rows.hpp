@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "bond_schedule.hpp"
 #include "bond_sweeps.hpp"
 #include <spam/core/archive.hpp>
 #include <spam/core/tensor.hpp>
@@ -18,6 +19,9 @@ namespace spam {
 template <int Dim>
 class BondRows {
   public:
+    /// Particles are summed in blocks of so many, whose bonds fit the cache.
+    static constexpr std::size_t block = 128;
+
     BondRows(std::size_t particles, std::size_t lanes);
 
     std::size_t particles() const { return count_.size(); }
@@ -37,7 +41,8 @@ class BondRows {
     }
     /// Where k stands in the row of the partner of its bond m.
     std::size_t way_back(std::size_t k, std::size_t m) const {
-        return (reverse_[slot(k, m)] - first_[partner(k, m) / lanes_]) / lanes_;
+        const std::uint32_t j = partner(k, m);
+        return (reverse_[slot(k, m)] - place(j, 0)) / lanes_;
     }
     Vec<Dim> X(std::size_t k, std::size_t m) const;
     double g(std::size_t k, std::size_t m) const { return vectors_[number(k, m, Dim)]; }
@@ -59,6 +64,8 @@ class BondRows {
     /// Rows without vacancies, partners ascending, where these have become many.
     void tidy();
 
+    /// Blocks in an order for so many threads, with t laid out for it; made anew where rows have changed.
+    const BondSchedule& schedule(std::size_t threads);
     /// All of a BondView that rows know.
     void show(BondView<Dim>& view);
     /// Rows in their order, vacancies included; nothing that depends on lanes.
@@ -74,7 +81,8 @@ class BondRows {
     /// The place in t of a bond (place_of_lane).
     std::uint32_t place(std::size_t k, std::size_t m) const {
         return static_cast<std::uint32_t>(first_[k / lanes_] + m * lanes_ +
-                                          place_of_lane(k % lanes_, lanes_));
+                                          place_of_lane(k % lanes_, lanes_)) +
+               shift_[k / block];
     }
     std::size_t capacity(std::size_t k) const {
         return (first_[k / lanes_ + 1] - first_[k / lanes_]) / lanes_;
@@ -83,6 +91,7 @@ class BondRows {
     void hold(const Contents& contents);
     void make_room(std::vector<Newcomer>& newcomers);
     void lay_out(const std::vector<std::uint32_t>& capacity);
+    void find_reach();
     void vacate(std::size_t begin, std::size_t end, std::size_t group);
     void find_way_back(std::size_t k, std::size_t m);
 
@@ -91,6 +100,10 @@ class BondRows {
     std::vector<std::size_t> first_;    ///< by group
     std::vector<std::uint32_t> partner_, reverse_;
     std::vector<double> vectors_, t_;
+    std::vector<std::uint32_t> shift_;  ///< by block: from a slot to the place in t
+    std::vector<BondSchedule::Reach> reach_;
+    BondSchedule schedule_;
+    bool scheduled_ = false;  ///< for these rows
 };
 
 extern template class BondRows<2>;

@@ -22,15 +22,22 @@ struct BondView {
     static constexpr std::size_t vector_numbers = Dim + 1;  ///< X and g, each number for all lanes
 
     std::size_t particles;
-    const std::size_t* first;  ///< by group: where its bonds begin
-    std::uint32_t* partner;    ///< by bond
-    std::uint32_t* reverse;    ///< by bond: which place in t is that of the partner's bond
-    double* vectors;           ///< by bond
-    const double* x;           ///< Dim by particle, also of those that fill the last group
-    double* t;                 ///< Dim by place: r, each number for all lanes; then forces
+    const std::size_t* first;    ///< by group: where its bonds begin
+    std::uint32_t* partner;      ///< by bond
+    std::uint32_t* reverse;      ///< by bond: which place in t is that of the partner's bond
+    double* vectors;             ///< by bond
+    const double* x;             ///< Dim by particle, also of those that fill the last group
+    double* t;                   ///< Dim by place: r, each number for all lanes; then forces
+    const std::uint32_t* shift;  ///< by block of particles: from a bond to its place in t
+    std::size_t block;           ///< groups of a block
     double inverse_range;
     double little;                            ///< of FitSolver
     double length[Dim], inverse_length[Dim];  ///< of the box, 0 where it is free
+
+    /// The place in t of the first of the bonds that lie together from there on.
+    std::size_t place(std::size_t group, std::size_t bond) const {
+        return static_cast<std::uint32_t>(bond + shift[group / block]);
+    }
 };
 
 /// The place in t, among those of W bonds that lie together, of the one in a lane: even lanes first, because
@@ -71,6 +78,9 @@ struct BondSweeps {
     /// F and N^-1 of every record; r into t.
     void (*fit)(const BondView<Dim>&, double* records, std::size_t first,
                 std::size_t last) = nullptr;
+    /// The same without t, for loops in any order.
+    void (*gradients)(const BondView<Dim>&, double* records, std::size_t first,
+                      std::size_t last) = nullptr;
     /// t, by F, G, H and c; v_dot_i = sum_j t_ij. `whole`: H = 0 in all.
     void (*forces)(const BondView<Dim>&, const double* records, bool whole, double* v_dot,
                    std::size_t first, std::size_t last) = nullptr;

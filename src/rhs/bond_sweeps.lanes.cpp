@@ -4,6 +4,8 @@
 #include <spam/core/lanes.hpp>
 #include <spam/physics/material_vectors.hpp>
 
+#include <type_traits>
+
 namespace spam {
 namespace {
 
@@ -134,14 +136,17 @@ SPAM_INLINE Fitted<Dim> fit_group(const BondView<Dim>& view, std::size_t group, 
     return {solver.divided(sums.A), solver.inverse()};
 }
 
-template <int Dim, bool Periodic>
+template <int Dim, bool Periodic, bool Kept>
 void fit(const BondView<Dim>& view, double* records, std::size_t first, std::size_t last) {
     using R = BondRecord<Dim>;
     for (std::size_t group = first; group < last; ++group) {
-        const Fitted<Dim> fitted = fit_group<Dim, Periodic>(
-            view, group, view.little, [&](std::size_t bond, const Vec<Dim, T>& r) SPAM_FLAT {
-                for (int a = 0; a < Dim; ++a) store_lanes(view.t + bond * Dim + a * W, r[a]);
-            });
+        const auto keep = [&](std::size_t bond, const Vec<Dim, T>& r) SPAM_FLAT {
+            if constexpr (Kept) {
+                double* const t = view.t + view.place(group, bond) * Dim;
+                for (int a = 0; a < Dim; ++a) store_lanes(t + a * W, r[a]);
+            }
+        };
+        const Fitted<Dim> fitted = fit_group<Dim, Periodic>(view, group, view.little, keep);
         double* const record = records + (group - first) * W * R::numbers;
         for (std::size_t c = 0; c < R::square; ++c)
             to_records(record, R::numbers, R::F + c, fitted.F.c[c]);
@@ -167,7 +172,7 @@ void forces_of(const BondView<Dim>& view, const double* records, double* v_dot, 
         law.c = from_records(record, R::numbers, R::c);
         Vec<Dim, T> own;
         for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
-            double* const t = view.t + bond * Dim;
+            double* const t = view.t + view.place(group, bond) * Dim;
             Vec<Dim, T> r, X;
             T g;
             for (int a = 0; a < Dim; ++a) r[a] = load_lanes<W>(t + a * W);
@@ -296,7 +301,8 @@ void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size
             for (unsigned far = lanes_below(T(reach2), r2); far != 0; far &= far - 1, ++gone) {
                 const auto l = static_cast<std::size_t>(__builtin_ctz(far));
                 view.partner[bond + l] = static_cast<std::uint32_t>(group * W + l);
-                view.reverse[bond + l] = static_cast<std::uint32_t>(bond + place_of_lane(l, W));
+                view.reverse[bond + l] =
+                    static_cast<std::uint32_t>(view.place(group, bond) + place_of_lane(l, W));
                 for (int a = 0; a <= Dim; ++a) numbers[static_cast<std::size_t>(a * W) + l] = 0.0;
             }
         }
@@ -310,9 +316,17 @@ void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size
 
 template <int Dim, InstructionSet Level>
 BondSweeps<Dim> bond_sweeps(bool periodic) {
-    if (periodic)
-        return {W, fit<Dim, true>, forces<Dim>, gather<Dim>, count<Dim>, renew<Dim, true>};
-    return {W, fit<Dim, false>, forces<Dim>, gather<Dim>, count<Dim>, renew<Dim, false>};
+    const auto all = [](auto across) {
+        constexpr bool Periodic = decltype(across)::value;
+        return BondSweeps<Dim>{W,
+                               fit<Dim, Periodic, true>,
+                               fit<Dim, Periodic, false>,
+                               forces<Dim>,
+                               gather<Dim>,
+                               count<Dim>,
+                               renew<Dim, Periodic>};
+    };
+    return periodic ? all(std::true_type{}) : all(std::false_type{});
 }
 
 template BondSweeps<2> bond_sweeps<2, InstructionSet::SPAM_LEVEL>(bool);

@@ -132,7 +132,6 @@ void BondTable<Dim>::list_neighbours(const Eigen::Ref<const Points<Dim>>& x) {
     for (std::size_t slot = 0; slot < particles(); ++slot)
         slot_of_[list_.order()[slot]] = static_cast<std::uint32_t>(slot);
     rows_.tidy();
-    find_reach();
 }
 
 /// How many of its body are nearer than range + skin, by particle.
@@ -244,33 +243,6 @@ Mat<Dim> BondTable<Dim>::anchoring(std::size_t k) const {
     Mat<Dim> back;
     std::copy_n(&anchoring_[k * back.c.size()], back.c.size(), back.c.begin());
     return back;
-}
-
-template <int Dim>
-void BondTable<Dim>::admit() {
-    rows_.enter(newcomers_);
-    for (const Newcomer& bond : newcomers_) {
-        Reach& reach = reach_[bond.k / block];
-        reach.first = std::min<std::size_t>(reach.first, bond.j / block);
-        reach.last = std::max<std::size_t>(reach.last, bond.j / block);
-    }
-}
-
-template <int Dim>
-void BondTable<Dim>::find_reach() {
-    const std::size_t n = particles();
-    reach_.resize((n + block - 1) / block);
-    parallel_for(
-        reach_.size(),
-        [&](std::size_t b) {
-            reach_[b] = {b, b};
-            for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k)
-                for (std::size_t m = 0; m < row(k); ++m) {
-                    reach_[b].first = std::min<std::size_t>(reach_[b].first, partner(k, m) / block);
-                    reach_[b].last = std::max<std::size_t>(reach_[b].last, partner(k, m) / block);
-                }
-        },
-        block);
 }
 
 template <int Dim>

@@ -33,7 +33,7 @@ class BondTable {
     /// Of the last renew(), ascending by k, then j, both directions of every pair; to be admitted, and their
     /// vectors set.
     const std::vector<Newcomer>& newcomers() const { return newcomers_; }
-    void admit();
+    void admit() { rows_.enter(newcomers_); }
     /// Bonds within the range that weigh nothing, because their vectors are too long: they may be anchored anew.
     const std::vector<Newcomer>& idle() const { return idle_; }
     /// F^-1 at the last renew(), before anybody was admitted; 1 where there is none.
@@ -61,14 +61,9 @@ class BondTable {
     /// x_j - x_k, the nearest image.
     Vec<Dim> separation(const double* x, std::size_t k, std::size_t j) const;
 
-    /// Particles are summed in blocks of so many, whose bonds fit the cache.
-    static constexpr std::size_t block = 128;
-    std::size_t blocks() const { return reach_.size(); }
-    /// The first and the last block that a block has bonds with.
-    struct Reach {
-        std::size_t first, last;
-    };
-    const Reach& reach(std::size_t b) const { return reach_[b]; }
+    static constexpr std::size_t block = BondRows<Dim>::block;
+    std::size_t blocks() const { return (particles() + block - 1) / block; }
+    const BondSchedule& schedule(std::size_t threads) { return rows_.schedule(threads); }
 
     /// Positions for the loops of right-hand sides: inside a periodic box, and some behind the last one.
     void load(const double* x);
@@ -85,7 +80,6 @@ class BondTable {
     void newcomers_of(std::size_t k, const double* x, Partners& partners,
                       std::vector<Newcomer>& newcomers) const;
     void idle_of(std::size_t k, const double* x, std::vector<Newcomer>& idle) const;
-    void find_reach();
 
     double range_;
     MaterialWeight weight_;
@@ -96,7 +90,6 @@ class BondTable {
     std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle
     MotionSince<Dim> motion_;             ///< since newcomers were looked for
     BondRows<Dim> rows_;
-    std::vector<Reach> reach_;  ///< by block
     std::vector<double> x_, records_, neighbours_, anchoring_;
     std::vector<Newcomer> newcomers_, idle_;
     std::size_t updates_ = 0;

@@ -23,8 +23,7 @@ struct MaterialVectors<Dim>::Parts {
     std::vector<double> volume{}, heat{};
     double stiffness = 0.0;  ///< c_k/V_k = kappa eta/N0
     std::vector<std::uint32_t> numbers{};
-    std::vector<unsigned char> left{};  ///< by block
-    double misfit_limit = HUGE_VAL;     ///< |e|/|F X|
+    double misfit_limit = HUGE_VAL;  ///< |e|/|F X|
     bool brittle = false;
     BondBreaks breaks{};
     std::size_t told = 0;  ///< pairs, by the latest remark
@@ -49,44 +48,30 @@ struct MaterialVectors<Dim>::Parts {
     }
 
     BondView<Dim> view() { return table.view(N0); }
-    /// find(first, last) for blocks of groups, then give(first, last), as soon as everybody who has bonds with
-    /// the block has been found: what was found of bonds is then still in the cache. Every thread has blocks
-    /// that follow each other, and leaves to the end those with bonds beyond.
+    /// find(first, last) for blocks of groups, then give(first, last), as BondSchedule says. The view must be taken
+    /// after schedule().
     template <class Find, class Give>
-    void for_blocks(const Find& find, const Give& give) {
-        const std::size_t groups = table.groups(), blocks = table.blocks();
+    void for_blocks(const BondSchedule& schedule, const Find& find, const Give& give) {
+        const std::size_t groups = table.groups();
         const auto of_block = [&](const auto& body, std::size_t b) {
             const std::size_t each = table.block / static_cast<std::size_t>(sweeps.lanes);
             body(b * each, std::min(groups, (b + 1) * each));
         };
-        const std::size_t shares = std::min(blocks, static_cast<std::size_t>(set_threads(0)));
-        left.assign(blocks, 0);
         parallel_for(
-            shares,
-            [&](std::size_t share) {
-                const std::size_t begin = share * blocks / shares,
-                                  end = (share + 1) * blocks / shares;
-                std::size_t next = begin;
-                for (std::size_t b = begin; b < end; ++b) {
+            schedule.threads(),
+            [&](std::size_t thread) {
+                for (std::size_t b = schedule.begin(thread); b < schedule.end(thread); ++b) {
                     of_block(find, b);
-                    for (; next <= b; ++next) {
-                        const auto& reach = table.reach(next);
-                        if (reach.first < begin || reach.last >= end)
-                            left[next] = 1;
-                        else if (reach.last <= b)
-                            of_block(give, next);
-                        else
-                            break;
-                    }
+                    for (const std::uint32_t given : schedule.after(b)) of_block(give, given);
                 }
             },
-            (table.particles() + shares - 1) / shares);
+            (table.particles() + schedule.threads() - 1) / schedule.threads());
+        const auto last = schedule.last();
         parallel_for(
-            blocks,
-            [&](std::size_t b) {
-                if (left[b] != 0) of_block(give, b);
-            },
-            table.block);
+            last.size(), [&](std::size_t n) { of_block(give, last[n]); }, table.block);
+    }
+    const BondSchedule& schedule() {
+        return table.schedule(static_cast<std::size_t>(set_threads(0)));
     }
 };
 

@@ -149,6 +149,7 @@ template <int Dim>
 std::string MaterialVectors<Dim>::rates(const Now& now) {
     Parts& p = *parts_;
     p.table.load(now.state.position().data());
+    const BondSchedule& schedule = p.schedule();
     const BondView<Dim> view = p.view();
     const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
     std::atomic<bool> finite = true;
@@ -164,7 +165,7 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
         p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
     };
     const double* const mass = this->particles().mass.data();
-    p.for_blocks(find, [&](std::size_t first, std::size_t last) {
+    p.for_blocks(schedule, find, [&](std::size_t first, std::size_t last) {
         p.sweeps.gather(view, mass, now.v_dot, first, last);
     });
     return finite ? std::string() : complaint(now.state);

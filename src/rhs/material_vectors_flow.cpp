@@ -19,7 +19,7 @@ bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
         using Record = BondRecord<Dim>;
         std::array<double, BondTable<Dim>::block * Record::numbers> records;
         const std::size_t first = b * each, last = std::min(p.table.groups(), first + each);
-        p.sweeps.fit(view, records.data(), first, last);
+        p.sweeps.gradients(view, records.data(), first, last);
         std::size_t flowed = 0;
         for (std::size_t k = first * lanes; k < std::min(last * lanes, view.particles); ++k) {
             Mat<Dim> F;
