@@ -5,7 +5,7 @@
 
 namespace cantilever {
 
-/// A plate held at x = 0, free at x = L, in plane strain, as theories of beams see it.
+/// A plate held at x = 0, free at x = L, or free at both ends, in plane strain, as theories of beams see it.
 struct Beam {
     double length = 0.2, thickness = 0.02;
     double young = 2e6, poisson = 0.3975;
@@ -29,6 +29,14 @@ struct Beam {
     double period() const;
     /// The shape of the thin beam's first mode, f(x)/f(L); 0 for x < 0.
     double shape(double x) const;
+
+    /// The first period with both ends free, shear and rotary inertia: from the frequency equation of
+    /// Timoshenko's beam, free and free (Huang 1961). Throws as period() does.
+    double free_period() const;
+    /// The shape of a thin beam's first mode with both ends free, 1 at the ends, x from its middle; and its
+    /// slope.
+    double free_shape(double x) const;
+    double free_slope(double x) const;
 };
 
 /// What `layers` rows of a square lattice of total-Lagrangian particles make of that period, with Lucy's

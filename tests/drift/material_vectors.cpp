@@ -12,6 +12,7 @@
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/material_vectors.hpp>
+#include <spam/setup/drawn.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
@@ -20,6 +21,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 using namespace spam;
 using spam::test::effort;
@@ -90,6 +92,52 @@ BOOST_AUTO_TEST_CASE(the_hexagon_turns_and_nothing_but_its_breathing_changes) {
     BOOST_TEST(h.largest("L") < 1e-12);
     BOOST_TEST(h.largest("energy") < 5e-6);
     BOOST_TEST(survival(h).t == end);
+}
+
+/// Other sizes, penalties, speeds and lattices: what grows is the breathing, with the size and with the square of
+/// the speed, and nothing drifts.
+BOOST_AUTO_TEST_CASE(whatever_the_size_the_penalty_the_order_and_the_speed) {
+    struct Way {
+        int size;
+        double penalty, displaced, speed, turns, shape, closest;  // the last of that at the start
+    };
+    for (const Way& way :
+         {Way{5, 1.0, 0.0, 0.1, 10.0, 0.0150, 0.998}, Way{16, 1.0, 0.0, 0.1, 1.0, 0.0395, 0.999},
+          Way{32, 1.0, 0.0, 0.1, 0.25, 0.075, 0.999}, Way{8, 0.3, 0.0, 0.1, 5.0, 0.0218, 0.997},
+          Way{8, 3.0, 0.0, 0.1, 5.0, 0.0211, 0.999}, Way{8, 1.0, 0.2, 0.1, 5.0, 0.0220, 0.98},
+          Way{8, 1.0, 0.0, 0.4, 30.0, 0.31, 0.985}})
+        BOOST_TEST_CONTEXT("n = " << way.size << ", kappa = " << way.penalty << ", displaced by "
+                                  << way.displaced << ", speed " << way.speed) {
+            Points<2> x = triangular_hexagon(way.size);
+            std::mt19937_64 random(7);
+            for (auto& component : x.reshaped())
+                component += way.displaced * (2.0 * drawn(random) - 1.0);
+            MaterialVectorModel<2> model(make_particles<2>(x, 1.0),
+                                         PolynomialSolid::like(ElasticSolid::triangular_lattice()),
+                                         {rho, 3.0, way.penalty});
+            const double period = 2.0 * std::numbers::pi * way.size / way.speed;
+            const History h =
+                run<2>(model, rigid_rotation(way.speed / way.size),
+                       {.method = "leapfrog", .dt = 0.3}, effort(way.turns, 0.2) * period);
+            BOOST_TEST_MESSAGE("n = " << way.size << " kappa " << way.penalty << " displaced "
+                                      << way.displaced << " speed " << way.speed << ": shape "
+                                      << h.largest("shape_error") << ", closest "
+                                      << h.smallest("closest_pair") << ", dL/L " << h.largest("L")
+                                      << ", dE/E " << h.largest("energy"));
+            BOOST_TEST(h.largest("shape_error") < way.shape);
+            BOOST_TEST(h.smallest("closest_pair") > way.closest * closest_pair<2>(x, 1.0, {}));
+            BOOST_TEST(h.largest("p") < 1e-14);
+            BOOST_TEST(h.largest("L") < 1e-12);
+            BOOST_TEST(h.largest("energy") < 1e-4);
+        }
+}
+
+/// Tension of 0.09 where 0.03 is safe: clumps within a turn.
+BOOST_AUTO_TEST_CASE(too_small_a_penalty_for_the_speed) {
+    auto model = hexagon(0.1);
+    const History h =
+        run<2>(model, rigid_rotation(0.4 / 8), {.method = "leapfrog", .dt = 0.3}, 0.25 * turn);
+    BOOST_TEST(h.smallest("closest_pair") < 0.5);
 }
 
 BOOST_AUTO_TEST_CASE(to_the_error_of_rk4) {

@@ -6,6 +6,7 @@
 #include <cantilever/beam.hpp>
 
 #include <cmath>
+#include <numbers>
 
 using namespace spam::test;
 using namespace cantilever;
@@ -40,6 +41,27 @@ BOOST_AUTO_TEST_CASE(beams) {
     BOOST_TEST(near(beam.shape(0.1), 0.3395, 1e-3));  // of tables of the first mode
     beam.thickness = 5.0 * beam.length;
     BOOST_CHECK_THROW(beam.period(), std::domain_error);
+}
+
+/// omega L^2 sqrt(rho A/(E I)) of a bar 10 sqrt(4/3) times as long as thick, lambda = eta: the equations of the
+/// beam integrated from end to end by another program. With r and s exchanged 21.27 comes out.
+BOOST_AUTO_TEST_CASE(free_beams) {
+    Beam beam{10.0, std::sqrt(0.75), 2.5, 0.25, 1.2};
+    const auto b = [](const Beam& one) {
+        return 2.0 * std::numbers::pi / one.free_period() * one.length * one.length /
+               (one.thickness * std::sqrt(one.modulus() / (12.0 * one.density)));
+    };
+    BOOST_TEST(near(b(beam), 21.783953, 1e-6));
+    beam.thickness *= 1e-3;
+    BOOST_TEST(near(b(beam), 22.373285, 1e-6));  // of a thin one
+    BOOST_TEST(near(beam.free_shape(5.0), 1.0, 1e-12));
+    BOOST_TEST(near(beam.free_shape(-5.0), 1.0, 1e-12));
+    BOOST_TEST(std::abs(beam.free_slope(0.0)) < 1e-12);
+    BOOST_TEST(std::abs(beam.free_shape(0.2242 * 10.0 - 5.0)) < 1e-3);  // a node, of tables
+    BOOST_TEST(near(beam.free_slope(2.0), (beam.free_shape(2.001) - beam.free_shape(1.999)) / 0.002,
+                    1e-6));
+    beam.thickness = 5.0 * beam.length;
+    BOOST_CHECK_THROW(beam.free_period(), std::domain_error);
 }
 
 // The lowest eigenvalues of the linearised equations, found by another program.

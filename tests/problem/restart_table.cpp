@@ -64,9 +64,9 @@ const std::map<std::string, Words> runs{
     {"water_column", {"--width", "8", "--t-end", "20", "--checkpoint-every", "3.3"}},
 };
 /// Analyses, and studies that go on from their table.
-const std::set<std::string> without_checkpoints{"algorithm_sweep", "integrator_accuracy",
-                                                "invariant_drift", "kernels",
-                                                "stability",       "turns_survived"};
+const std::set<std::string> without_checkpoints{
+    "algorithm_sweep",        "integrator_accuracy", "invariant_drift", "kernels",
+    "material_vectors_study", "thousand_turns",      "stability",       "turns_survived"};
 
 /// Tables, configurations and the result, by their names.
 std::map<std::string, std::string> files_of(const fs::path& folder) {
