@@ -5,6 +5,7 @@
 // (study/drift_study.hpp). Whose energy keeps drifting, whose stays near what it was?
 //
 //     total_lagrangian   the hexagon of [HHM04] VI as a total-Lagrangian solid, `turns` turns
+//     material_vectors   the same with material vectors, whose neighbours may change
 //     md                 the same of points and springs
 //     wave               a standing wave in smooth particles, `periods` periods
 //     hexagon            smooth particles, torques of pairs balanced: one turn, they last no longer
@@ -42,6 +43,8 @@ std::vector<Trial<2>> systems(const Parameters& p) {
     return {
         {"total_lagrangian", "Total-Lagrangian hexagon", [=] { return lagrangian_hexagon(n, v); },
          p.turns * p.turn()},
+        {"material_vectors", "Hexagon with material vectors",
+         [=] { return material_vector_hexagon(n, v); }, p.turns * p.turn()},
         {"md", "Molecular dynamics: springs", [=] { return bonded_hexagon(n, v); },
          p.turns * p.turn()},
         {"wave", "Standing wave", wave, p.periods * period, "the border of the range is passed"},

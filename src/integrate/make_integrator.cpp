@@ -45,11 +45,11 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
     options.validate();
     require_fields(options, ode);
     const IntegrationMethod& method = integration_method(options.method);
-    if (method.multistep && ode.settle)
+    if (method.multistep && ode.settle && !ode.settles_seldom)
         throw InputError(fmt::format(
             "integrator: {} makes steps from earlier ones, which are worthless where the state is "
-            "changed between steps (a material that yields, a wall that reflects); use a one-step "
-            "method such as rk4 or arkode:DORMAND_PRINCE_7_4_5",
+            "changed between steps (a material that yields or breaks, a wall that reflects); use a "
+            "one-step method such as rk4 or arkode:DORMAND_PRINCE_7_4_5",
             method.name));
     if (method.multistep && !ode.events.empty())
         throw InputError(

@@ -43,6 +43,7 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
     ode.events = model.events();
     if (model.settles())
         ode.settle = [&model](double t, std::span<double> y) { return model.settle(t, y); };
+    ode.settles_seldom = model.settles_seldom();
     ode.inseparable = model.inseparable();
     add_energy(ode, model, pair_interactions);
     for (const auto& block : model.layout().blocks())

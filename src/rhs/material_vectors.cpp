@@ -191,6 +191,11 @@ std::string MaterialVectors<Dim>::complaint(const ConstState<Dim>& state) const 
 }
 
 template <int Dim>
+bool MaterialVectors<Dim>::settles_seldom() const {
+    return !material_.flows() && !parts_->brittle;
+}
+
+template <int Dim>
 std::size_t MaterialVectors<Dim>::pairs() const {
     return parts_->table.bonds() / 2;
 }

@@ -234,6 +234,13 @@ bool ParticleModel<Dim>::settles() const {
 }
 
 template <int Dim>
+bool ParticleModel<Dim>::settles_seldom() const {
+    return !walled_ && !Model<Dim>::settles() &&
+           std::all_of(terms_.begin(), terms_.end(),
+                       [](const auto& term) { return !term->settles() || term->settles_seldom(); });
+}
+
+template <int Dim>
 double ParticleModel<Dim>::fastest_damping() const {
     double damping = 0.0;
     for (const auto& term : terms_) damping += term->fastest_damping();

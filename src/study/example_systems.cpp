@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/analysis/plane_wave.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
@@ -51,6 +53,13 @@ Start<2> lagrangian_hexagon(int size, double speed) {
     const auto law = StVenantKirchhoff::like(ElasticSolid::triangular_lattice());
     return begun(std::make_unique<TotalLagrangianModel<2>>(
                      hexagon(size), law, TotalLagrangianScheme{lattice_density, 3.0, 0.1}),
+                 rigid_rotation(speed / size));
+}
+
+Start<2> material_vector_hexagon(int size, double speed) {
+    const auto law = PolynomialSolid::like(ElasticSolid::triangular_lattice());
+    return begun(std::make_unique<MaterialVectorModel<2>>(hexagon(size), law,
+                                                          MaterialVectorScheme{lattice_density}),
                  rigid_rotation(speed / size));
 }
 

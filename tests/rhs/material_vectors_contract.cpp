@@ -166,6 +166,44 @@ BOOST_AUTO_TEST_CASE(restarts_while_neighbours_change) {
     }
 }
 
+/// Methods that go on from earlier steps serve where neighbours only come and go without weight; what flows or
+/// breaks is refused in a line.
+BOOST_AUTO_TEST_CASE(multistep_methods_where_nothing_flows) {
+    for (const char* method : {"cvode:adams", "gsl:msadams"}) {
+        const IntegratorOptions options{.method = method, .dt = {}, .rtol = 1e-9};
+        Sheared sheared;
+        BOOST_TEST(sheared.model.settles_seldom());
+        Motion<2> motion(sheared.model, sheared.y0, options);
+        const double energy = total_energy(sheared.model, motion.y());
+        const std::size_t builds = sheared.model.list_builds();
+        motion.advance_to(8.0);
+        BOOST_TEST(sheared.model.list_builds() > builds + 4);
+        BOOST_TEST(std::abs(total_energy(sheared.model, motion.y()) / energy - 1.0) < 1e-6);
+        // When somebody enters depends on the steps: no two methods agree better than their tables do.
+        const auto by_rk4 = [](double dt) {
+            Sheared twin;
+            Motion<2> fine(twin.model, twin.y0, {.method = "rk4", .dt = dt});
+            fine.advance_to(8.0);
+            return Points<2>(fine.state().position());
+        };
+        const Points<2> fine = by_rk4(0.0125);
+        const double tables = (by_rk4(0.025) - fine).cwiseAbs().maxCoeff();
+        BOOST_TEST((motion.state().position() - fine).cwiseAbs().maxCoeff() < 3.0 * tables);
+        BOOST_TEST(tables < 0.02);
+
+        auto brittle = usual;
+        brittle.stretch_limit = 1.5;
+        MaterialVectorModel<2> breaks(sheared.model.particles(), solid, brittle),
+            yields(sheared.model.particles(), FlowingSolid{solid, 0.05}, usual);
+        for (MaterialVectorModel<2>* model : {&breaks, &yields}) {
+            BOOST_TEST(!model->settles_seldom());
+            BOOST_TEST(refusal([&] {
+                           Motion<2>(*model, sheared.y0, options);
+                       }).starts_with("integrator: "));
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(energy_is_kept_while_neighbours_change) {
     std::vector<double> error;
     for (const double dt : {0.1, 0.05, 0.025}) {

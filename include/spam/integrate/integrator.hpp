@@ -29,8 +29,10 @@ struct Ode {
     /// What changes y at single times.
     std::vector<Event> events{};
     /// After every accepted step (events applied): may change y, and returns whether it did; the integrator
-    /// then begins anew from there. Null where nothing is ever changed. Not with multistep methods.
+    /// then begins anew from there. Null where nothing is ever changed. With multistep methods only where
+    /// it seldom does.
     std::function<bool(double t, std::span<double> y)> settle{};
+    bool settles_seldom = false;
     /// Entries of y that belong together, in order: "position", "velocity", ...
     struct Block {
         std::string name;

@@ -89,6 +89,8 @@ class MaterialVectors final : public Term<Dim> {
     bool settles() const override { return true; }
     /// A return to the yield surface makes the order of a fixed step less than the method's.
     bool smooth() const override { return !material_.flows(); }
+    /// Neighbours come and go with no weight: unless the law flows or bonds break.
+    bool settles_seldom() const override;
     /// Of all particles, with heat().
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.

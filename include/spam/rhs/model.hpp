@@ -65,6 +65,9 @@ class Model {
 
     /// Whether settle() may change anything.
     virtual bool settles() const;
+    /// Whether it leaves the rates as they are but now and then, so that methods which go on from earlier
+    /// steps serve, and begin anew where it does not.
+    virtual bool settles_seldom() const { return false; }
     /// After every accepted step, before anybody looks at it: what is not integrated may be changed here
     /// (a plastic return: history fields, and the stress that goes with them). Returns whether y was; the
     /// integrator is told.

@@ -97,6 +97,8 @@ class ParticleModel : public Model<Dim> {
     void remember(Archive& archive) final;
     /// Whether a term settles, or the box has walls.
     bool settles() const final;
+    /// Whether all terms that settle do so seldom, and the box has no walls.
+    bool settles_seldom() const final;
     /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n, where
     /// externals have potentials with the velocity that keeps the energy.
     bool settle(double t, std::span<double> y) final;

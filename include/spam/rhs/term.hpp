@@ -105,6 +105,8 @@ class Term {
     virtual bool settle(double, const State<Dim>&) { return false; }
     /// Whether settle() may do anything although y holds no history of the term.
     virtual bool settles() const { return false; }
+    /// Whether what it does leaves the rates as they are but now and then (Model::settles_seldom).
+    virtual bool settles_seldom() const { return false; }
 
   protected:
     const Particles<Dim>& particles() const { return among_.particles(); }

@@ -18,10 +18,11 @@ struct Start {
 
 /// The hexagon of [HHM04] VI, corners `size` spacings from the centre (1 + 3n + 3n^2 particles of mass
 /// and spacing one), turning rigidly with `speed` at the corners: as smooth particles, as points bound
-/// by springs, and as a total-Lagrangian solid with the penalty 0.1.
+/// by springs, as a total-Lagrangian solid with the penalty 0.1, and as one with material vectors.
 Start<2> smooth_hexagon(int size, double speed, const Scheme& scheme);
 Start<2> bonded_hexagon(int size, double speed);
 Start<2> lagrangian_hexagon(int size, double speed);
+Start<2> material_vector_hexagon(int size, double speed);
 
 /// Adds to every velocity component a number drawn evenly between -speed and speed (the same numbers
 /// every time), their mean taken off: all modes of the body ring.
