@@ -49,7 +49,7 @@ void report(Session& session, const Parameters& p, const std::vector<Plate>& pla
         if (!(T > 0.0)) continue;
         periods.push_back(T);
         const bool known = runs[k].complete && p.lagrangian() && p.gravity == 0.0 &&
-                           plates[k].layers >= 10 && p.range() >= 1.5 && p.penalty <= 0.1 &&
+                           plates[k].layers >= 10 && p.range() >= 1.5 && p.kappa() <= 0.1 &&
                            amplitude(p) < 0.7 && p.beam.length >= 8.0 * p.beam.thickness &&
                            runs[k].statistics.t_end >= 1.9 * T;
         session.claim({prefix + "period", T, derived, 0.01 * derived,
@@ -105,22 +105,28 @@ void add_options(Options& options, Parameters& p) {
     options.number("density", p.beam.density, "density, kg/m^3", positive());
     options.number("speed", p.speed, "speed of the tip at the start, by sqrt(K/rho)", positive());
     options.number("gravity", p.gravity, "acceleration downwards, m/s^2", any_number());
-    options.choice<Formulation>("formulation", p.formulation,
-                                {Formulation::total_lagrangian, Formulation::updated},
-                                "sums over the initial neighbours, or over the present ones");
+    options.choice<Formulation>(
+        "formulation", p.formulation,
+        {Formulation::total_lagrangian, Formulation::updated, Formulation::material_vectors},
+        "sums over the initial neighbours, over the present ones, or over "
+        "the present ones with a memory");
     options.number("range", p.given_range,
-                   "range of Lucy's weight function, in spacings (default 2; 2.6 for updated)",
+                   "range of the weight function, in spacings (default 2; 2.6 for updated)",
                    between(1.2, 6.0));
-    options.number("penalty", p.penalty, "penalty kappa against zero-energy modes", non_negative())
+    options
+        .number("penalty", p.penalty,
+                "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
+                "material_vectors (default 1)",
+                non_negative())
         .only_when(
-            {"formulation"}, [&p] { return p.lagrangian(); },
+            {"formulation"}, [&p] { return p.remembers(); },
             "has no meaning for --formulation updated; leave it out");
     options
         .number("viscosity", p.viscosity, "alpha of von Neumann's artificial viscosity",
                 non_negative())
         .only_when(
-            {"formulation"}, [&p] { return !p.lagrangian(); },
-            "has no meaning for --formulation total_lagrangian; leave it out");
+            {"formulation"}, [&p] { return !p.remembers(); },
+            "has no meaning for {by}; leave it out");
     options.flag("compare", p.compare, "compute half and twice as many layers as well");
 }
 

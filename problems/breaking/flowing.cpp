@@ -20,9 +20,12 @@ void add_flowing_options(Options& options, FlowingMatter& matter) {
 MaterialVectors<2>& add_flowing_terms(ParticleModel<2>& model, const FlowingMatter& matter,
                                       const std::optional<ContactScheme>& contact) {
     const auto elastic = PolynomialSolid::like(ElasticSolid::triangular_lattice());
+    MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), matter.range, matter.penalty,
+                                matter.bond_yield};
+    if (matter.stretch_limit) scheme.stretch_limit = *matter.stretch_limit;
+    if (matter.stress_limit) scheme.stress_limit = *matter.stress_limit;
     auto& law = model.add_term<MaterialVectors<2>>(
-        FlowingSolid{elastic, matter.yield_stress, matter.tension_limit},
-        MaterialVectorScheme{std::sqrt(4.0 / 3.0), matter.range, matter.penalty});
+        FlowingSolid{elastic, matter.yield_stress, matter.tension_limit}, scheme);
     if (matter.core > 0.0) model.add_term<Core<2>>(CorePotential{matter.core, matter.core_range});
     if (contact) model.add_term<Contact<2>>(*contact);
     return law;

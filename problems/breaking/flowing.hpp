@@ -19,7 +19,9 @@ struct FlowingMatter {
     double tension_limit = 0.05;  ///< p_c, of the mean tension
     double penalty = 1.0;         ///< kappa
     double range = 3.0;           ///< h
-    double core = 0.0;            ///< e_c
+    double bond_yield = 0.0;      ///< of misfits, by the yield strain; 0: they do not flow
+    std::optional<double> stretch_limit{}, stress_limit{};  ///< beyond which bonds break
+    double core = 0.0;                                      ///< e_c
     double core_range = 0.8;
 };
 

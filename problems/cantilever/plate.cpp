@@ -5,7 +5,9 @@
 #include <spam/diagnostics/fits.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/external/gravity.hpp>
+#include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
 #include <fmt/format.h>
@@ -40,7 +42,11 @@ Plate make_plate(const Parameters& p, int layers) {
     if (p.lagrangian())
         model->add_term<TotalLagrangian<2>>(
             StVenantKirchhoff::like(solid),
-            TotalLagrangianScheme{beam.density, p.range() * spacing, p.penalty});
+            TotalLagrangianScheme{beam.density, p.range() * spacing, p.kappa()});
+    else if (p.vectors())
+        model->add_term<MaterialVectors<2>>(
+            PolynomialSolid::like(solid),
+            MaterialVectorScheme{beam.density, p.range() * spacing, p.kappa()});
     else
         model->add_term<SmoothParticles<2>>(solid,
                                             Scheme{.transport = Transport::monaghan,

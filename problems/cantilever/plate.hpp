@@ -17,12 +17,16 @@ struct Parameters {
     double gravity = 0.0;
     Formulation formulation = Formulation::total_lagrangian;
     std::optional<double> given_range;  // in spacings
-    double penalty = 0.1, viscosity = 0.5;
+    std::optional<double> penalty;
+    double viscosity = 0.5;
     bool compare = false;
 
     bool lagrangian() const { return formulation == Formulation::total_lagrangian; }
+    bool vectors() const { return formulation == Formulation::material_vectors; }
+    bool remembers() const { return lagrangian() || vectors(); }
     /// In spacings. Shorter sums over present neighbours lose the order of the particles.
-    double range() const { return given_range.value_or(lagrangian() ? 2.0 : 2.6); }
+    double range() const { return given_range.value_or(remembers() ? 2.0 : 2.6); }
+    double kappa() const { return penalty.value_or(lagrangian() ? 0.1 : 1.0); }
     double spacing(int n) const { return beam.thickness / n; }
 };
 

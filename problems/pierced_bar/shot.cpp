@@ -63,8 +63,9 @@ void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces
     const bool known =
         run.complete && session.integrator().method == "rk4" && *session.integrator().dt <= 0.025 &&
         session.when_default({"columns", "rows", "projectile", "speed", "offset", "yield-stress",
-                              "tension-limit", "penalty", "range", "core", "core-range", "contact",
-                              "contact-energy", "contact-range"});
+                              "tension-limit", "penalty", "range", "bond-yield", "stretch-limit",
+                              "stress-limit", "core", "core-range", "contact", "contact-energy",
+                              "contact-range"});
     const auto drift = [&](const char* name) {
         for (const Drift& one : run.drifts)
             if (one.name == name) return one.change;

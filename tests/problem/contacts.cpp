@@ -29,12 +29,13 @@ BOOST_AUTO_TEST_CASE(rings_part_as_in_another_program) {
 }
 
 BOOST_AUTO_TEST_CASE(rings_of_either_formulation_part_again) {
-    for (const char* formulation : {"total_lagrangian", "updated"}) {
+    for (const char* formulation : {"total_lagrangian", "updated", "material_vectors"}) {
         const Results found("colliding_rings", with({"--formulation", formulation}), "restitution");
         BOOST_TEST(found.claims == 0U);
         BOOST_TEST(found.value.at("parted_at") > 20.0);
         BOOST_TEST(found.value.at("restitution") > 0.5);
         BOOST_TEST(found.value.at("restitution") < 1.0);
+        BOOST_TEST(found.value.at("pieces") == 2.0);
         BOOST_TEST(found.value.at("energy_drift") < 1e-6);
     }
 }
@@ -82,6 +83,8 @@ BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
         {{"--range", "1"}, {"range: 1"}},
         {{"--viscosity", "1"}, {"viscosity", "total_lagrangian"}},
         {{"--penalty", "1", "--formulation", "updated"}, {"penalty", "updated"}},
+        {{"--viscosity", "1", "--formulation", "material_vectors"},
+         {"viscosity", "material_vectors"}},
     };
     for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
             const Scratch folder;

@@ -32,6 +32,30 @@ BOOST_AUTO_TEST_CASE(smooth_particles_neck_and_part) {
     BOOST_TEST(found.value.at("closest_pair") > 0.4);
 }
 
+BOOST_AUTO_TEST_CASE(material_vectors_neck_and_part) {
+    if (!effort(true, false)) return;  // three times as long
+    const Results found("tension_test", {"--model", "material_vectors"}, "load_at_parting");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("pieces") == 2.0);
+    BOOST_TEST(found.value.at("second_piece") >= 250.0);
+    BOOST_TEST(found.value.at("closest_pair") > 0.6);
+    BOOST_TEST(found.value.at("momentum_drift") < 1e-13);
+    BOOST_TEST(found.value.at("angular_momentum_drift") < 1e-9);
+    BOOST_TEST(found.value.at("energy_drift") < 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(material_vectors_that_fly_apart_neck_twice) {
+    const Results found(
+        "tension_test",
+        {"--model", "material_vectors", "--columns", "50", "--taper", "0", "--disorder", "0",
+         "--end-speed", "0.4", "--yield-stress", "0.03", "--tension-limit", "0.06"},
+        "pieces");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.value.at("pieces") == 3.0);
+    BOOST_TEST(found.value.at("closest_pair") > 0.65);
+    BOOST_TEST(found.value.at("energy_drift") < 1e-5);
+}
+
 BOOST_AUTO_TEST_CASE(smooth_particles_without_a_core_clump_before) {
     const Results found("tension_test", {"--core", "0", "--t-end", "643"}, "pieces");
     BOOST_TEST(found.value.at("closest_pair") < 0.05);  // at loads up to 0.0045
@@ -65,6 +89,12 @@ BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
         {{"--model", "embedded_atom", "--yield-stress", "1"}, {"yield-stress", "embedded_atom"}},
         {{"--model", "embedded_atom", "--kernel", "lucy"}, {"kernel", "continuous derivatives"}},
         {{"--model", "springs"}, {"model", "springs", "pair_md"}},
+        {{"--tension-limit", "0.1"}, {"tension-limit", "--model spam"}},
+        {{"--end-speed", "0.4"}, {"end-speed", "--model spam"}},
+        {{"--model", "material_vectors", "--hardening", "0.1"}, {"hardening", "material_vectors"}},
+        {{"--model", "material_vectors", "--kernel", "w5"}, {"kernel", "material_vectors"}},
+        {{"--model", "material_vectors", "--end-speed", "0.4", "--damping", "0.1"},
+         {"damping", "end-speed"}},
         {{"--taper", "0.6"}, {"taper", "0.6", "between 0 and 0.5"}},
         {{"--load-rate", "0"}, {"load-rate", "0", "above 0"}},
         {{"--damping", "1e3"}, {"dt", "damping", "smaller --dt"}},

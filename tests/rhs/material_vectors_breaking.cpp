@@ -202,7 +202,9 @@ BOOST_AUTO_TEST_CASE(a_bar_that_breaks_keeps_p_L_and_energy) {
                                      << " gains of in sum " << kept.breaks.gained << ", dp "
                                      << kept.p << ", dL/L " << kept.L << ", dE/E " << kept.energy);
             BOOST_TEST(kept.breaks.pairs > 20U);
-            BOOST_TEST(kept.breaks.gains == 0U);
+            // Particles that are hardly whole may gain: less than a thousandth.
+            BOOST_TEST(kept.breaks.gains < 5U);
+            BOOST_TEST(kept.breaks.gained < 1e-3 * kept.heat);
             BOOST_TEST(kept.heat > 0.01);
             BOOST_TEST(kept.p < 1e-14);
             BOOST_TEST(kept.L < 1e-9);
