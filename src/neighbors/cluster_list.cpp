@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cell_search.hpp"
 #include "slice_search.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
@@ -38,7 +39,7 @@ ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, in
 
 template <int Dim>
 ClusterView ClusterList<Dim>::view() const {
-    return {size_, range_of_.size(), order_.data(), range_of_.data(), slice_of_.data()};
+    return {size_, entries_.size(), order_.data(), entries_.data()};
 }
 
 template <int Dim>
@@ -46,26 +47,27 @@ ClusterView ClusterList<Dim>::behind_wall(int a, bool upper) const {
     BehindWall& wall = behind_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
     if (wall.build != builds_) {
         wall.build = builds_;
-        wall.entries.clear();
-        wall.range.resize(range_of_.size());
+        wall.all.clear();
         const auto owned = static_cast<std::uint32_t>(order_.size());
-        for (std::size_t c = 0; c < range_of_.size(); ++c) {
-            const auto first = static_cast<std::uint32_t>(wall.entries.size());
+        std::vector<std::size_t> first{0};
+        for (std::size_t c = 0; c < clusters(); ++c) {
             for (const std::uint32_t entry : entries(c))
                 if (entry >= owned * stride_ && ghosts_.behind(entry / stride_ - owned, a, upper))
-                    wall.entries.push_back(entry);
-            wall.range[c] = {first, static_cast<std::uint32_t>(wall.entries.size()) - first};
+                    wall.all.push_back(entry);
+            first.push_back(wall.all.size());
         }
-        wall.entries.insert(wall.entries.end(), 2, 0);  // sweeps look one ahead
-        wall.slices.assign(slice_of_.size(), wall.entries.data());
+        wall.all.insert(wall.all.end(), 2, 0);  // sweeps look one ahead
+        wall.entries.resize(clusters());
+        for (std::size_t c = 0; c < clusters(); ++c)
+            wall.entries[c] = {wall.all.data() + first[c],
+                               static_cast<std::uint32_t>(first[c + 1] - first[c])};
     }
-    return {size_, range_of_.size(), order_.data(), wall.range.data(), wall.slices.data()};
+    return {size_, wall.entries.size(), order_.data(), wall.entries.data()};
 }
 
 template <int Dim>
 std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) const {
-    const auto& range = range_of_[cluster];
-    return {slice_of_[cluster / ClusterView::slice_size] + range.first, range.count};
+    return {entries_[cluster].first, entries_[cluster].count};
 }
 
 /// Everybody into the box.
@@ -75,23 +77,22 @@ void ClusterList<Dim>::take_home() {
     at_home_.resize(Dim, motion_.then().cols());
     periods_.assign(Dim * size_, 0);
     home_.periods = periods_.data();
-    std::array<double, Dim> inverse{};
+    std::array<double, Dim> length{}, inverse{};
     for (int a = 0; a < Dim; ++a) {
-        home_.length[a] = box_.length(a);
+        home_.length[a] = length[static_cast<std::size_t>(a)] = box_.length(a);
         home_.last_place[a] = box_.last_place(a);
         home_.places[a] = box_.periodic(a) ? 1.0 / box_.last_place(a) : 0.0;
         inverse[static_cast<std::size_t>(a)] = box_.periodic(a) ? 1.0 / box_.length(a) : 0.0;
     }
     // A search need not have the last digits right.
-    parallel_for(size_, [&](std::size_t i) {
+    parallel_for(size_, [length, inverse, from = motion_.then().data(), to = at_home_.data(),
+                         periods = periods_.data()](std::size_t i) {
         for (std::size_t a = 0; a < Dim; ++a) {
-            double x = motion_.then().data()[Dim * i + a];
-            if (const double L = home_.length[a]; L > 0.0) {
-                const double k = std::floor(x * inverse[a]);
-                periods_[Dim * i + a] = static_cast<std::int32_t>(k);
-                x -= k * L;
-            }
-            at_home_.data()[Dim * i + a] = x;
+            const double q = from[Dim * i + a] * inverse[a];
+            auto k = static_cast<std::int32_t>(q);
+            k -= q < k ? 1 : 0;
+            periods[Dim * i + a] = k;
+            to[Dim * i + a] = from[Dim * i + a] - k * length[a];
         }
     });
 }
@@ -102,10 +103,9 @@ template <int Dim>
 void ClusterList<Dim>::gather() {
     const auto width = static_cast<std::size_t>(width_);
     order_.resize((size_ + width - 1) / width * width, size_ > 0 ? order_.back() : 0);
-    const Points<Dim>& place = box_.periodic() ? at_home_ : motion_.then();
     for (auto& x : x_) x.resize(order_.size() + 8);  // searches read a register at a time
     parallel_for(order_.size(), [&](std::size_t k) {
-        for (std::size_t a = 0; a < Dim; ++a) x_[a][k] = place.data()[Dim * order_[k] + a];
+        for (std::size_t a = 0; a < Dim; ++a) x_[a][k] = place().data()[Dim * order_[k] + a];
     });
     boxes_.build(x_, width, order_.size() / width);
 }
@@ -113,8 +113,11 @@ void ClusterList<Dim>::gather() {
 template <int Dim>
 void ClusterList<Dim>::gather_strips() {
     take_home();
-    strips_.build(box_.periodic() ? at_home_ : motion_.then(), box_);
+    strips_.build(place(), box_, 3);
     order_.assign(strips_.order().begin(), strips_.order().end());
+    slot_of_.resize(size_);
+    for (std::size_t slot = 0; slot < size_; ++slot)
+        slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
     gather();
     strip_volume_ = boxes_.mean_volume(reach());
     typical_volume_ = boxes_.typical_volume(reach());
@@ -159,32 +162,61 @@ void ClusterList<Dim>::sort() {
     if (!in_order_) gather_strips();
 }
 
+/// Clusters in the order of their slots, which is that of numbers. Returns the number of pairs found.
+template <int Dim>
+std::size_t ClusterList<Dim>::search_slices() {
+    constexpr std::size_t slice_size = 64;  // clusters
+    const auto width = static_cast<std::size_t>(width_);
+    const std::size_t group = std::max<std::size_t>(1, 32 / width);
+    parts_.resize((boxes_.size() + slice_size - 1) / slice_size);
+    return parallel_count(
+        parts_.size(),
+        [&](std::size_t slice) {
+            SliceSearch search(*this, parts_[slice]);
+            const std::size_t end = std::min((slice + 1) * slice_size, boxes_.size());
+            std::size_t pairs = 0;
+            for (std::size_t c = slice * slice_size; c < end; c += group)
+                pairs += search.run(c, std::min(c + group, end));
+            search.finish();
+            return pairs;
+        },
+        slice_size * width);
+}
+
+/// Clusters by cells of space. Returns the number of pairs found around those that are counted.
+template <int Dim>
+std::size_t ClusterList<Dim>::search_cells() {
+    // Bounds of members far from each other hold many who are near none of them.
+    cells_.build({strips_, boxes_, ghosts_, place(), order_, slot_of_, x_,
+                  static_cast<std::size_t>(width_), reach(), 2.0 * typical_volume_});
+    unsigned bits = 0;  // some parts for each thread
+    if (const int threads = set_threads(0); threads > 1 && size_ >= parallel_threshold)
+        while (bits < 10 && 1 << bits < 4 * threads) ++bits;
+    parts_.resize(std::size_t{1} << bits);
+    levels_.resize(parts_.size());
+    return parallel_count(
+        parts_.size(),
+        [&](std::size_t part) {
+            CellSearch search(*this, parts_[part], levels_[part]);
+            const std::size_t pairs = search.run(part, bits);
+            search.finish();
+            return pairs;
+        },
+        bits > 0 ? parallel_threshold : 0);
+}
+
 template <int Dim>
 void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     size_ = static_cast<std::size_t>(position.cols());
     motion_.begin(position);
     sort();
-    ghosts_.build(box_, reach(), size_, order_.size(), x_);
-    constexpr std::size_t slice_size = ClusterView::slice_size;
-    range_of_.resize(boxes_.size());
-    slices_.resize((boxes_.size() + slice_size - 1) / slice_size);
-    slice_of_.resize(slices_.size());
-    const auto width = static_cast<std::size_t>(width_);
-    const std::size_t group = std::max<std::size_t>(1, 32 / width);
-    const std::size_t found = parallel_count(
-        slices_.size(),
-        [&](std::size_t slice) {
-            SliceSearch search(*this, slice);
-            const std::size_t end = std::min((slice + 1) * slice_size, boxes_.size());
-            std::size_t pairs = 0;
-            for (std::size_t c = slice * slice_size; c < end; c += group)
-                pairs += search.run(c, std::min(c + group, end));
-            slice_of_[slice] = search.finish();
-            return pairs;
-        },
-        slice_size * width);
+    ghosts_.build(box_, reach(), place(), in_order_ ? std::span<const std::uint32_t>() : slot_of_,
+                  order_.size(), x_, in_order_);
+    entries_.resize(boxes_.size());
+    const std::size_t found = in_order_ ? search_slices() : search_cells();
     // Each pair was found from both ends, each particle found itself.
     std::size_t counted = 0;
+    const auto width = static_cast<std::size_t>(width_);
     for (std::size_t c = 0; c < boxes_.size(); c += counted_each())
         counted += std::min(width, size_ - c * width);
     pairs_ = counted == 0 ? 0

@@ -8,117 +8,168 @@
 
 namespace spam {
 
-/// By the walls, or k periods away, by ascending |k|: as many as have room between the particles' bounds.
-/// So a number says the same of every list.
 template <int Dim>
-void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double low, double high, double reach) {
+void Ghosts<Dim>::find_bounds(const Points<Dim>& position) {
+    low_.fill(std::numeric_limits<double>::infinity());
+    high_.fill(-std::numeric_limits<double>::infinity());
+    for (Eigen::Index i = 0; i < position.cols(); ++i)
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const double x = position(static_cast<Eigen::Index>(a), i);
+            low_[a] = std::min(low_[a], x);
+            high_[a] = std::max(high_[a], x);
+        }
+}
+
+/// By the walls, or as many periods away as have room between the particles' bounds.
+template <int Dim>
+void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double reach) {
     const auto axis = static_cast<std::size_t>(a);
-    along_[axis].assign(1, {});
+    Along& along = along_[axis];
+    const double from = low_[axis] - reach, to = high_[axis] + reach;
+    along.numbers.clear();
+    along.image.fill({});
+    along.low = -std::numeric_limits<double>::infinity(), along.high = -along.low;
+    const auto add = [&](std::uint32_t number, const Image<Dim>& image) {
+        const auto [sign, shift] = image.position[axis];
+        along.numbers.push_back(number);
+        along.image[number] = image;
+        const bool below = number < middle;
+        const double end = below ? from : to;  // where the image is just within the reach
+        if ((sign > 0.0) == below)
+            along.high = std::min(along.high, sign * (end - shift));
+        else
+            along.low = std::max(along.low, sign * (end - shift));
+    };
     // Walls across a direction are further apart than the range (ClusterList): images of images in them
     // have no neighbours.
     for (const bool upper : {false, true})
         if (const auto& wall = box.wall(a, upper); !wall.open())
-            along_[axis].push_back(wall.image(a));
+            add(upper ? middle + 1 : middle - 1, wall.image(a));
     if (!box.periodic(a)) return;
     const double L = box.length(a);
-    for (int k = 1; 2 * k < static_cast<int>(most_images) && k * L <= high - low + reach; ++k)
-        for (const int sign : {-1, 1}) {
-            Image<Dim> image;
-            image.position[axis].shift = sign * k * L;
-            along_[axis].push_back(image);
-        }
+    int most = 0;
+    while (most + 1 < static_cast<int>(middle) &&
+           (most + 1) * L <= high_[axis] - low_[axis] + reach)
+        ++most;
+    for (int k = -most; k <= most; ++k) {
+        if (k == 0) continue;
+        Image<Dim> image;
+        image.position[axis].shift = k * L;
+        add(static_cast<std::uint32_t>(static_cast<int>(middle) + k), image);
+    }
 }
 
-/// Direction by direction, of the particles and of the ghosts made along the directions before: so corners
-/// are images of images.
+/// All combinations of the images along each direction: so corners are images of images.
 template <int Dim>
-void Ghosts<Dim>::collect(std::vector<Place>& places, double reach, std::size_t particles,
-                          const std::array<std::vector<double>, Dim>& x) {
-    std::uint32_t digit = 1;
-    for (std::size_t a = 0; a < Dim; ++a, digit *= most_images) {
-        const auto axis = static_cast<Eigen::Index>(a);
-        const double from = low_[a] - reach, to = high_[a] + reach;
-        const std::size_t before = places.size();
-        for (std::uint32_t number = 1; number < along_[a].size(); ++number) {
-            const auto change = along_[a][number].position[a];
-            const auto enter = [&](double now, auto make) {
-                const double image = change.sign * now + change.shift;
-                if (!(image >= from && image <= to)) return;
-                Place place = make();
-                place.code += number * digit;
-                place.x[axis] = image;
-                places.push_back(place);
-                const bool is_below = image < now;
-                double& nearest = is_below ? below_[a] : above_[a];
-                nearest = is_below ? std::max(nearest, image) : std::min(nearest, image);
-            };
-            for (std::size_t slot = 0; slot < particles; ++slot)
-                enter(x[a][slot], [&] {
-                    Place place{static_cast<std::uint32_t>(slot), 0, {}};
-                    for (std::size_t b = 0; b < Dim; ++b)
-                        place.x[static_cast<Eigen::Index>(b)] = x[b][slot];
-                    return place;
-                });
-            for (std::size_t k = 0; k < before; ++k)
-                enter(places[k].x[axis], [&] { return places[k]; });
+void Ghosts<Dim>::add_images(std::uint32_t owner, const Point<Dim>& x, double reach) {
+    struct Option {
+        std::uint32_t number;
+        double x;
+    };
+    std::array<std::array<Option, most_images>, Dim> options;
+    std::array<std::size_t, Dim> count{}, chosen{};
+    for (std::size_t a = 0; a < Dim; ++a) {
+        const double now = x[static_cast<Eigen::Index>(a)];
+        const auto append = [&](std::uint32_t number, double image) {
+            options[a][count[a]++] = {number, image};
+        };
+        bool passed = false;
+        for (const std::uint32_t number : along_[a].numbers) {
+            if (number > middle && !passed) append(middle, now), passed = true;
+            const auto change = along_[a].image[number].position[a];
+            const double image = change.sign * now + change.shift;
+            if (!(image >= low_[a] - reach && image <= high_[a] + reach)) continue;
+            append(number, image);
+            const bool is_below = image < now;
+            double& nearest = is_below ? below_[a] : above_[a];
+            nearest = is_below ? std::max(nearest, image) : std::min(nearest, image);
         }
+        if (!passed) append(middle, now);
+    }
+    for (;;) {
+        Place place{owner, 0, {}};
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const Option& option = options[a][chosen[a]];
+            place.code = place.code * most_images + option.number;
+            place.x[static_cast<Eigen::Index>(a)] = option.x;
+        }
+        if (place.code != itself) places_.push_back(place);
+        std::size_t a = Dim;
+        while (a > 0 && ++chosen[a - 1] == count[a - 1]) chosen[--a] = 0;
+        if (a == 0) return;
     }
 }
 
 template <int Dim>
-void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles, std::size_t first,
-                        std::array<std::vector<double>, Dim>& x) {
+void Ghosts<Dim>::collect(double reach, const Points<Dim>& position,
+                          std::span<const std::uint32_t> slot_of) {
+    for (Eigen::Index i = 0; i < position.cols(); ++i) {
+        bool inside = true;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const double x = position(static_cast<Eigen::Index>(a), i);
+            inside = inside & (x > along_[a].low) & (x < along_[a].high);
+        }
+        if (inside) continue;
+        const auto number = static_cast<std::uint32_t>(i);
+        add_images(slot_of.empty() ? number : slot_of[number], position.col(i), reach);
+    }
+}
+
+/// The image of that code and the wall it is behind.
+template <int Dim>
+void Ghosts<Dim>::add_image(const Box<Dim>& box, std::uint32_t code) {
+    Image<Dim> image;
+    int wall = -1;
+    for (int a = 0; a < Dim; ++a) {
+        const std::uint32_t number = code >> 4 * (Dim - 1 - a) & (most_images - 1);
+        image = image.then(along_[static_cast<std::size_t>(a)].image[number]);
+        if (number != middle && box.walled(a)) wall = 2 * a + (number > middle ? 1 : 0);
+    }
+    images_.push_back(image);
+    wall_of_.push_back(wall);
+}
+
+template <int Dim>
+void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& position,
+                        std::span<const std::uint32_t> slot_of, std::size_t first,
+                        std::array<std::vector<double>, Dim>& x, bool sorted) {
     first_ = static_cast<std::uint32_t>(first);
-    std::vector<Place> places;
+    sorted_ = sorted;
+    places_.clear();
     below_.fill(-std::numeric_limits<double>::infinity());
     above_.fill(std::numeric_limits<double>::infinity());
-    if (particles > 0 && (box.periodic() || box.walled())) {
-        for (std::size_t a = 0; a < Dim; ++a) {
-            const auto end = x[a].begin() + static_cast<std::ptrdiff_t>(particles);
-            const auto [low, high] = std::minmax_element(x[a].begin(), end);
-            low_[a] = *low, high_[a] = *high;
-            find_images(box, static_cast<int>(a), low_[a], high_[a], reach);
-        }
-        collect(places, reach, particles, x);
+    if (position.cols() > 0 && (box.periodic() || box.walled())) {
+        find_bounds(position);
+        for (int a = 0; a < Dim; ++a) find_images(box, a, reach);
+        collect(reach, position, slot_of);
     }
-    Points<Dim> at(Dim, static_cast<Eigen::Index>(places.size()));
-    for (std::size_t k = 0; k < places.size(); ++k)
-        at.col(static_cast<Eigen::Index>(k)) = places[k].x;
-    strips_.build(at, {});
-    for (auto& coordinate : x) coordinate.resize(first + places.size() + 8);
-    owner_.resize(places.size());
-    code_.resize(places.size());
-    image_.resize(places.size());
-    std::uint32_t codes = 1;
-    for (int a = 0; a < Dim; ++a) codes *= most_images;
-    constexpr std::uint32_t unseen = 0xffffffff;
-    std::vector<std::uint32_t> number(places.empty() ? 0 : codes, unseen);
+    const std::size_t count = places_.size();
+    if (sorted) {
+        Points<Dim> at(Dim, static_cast<Eigen::Index>(count));
+        for (std::size_t k = 0; k < count; ++k) at.col(static_cast<Eigen::Index>(k)) = places_[k].x;
+        strips_.build(at, {});
+    }
+    for (auto& coordinate : x) coordinate.resize(first + count + 8);
+    owner_.resize(count);
+    code_.resize(count);
+    image_.resize(count);
     images_.clear();
     wall_of_.clear();
-    const auto order = strips_.order();
-    for (std::size_t g = 0; g < places.size(); ++g) {
-        const Place& place = places[order[g]];
+    constexpr std::uint32_t unseen = 0xffffffff;
+    std::array<std::uint32_t, 1U << 4 * Dim> image_of;
+    if (count > 0) image_of.fill(unseen);
+    for (std::size_t g = 0; g < count; ++g) {
+        const Place& place = places_[sorted ? strips_.order()[g] : g];
         owner_[g] = place.owner;
         code_[g] = place.code;
         for (std::size_t a = 0; a < Dim; ++a)
             x[a][first + g] = place.x[static_cast<Eigen::Index>(a)];
-        std::uint32_t& of_code = number[place.code];
-        if (of_code == unseen) {
-            of_code = static_cast<std::uint32_t>(images_.size());
-            Image<Dim> image;
-            int wall = -1;
-            for (std::uint32_t a = 0, rest = place.code; a < Dim; ++a, rest /= most_images) {
-                const std::uint32_t along = rest % most_images;
-                image = image.then(along_[a][along]);
-                const auto axis = static_cast<int>(a);
-                if (along == 0 || !box.walled(axis)) continue;
-                const bool upper = along == 2 || box.wall(axis, false).open();
-                wall = 2 * axis + (upper ? 1 : 0);
-            }
-            images_.push_back(image);
-            wall_of_.push_back(wall);
+        std::uint32_t& number = image_of[place.code];
+        if (number == unseen) {
+            number = static_cast<std::uint32_t>(images_.size());
+            add_image(box, place.code);
         }
-        image_[g] = of_code;
+        image_[g] = number;
     }
 }
 

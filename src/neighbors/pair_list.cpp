@@ -22,8 +22,7 @@ void require_one_image(const Box<Dim>& box, double reach) {
 template <int Dim>
 PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim>& box) {
     require_one_image(box, reach);
-    // Clusters of one particle lie as well in one order as in another: slots are particle numbers, and
-    // entries ascend.
+    // Clusters of one particle: entries ascend with the particles' numbers.
     ClusterList<Dim> clusters(reach, 0.0, box.without_walls(), 1);
     clusters.build(position);
     const auto order = clusters.order();

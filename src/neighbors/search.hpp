@@ -3,6 +3,7 @@
 
 #include <spam/core/instruction_set.hpp>
 #include <spam/neighbors/bounds.hpp>
+#include <spam/neighbors/cluster_cells.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 
 namespace spam {
@@ -16,6 +17,18 @@ struct SearchInput {
     std::size_t slots;          ///< beyond them particles are repeated
     const Bounds<Dim>* bounds;  ///< by cluster
     std::uint32_t stride;
+};
+
+/// Slots that clusters choose their neighbours from (ClusterCells), and how: coordinates are (x - middle)
+/// scale, the reach is in their units and a little more for their rounding.
+template <int Dim>
+struct Candidates {
+    static constexpr std::size_t lanes = ClusterCells<Dim>::lanes;
+    const float* x[Dim];
+    const std::uint32_t* slots;
+    std::size_t count;
+    double middle[Dim];
+    double scale, reach;
 };
 
 /// The parts of a search that are compiled for every instruction set.
@@ -37,11 +50,19 @@ struct Search {
                                   const std::uint32_t* ids, std::size_t count, std::uint32_t* out,
                                   std::size_t& pairs);
 
-    /// All slots in the ranges that are closer than the reach to the bounds: some more than the
-    /// members' neighbours, found several times as fast. May write a register's width too much, and
-    /// reads as much beyond the last slot.
-    std::uint32_t* (*around_bounds)(const SearchInput<Dim>&, const Bounds<Dim>&,
-                                    const SlotRange* ranges, std::size_t count, std::uint32_t* out);
+    /// The same in single slots.
+    std::uint32_t* (*in_slots)(const SearchInput<Dim>&, std::size_t first_slot, unsigned members,
+                               const std::uint32_t* slots, std::size_t count, std::uint32_t* out,
+                               std::size_t& pairs);
+
+    /// Copies the candidates between two corners, in their order, to x and slots; these must have room for all
+    /// and `lanes` more. Returns how many.
+    std::size_t (*narrow)(const Candidates<Dim>&, const float* low, const float* high,
+                          float* const* x, std::uint32_t* slots);
+    /// All candidates closer than the reach to the bounds, times `factor`, in their order: some more than
+    /// the members' neighbours, found many times as fast. May write a register's width too much.
+    std::uint32_t* (*near_bounds)(const Candidates<Dim>&, const Bounds<Dim>&, std::uint32_t factor,
+                                  std::uint32_t* out);
 };
 
 /// For clusters of `width`. Defined in search.lanes.cpp for every level.

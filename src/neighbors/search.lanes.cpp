@@ -18,6 +18,15 @@ struct Ranges {
             for (std::uint32_t slot = ranges[k].first; slot < ranges[k].last; ++slot) f(slot);
     }
 };
+/// f(slot) for those listed.
+struct Slots {
+    using Place = std::uint32_t;
+    template <class F>
+    [[gnu::always_inline]] static void for_each(const std::uint32_t* slots, std::size_t count,
+                                                std::size_t, const F& f) {
+        for (std::size_t k = 0; k < count; ++k) f(slots[k]);
+    }
+};
 /// f(slot) for all that belong to the clusters listed.
 template <int W>
 struct Clusters {
@@ -61,49 +70,123 @@ std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsign
     return out;
 }
 
-/// slots first, first + 1, ... times `stride` where `bits` says so. Returns the end; writes W.
-template <int W>
-[[gnu::always_inline]] inline std::uint32_t* append(std::uint32_t first, std::uint32_t stride,
-                                                    unsigned bits, std::uint32_t* out) {
-#if defined(__AVX512F__) && defined(__AVX512VL__)
-    if constexpr (W == 8) {
-        const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-        const __m256i slots = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)), lanes);
-        const __m256i entries =
-            _mm256_mullo_epi32(slots, _mm256_set1_epi32(static_cast<int>(stride)));
+/// Numbers next to each other in single precision, or as many slots.
+#if defined(__AVX512F__)
+struct Row {
+    static constexpr std::size_t lanes = 16;
+    using Numbers = __m512;
+    using Slots = __m512i;
+    static Numbers all(float x) { return _mm512_set1_ps(x); }
+    static Numbers load(const float* x) { return _mm512_loadu_ps(x); }
+    static Slots load(const std::uint32_t* k) { return _mm512_loadu_si512(k); }
+    static Numbers size(Numbers x) { return _mm512_abs_ps(x); }
+    static Numbers positive(Numbers x) { return _mm512_maskz_max_ps(0xffff, x, all(0.0F)); }
+    static unsigned below(Numbers a, Numbers b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+    static Slots times(Slots k, std::uint32_t n) {
+        return _mm512_mullo_epi32(k, _mm512_set1_epi32(static_cast<int>(n)));
+    }
+    /// Writes those of which `which` has a bit, one after the other, and something behind them.
+    static void pick(unsigned which, Numbers x, float* out) {
+        _mm512_storeu_ps(out, _mm512_maskz_compress_ps(static_cast<__mmask16>(which), x));
+    }
+    static void pick(unsigned which, Slots k, std::uint32_t* out) {
+        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(which), k));
+    }
+};
+#elif defined(__AVX2__) && defined(__BMI2__)
+struct Row {
+    static constexpr std::size_t lanes = 8;
+    using Numbers = __m256;
+    using Slots = __m256i;
+    static Numbers all(float x) { return _mm256_set1_ps(x); }
+    static Numbers load(const float* x) { return _mm256_loadu_ps(x); }
+    static Slots load(const std::uint32_t* k) {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(k));
+    }
+    static Numbers size(Numbers x) { return _mm256_andnot_ps(all(-0.0F), x); }
+    static Numbers positive(Numbers x) { return _mm256_max_ps(x, all(0.0F)); }
+    static unsigned below(Numbers a, Numbers b) {
+        return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)));
+    }
+    static Slots times(Slots k, std::uint32_t n) {
+        return _mm256_mullo_epi32(k, _mm256_set1_epi32(static_cast<int>(n)));
+    }
+    /// The lanes of which `which` has a bit.
+    static __m256i lanes_of(unsigned which) {
+        const std::uint64_t bytes = _pdep_u64(which, 0x0101010101010101) * 0xff;
+        return _mm256_cvtepu8_epi32(
+            _mm_cvtsi64_si128(static_cast<long long>(_pext_u64(0x0706050403020100, bytes))));
+    }
+    static void pick(unsigned which, Numbers x, float* out) {
+        _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(x, lanes_of(which)));
+    }
+    static void pick(unsigned which, Slots k, std::uint32_t* out) {
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                            _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), entries));
-        return out + __builtin_popcount(bits);
+                            _mm256_permutevar8x32_epi32(k, lanes_of(which)));
     }
+};
+#else
+struct Row {
+    static constexpr std::size_t lanes = 1;
+    using Numbers = float;
+    using Slots = std::uint32_t;
+    static Numbers all(float x) { return x; }
+    static Numbers load(const float* x) { return *x; }
+    static Slots load(const std::uint32_t* k) { return *k; }
+    static Numbers size(Numbers x) { return __builtin_fabsf(x); }
+    static Numbers positive(Numbers x) { return x > 0.0F ? x : 0.0F; }
+    static unsigned below(Numbers a, Numbers b) { return a < b ? 1U : 0U; }
+    static Slots times(Slots k, std::uint32_t n) { return k * n; }
+    static void pick(unsigned, Numbers x, float* out) { *out = x; }
+    static void pick(unsigned, Slots k, std::uint32_t* out) { *out = k; }
+};
 #endif
-    for (unsigned l = 0; l < W; ++l) {
-        *out = (first + l) * stride;
-        out += bits >> l & 1U;
+
+template <int Dim>
+std::size_t narrow(const Candidates<Dim>& in, const float* low, const float* high, float* const* x,
+                   std::uint32_t* slots) {
+    const Candidates<Dim> from = in;
+    typename Row::Numbers least[Dim], most[Dim];
+    float* out[Dim];
+    for (int a = 0; a < Dim; ++a)
+        least[a] = Row::all(low[a]), most[a] = Row::all(high[a]), out[a] = x[a];
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < from.count; k += Row::lanes) {
+        typename Row::Numbers own[Dim];
+        unsigned near = ~0U;
+        for (int a = 0; a < Dim; ++a) {
+            own[a] = Row::load(from.x[a] + k);
+            near &= Row::below(least[a], own[a]) & Row::below(own[a], most[a]);
+        }
+        for (int a = 0; a < Dim; ++a) Row::pick(near, own[a], out[a] + found);
+        Row::pick(near, Row::load(from.slots + k), slots + found);
+        found += static_cast<unsigned>(__builtin_popcount(near));
     }
-    return out;
+    for (int a = 0; a < Dim; ++a)
+        for (std::size_t k = found; k < found + Row::lanes; ++k) out[a][k] = nowhere;
+    return found;
 }
 
-template <int Dim, int W>
-std::uint32_t* around_bounds(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
-                             const SlotRange* ranges, std::size_t count, std::uint32_t* out) {
-    using std::max;
-    using T = LanesOf<W>;
-    const T reach2(4.0 * in.reach2);
-    const std::uint32_t stride = in.stride;
-    for (std::size_t k = 0; k < count; ++k) {
-        const SlotRange range = ranges[k];
-        for (std::uint32_t first = range.first; first < range.last; first += W) {
-            T d2(0.0);
-            for (int a = 0; a < Dim; ++a) {
-                const T s = load_lanes<W>(in.x[a] + first) - T(bounds.centre[a]);
-                const T gap = max(s, -s) - T(bounds.half[a]);
-                const T apart = positive_part(gap + gap);
-                d2 += apart * apart;
-            }
-            const std::uint32_t left = range.last - first;
-            const unsigned valid = left < W ? (1U << left) - 1 : (1U << W) - 1;
-            out = append<W>(first, stride, lanes_below(d2, reach2) & valid, out);
+template <int Dim>
+std::uint32_t* near_bounds(const Candidates<Dim>& in, const Bounds<Dim>& bounds,
+                           std::uint32_t factor, std::uint32_t* out) {
+    const Candidates<Dim> from = in;
+    typename Row::Numbers centre[Dim], half[Dim];
+    for (int a = 0; a < Dim; ++a) {
+        centre[a] = Row::all(static_cast<float>((bounds.centre[a] - from.middle[a]) * from.scale));
+        half[a] = Row::all(static_cast<float>(bounds.half[a] * from.scale));
+    }
+    const auto reach2 = Row::all(static_cast<float>(from.reach * from.reach));
+    for (std::size_t k = 0; k < from.count; k += Row::lanes) {
+        auto d2 = Row::all(0.0F);
+        for (int a = 0; a < Dim; ++a) {
+            const auto gap =
+                Row::positive(Row::size(Row::load(from.x[a] + k) - centre[a]) - half[a]);
+            d2 += gap * gap;
         }
+        const unsigned near = Row::below(d2, reach2);
+        Row::pick(near, Row::times(Row::load(from.slots + k), factor), out);
+        out += __builtin_popcount(near);
     }
     return out;
 }
@@ -132,8 +215,9 @@ std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
 
 template <int Dim, int W>
 constexpr Search<Dim> functions() {
-    return {keep_near<Dim>, search<Dim, W, Ranges>, search<Dim, W, Clusters<W>>,
-            around_bounds<Dim, W>};
+    return {
+        keep_near<Dim>, search<Dim, W, Ranges>, search<Dim, W, Clusters<W>>, search<Dim, W, Slots>,
+        narrow<Dim>,    near_bounds<Dim>};
 }
 
 }  // namespace

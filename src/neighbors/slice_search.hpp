@@ -1,48 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of a cluster list that looks for neighbours.
+// The part of a cluster list that looks for neighbours where slots are numbers.
 #pragma once
 
-#include "../core/levels.hpp"
-#include "search.hpp"
-#include <spam/neighbors/cluster_list.hpp>
+#include "list_part.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace spam {
 
-/// Searches for the entries of one slice of clusters.
+/// Clusters that follow each other. Neighbours are looked for among clusters, in ascending order; their
+/// images are put between them.
 template <int Dim>
-class ClusterList<Dim>::SliceSearch {
+class ClusterList<Dim>::SliceSearch : public ClusterList<Dim>::Part {
+    using Part = ClusterList<Dim>::Part;
+    using Part::begin, Part::keep, Part::input_, Part::list_, Part::make_room, Part::members;
+    using Part::search_, Part::width_;
+
   public:
-    SliceSearch(ClusterList& list, std::size_t slice)
-        : list_(list),
-          width_(static_cast<std::size_t>(list.width_)),
-          out_(list.slices_[slice]),
-          search_(at_level(instruction_set(),
-                           [&](auto level) { return search_for<Dim, level>(list.width_); })) {
-        const double cutoff = list.range_ + list.skin_;
-        input_.cutoff2 = cutoff * cutoff;
-        input_.reach2 = list.reach() * list.reach();
-        input_.slots = list.size_;
-        input_.bounds = list.boxes_.data();
-        input_.stride = list.stride_;
-        for (int a = 0; a < Dim; ++a) {
-            input_.x[a] = list.x_[static_cast<std::size_t>(a)].data();
-        }
-    }
+    using Part::finish;
+    using Part::Part;
 
     /// Some clusters in a row, few enough to be near each other. Returns how many pairs were found,
     /// each from both ends.
     std::size_t run(std::size_t first, std::size_t last) {
         std::size_t pairs = 0;
-        if (!list_.in_order_) {
-            for (std::size_t c = first; c < last; ++c) pairs += among_strips(c);
-            return pairs;
-        }
         while (first < last) {
             std::size_t end = first + 1;
             while (end < last && on_one_side(first, end)) ++end;
@@ -50,13 +32,6 @@ class ClusterList<Dim>::SliceSearch {
             for (; first < end; ++first) pairs += among_clusters(first);
         }
         return pairs;
-    }
-
-    /// Sweeps look one entry ahead. Returns where the entries are.
-    const std::uint32_t* finish() {
-        if (out_.size() < used_ + 1) out_.resize(used_ + 1);
-        out_[used_] = 0;
-        return out_.data();
     }
 
   private:
@@ -89,11 +64,11 @@ class ClusterList<Dim>::SliceSearch {
         make_room(count * width_);
         std::size_t pairs = 0;
         std::uint32_t* end = search_.in_clusters(input_, cluster * width_, members(cluster),
-                                                 near_.data(), count, out_.data() + used_, pairs);
-        const std::ptrdiff_t particles = end - (out_.data() + used_);
+                                                 near_.data(), count, begin(), pairs);
+        const std::ptrdiff_t particles = end - begin();
         end = among_ghosts(cluster, end, pairs);
-        sort_in(out_.data() + used_ + particles, end);
-        finish(cluster, end);
+        sort_in(begin() + particles, end);
+        keep(cluster, end);
         return pairs;
     }
 
@@ -108,14 +83,14 @@ class ClusterList<Dim>::SliceSearch {
                                          ghost_ranges_.push_back({from, to});
                                          slots += to - from;
                                      });
-        const auto written = static_cast<std::size_t>(out - (out_.data() + used_));
+        const auto written = static_cast<std::size_t>(out - begin());
         make_room(written + slots + 8);
         return search_.in_ranges(input_, cluster * width_, members(cluster), ghost_ranges_.data(),
-                                 ghost_ranges_.size(), out_.data() + used_ + written, pairs);
+                                 ghost_ranges_.size(), begin() + written, pairs);
     }
 
-    /// Puts the ghosts, `from` to `end`, among the particles before them, by the number of their owner: an
-    /// order that no later build changes.
+    /// Puts the ghosts, `from` to `end`, among the particles before them, by the number of their owner and
+    /// which of its images they are.
     void sort_in(std::uint32_t* from, std::uint32_t* end) {
         const std::size_t owned = list_.order_.size();
         sorted_.clear();
@@ -125,65 +100,20 @@ class ClusterList<Dim>::SliceSearch {
                 std::uint64_t{list_.ghosts_.owner(ghost)} << 32 | list_.ghosts_.which(ghost),
                 *entry);
         }
+        if (sorted_.empty()) return;
         std::sort(sorted_.begin(), sorted_.end());
-        const std::uint32_t* const begin = out_.data() + used_;
-        for (auto ghost = sorted_.rbegin(); ghost != sorted_.rend();)
-            if (from != begin && from[-1] > (ghost->first >> 32) * list_.stride_)
-                *--end = *--from;
-            else
-                *--end = (ghost++)->second;
-    }
-
-    std::size_t among_strips(std::size_t cluster) {
-        const Bounds<Dim>& bounds = list_.boxes_[cluster];
-        Point<Dim> low, high;
-        for (int a = 0; a < Dim; ++a) {
-            low[a] = bounds.centre[a] - bounds.half[a] - list_.reach();
-            high[a] = bounds.centre[a] + bounds.half[a] + list_.reach();
+        const std::uint32_t* const first = begin();
+        for (auto ghost = sorted_.rbegin(); ghost != sorted_.rend(); ++ghost) {
+            const auto which = static_cast<std::uint32_t>(ghost->first);
+            const std::uint64_t least =
+                (ghost->first >> 32) * list_.stride_ + (which > Ghosts<Dim>::itself ? 1 : 0);
+            while (from != first && from[-1] >= least) *--end = *--from;
+            *--end = ghost->second;
         }
-        ranges_.clear();
-        std::size_t slots = 0;
-        list_.strips_.for_each_range(low, high, [&](std::uint32_t from, std::uint32_t to) {
-            ranges_.push_back({from, to});
-            slots += to - from;
-        });
-        make_room(slots + 8);
-        std::size_t pairs = 0;
-        std::uint32_t* end = out_.data() + used_;
-        const bool counted = cluster % list_.counted_each() == 0;
-        // Bounds of members far from each other hold many who are near none of them.
-        if (counted ||
-            ClusterBoxes<Dim>::volume(bounds, list_.reach()) > 2.0 * list_.typical_volume_)
-            end = search_.in_ranges(input_, cluster * width_, members(cluster), ranges_.data(),
-                                    ranges_.size(), end, pairs);
-        else
-            end = search_.around_bounds(input_, bounds, ranges_.data(), ranges_.size(), end);
-        finish(cluster, among_ghosts(cluster, end, pairs));
-        return counted ? pairs : 0;
     }
 
-    /// The repeated particle of the last cluster counts once.
-    unsigned members(std::size_t cluster) const {
-        return static_cast<unsigned>(std::min(width_, list_.size_ - cluster * width_));
-    }
-    void make_room(std::size_t slots) {
-        if (out_.size() < used_ + slots) out_.resize((used_ + slots) * 5 / 4);
-    }
-    void finish(std::size_t cluster, const std::uint32_t* end) {
-        const std::size_t first = used_;
-        used_ = static_cast<std::size_t>(end - out_.data());
-        list_.range_of_[cluster] = {static_cast<std::uint32_t>(first),
-                                    static_cast<std::uint32_t>(used_ - first)};
-    }
-
-    ClusterList& list_;
-    std::size_t width_;
-    std::vector<std::uint32_t>& out_;
-    Search<Dim> search_;
-    SearchInput<Dim> input_;
-    std::size_t used_ = 0;
     std::vector<std::uint32_t> near_group_, near_;
-    std::vector<SlotRange> ranges_, ghost_ranges_;
+    std::vector<SlotRange> ghost_ranges_;
     /// Of ghosts: the owner's slot and which of its images, as one number that sorts fast; entry.
     std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted_;
 };

@@ -90,8 +90,33 @@ void StripSort<Dim>::choose_bins(const Points<Dim>& position, const Box<Dim>& bo
     }
 }
 
+/// Bins follow each other as an ox ploughs: every other strip is gone through backwards, so that bins next
+/// to each other in the sequence touch, and so do the particles at its turns.
 template <int Dim>
-void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
+struct StripSort<Dim>::Sequence {
+    explicit Sequence(const StripSort& strips)
+        : origin(strips.origin_),
+          per_edge(strips.per_edge_),
+          count(strips.count_) {
+        for (std::size_t a = 0; a < Dim; ++a) last[a] = count[a] - 1.0;
+    }
+    std::uint32_t place(const double* x) const {
+        Int place = 0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const double at = (x[a] - origin[a]) * per_edge[a];
+            const Int k = static_cast<Int>(std::min(std::max(at, 0.0), last[a]));
+            const bool backwards = (place & 1) != 0;
+            place = place * count[a] + (backwards ? count[a] - 1 - k : k);
+        }
+        return static_cast<std::uint32_t>(place);
+    }
+    std::array<double, Dim> origin, per_edge, last;
+    std::array<Int, Dim> count;
+};
+
+template <int Dim>
+void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box,
+                           std::uint32_t unsorted) {
     const auto n = static_cast<std::size_t>(position.cols());
     order_.resize(n);
     bin_of_.resize(n);
@@ -104,9 +129,8 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
     std::size_t bins = 1;
     for (const Int c : count_) bins *= static_cast<std::size_t>(c);
 
-    parallel_for(n, [&](std::size_t i) {
-        bin_of_[i] = place_in_sequence(position.col(static_cast<Eigen::Index>(i)));
-    });
+    parallel_for(n, [sequence = Sequence(*this), x = position.data(),
+                     to = bin_of_.data()](std::size_t i) { to[i] = sequence.place(x + Dim * i); });
     // A counting sort: start_[b] is where bin b - 1 begins, then, filled, where b begins.
     start_.assign(bins + 2, 0);
     for (std::size_t i = 0; i < n; ++i) ++start_[bin_of_[i] + 2];
@@ -115,23 +139,14 @@ void StripSort<Dim>::build(const Points<Dim>& position, const Box<Dim>& box) {
         order_[start_[bin_of_[i] + 1]++] = static_cast<std::uint32_t>(i);
 
     const auto rows = static_cast<std::size_t>(count_[Dim - 1]);
-    parallel_for(bins, [&](std::size_t b) {
-        const bool downwards = (b / rows) % 2 != 0;
-        sort_bin(b, position, downwards ? -1.0 : 1.0);
-    });
-}
-
-/// Bins follow each other as an ox ploughs: every other strip is gone through backwards, so that bins next
-/// to each other in the sequence touch, and so do the particles at its turns.
-template <int Dim>
-std::uint32_t StripSort<Dim>::place_in_sequence(const Point<Dim>& x) const {
-    Int place = 0;
-    for (std::size_t a = 0; a < Dim; ++a) {
-        const Int k = bin(a, x[static_cast<Eigen::Index>(a)]);
-        const bool backwards = place % 2 != 0;
-        place = place * count_[a] + (backwards ? count_[a] - 1 - k : k);
-    }
-    return static_cast<std::uint32_t>(place);
+    parallel_for(
+        bins / rows,
+        [&](std::size_t strip) {
+            const double sign = strip % 2 != 0 ? -1.0 : 1.0;
+            for (std::size_t b = strip * rows; b < (strip + 1) * rows; ++b)
+                if (start_[b + 1] - start_[b] > unsorted) sort_bin(b, position, sign);
+        },
+        rows);
 }
 
 /// The particles of bin b by their last coordinate, upwards where sign = 1, downwards where it is -1; those

@@ -223,11 +223,10 @@ void count(const ClusterView& list, const double* records, double reach2, double
         Vec<Dim + 1, T> own;
         for (std::size_t a = 0; a < stride; ++a)
             own.c[a] = from_records(records + c * W * stride, stride, a);
-        const auto range = list.range[c];
-        const std::uint32_t* const entries = list.slices[c / ClusterView::slice_size] + range.first;
+        const ClusterView::Entries entries = list.entries[c];
         T near{};
-        for (std::uint32_t n = 0; n < range.count; ++n) {
-            const double* const other = records + entries[n];
+        for (std::uint32_t n = 0; n < entries.count; ++n) {
+            const double* const other = records + entries.first[n];
             T r2{};
             for (std::size_t a = 0; a < stride; ++a) {
                 const T r = T(other[a]) - own.c[a];

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t exact_below = 256;  // clusters; larger lists may hold some slots more
 
-/// Clusters whose entries are not, in ascending slot, all neighbours of their particles, or all
+/// Clusters whose entries are not, in ascending number, all neighbours of their particles, or all
 /// clusters if the slots are no permutation.
 template <int Dim>
 std::size_t wrong_clusters(const ClusterList<Dim>& list, const Points<Dim>& x, double cutoff,
@@ -47,12 +47,11 @@ std::size_t wrong_clusters(const ClusterList<Dim>& list, const Points<Dim>& x, d
                 ? found == std::vector(neighbours.begin(), neighbours.end())
                 : std::includes(found.begin(), found.end(), neighbours.begin(), neighbours.end()) &&
                       found.size() <= 4 * neighbours.size() + 32;
-        // Images take the place of their particle's number where slots are numbers.
-        const bool in_numbers = std::is_sorted(order.begin(), order.end());
         std::vector<std::uint32_t> numbers;
         for (const auto slot : slots) numbers.push_back(list.particle(slot));
-        const bool right = complete && (in_numbers ? std::is_sorted(numbers.begin(), numbers.end())
-                                                   : std::is_sorted(slots.begin(), slots.end()));
+        const bool once =
+            std::set<std::uint32_t>(slots.begin(), slots.end()).size() == slots.size();
+        const bool right = complete && once && std::is_sorted(numbers.begin(), numbers.end());
         wrong += right ? 0 : 1;
     }
     const bool permutation = particles.size() == list.size() && list.size() == expected.size();

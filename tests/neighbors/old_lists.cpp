@@ -118,6 +118,75 @@ BOOST_AUTO_TEST_CASE(boxes_narrower_than_the_range) {
     }
 }
 
+namespace {
+
+/// Clusters whose entries are not in ascending number of their particles, or images of one particle not in
+/// ascending place, the first direction first; `by_slot` puts the entries into the order of their slots
+/// before.
+template <int Dim>
+std::size_t disordered(const ClusterList<Dim>& list, const Points<Dim>& now, bool by_slot) {
+    const auto order = list.order();
+    std::vector<double> x(list.slots() * Dim);
+    for (std::size_t slot = 0; slot < order.size(); ++slot)
+        for (std::size_t a = 0; a < Dim; ++a)
+            x[slot * Dim + a] = list.home()(order[slot], a, now.data()[order[slot] * Dim + a]);
+    std::array<NumberKind, Dim> kinds;
+    for (unsigned char a = 0; a < Dim; ++a) kinds[a] = {Quantity::position, a, a};
+    list.refresh(x.data(), kinds);
+    std::size_t wrong = 0;
+    for (std::size_t c = 0; c < list.clusters(); ++c) {
+        std::vector<std::uint32_t> entries(list.entries(c).begin(), list.entries(c).end());
+        if (by_slot) std::sort(entries.begin(), entries.end());
+        wrong += std::is_sorted(entries.begin(), entries.end(),
+                                [&](auto e, auto f) {
+                                    const auto i = list.particle(e / Dim),
+                                               j = list.particle(f / Dim);
+                                    if (i != j) return i < j;
+                                    return std::lexicographical_compare(&x[e], &x[e] + Dim, &x[f],
+                                                                        &x[f] + Dim);
+                                })
+                     ? 0
+                     : 1;
+    }
+    return wrong;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(entries_ascend_with_the_number_of_the_particle) {
+    Box<2> walls({0.0, 30.0}), mirrors;
+    for (const bool upper : {false, true}) {
+        walls.set_wall(0, upper, {WallKind::mirror, upper ? 30.0 : 0.0});
+        for (int a = 0; a < 2; ++a)
+            mirrors.set_wall(a, upper, {WallKind::mirror, upper ? 30.0 : 0.0});
+    }
+    const Points<2> x = random_points<2>(3000, 30.0, 41);
+    std::size_t clusters = 0, otherwise = 0;
+    for (const auto& box : {Box<2>(), Box<2>({30.0, 30.0}), walls, mirrors})
+        for (const Points<2>& position : {x, renumbered<2>(x, {})})
+            for (const int width : {1, 2, 4, 8}) {
+                ClusterList<2> list(1.5, 0.3, box, width, 2);
+                for (int build = 0; build < 3; ++build) list.build(position);
+                BOOST_TEST(disordered(list, position, false) == 0U);
+                clusters += list.clusters(), otherwise += disordered(list, position, true);
+            }
+    BOOST_TEST(otherwise > clusters / 4);  // the order of slots is another one
+    // Several images of a particle.
+    for (const auto& lengths : {std::array{2.0, 9.0}, std::array{1.1, 1.3}})
+        for (const Eigen::Index n : {60, 400}) {
+            ClusterList<2> list(3.0, 0.2, Box<2>(lengths), 4, 2);
+            const Points<2> narrow = random_points<2>(n, 9.0, 5);
+            list.build(narrow);
+            BOOST_TEST(disordered(list, narrow, false) == 0U);
+        }
+    const Points<3> z = random_points<3>(2500, 9.0, 42);
+    for (const auto& box : {Box<3>(), Box<3>({9.0, 9.0, 9.0}), Box<3>({9.0, 0.0, 9.0})}) {
+        ClusterList<3> list(1.5, 0.2, box, 8, 3);
+        list.build(z);
+        BOOST_TEST(disordered(list, z, false) == 0U);
+    }
+}
+
 // Many particles in no order: those of a flow.
 BOOST_AUTO_TEST_CASE(pair_lists_of_a_flow_ascend) {
     const Box<2> box({50.0, 50.0});

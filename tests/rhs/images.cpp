@@ -188,3 +188,91 @@ BOOST_AUTO_TEST_CASE(total_lagrangian_solids) {
     };
     BOOST_TEST(narrow_against_wide<2>(build) < 1e-13);
 }
+
+// A lattice of four columns in a box of length 4 is one of sixteen in a box of length 16: where range and
+// numbers let neighbours follow each other in the same order, to the last bit.
+BOOST_AUTO_TEST_CASE(four_columns_in_a_box_of_length_four) {
+    const double range = 3.0;
+    Points<2> x = square_lattice<2>({4, 16});
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> u(-0.2, 0.2);
+    for (auto& c : x.reshaped()) c = std::round((c + u(random)) * 0x1p32) * 0x1p-32;
+    auto narrow = make_particles<2>(x, 1.0);
+    for (double& m : narrow.mass) m += u(random);
+    const Eigen::Index n = narrow.reference_position.cols();
+    Particles<2> wide = narrow;
+    wide.reference_position.resize(2, 4 * n);
+    wide.mass.clear(), wide.id.clear();
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (int copy = 0; copy < 4; ++copy) {
+            wide.reference_position.col(4 * i + copy) =
+                narrow.reference_position.col(i) + Point<2>(4.0 * copy, 0.0);
+            wide.mass.push_back(narrow.mass[static_cast<std::size_t>(i)]);
+            wide.id.push_back(4 * i + copy);
+        }
+    wide.body.assign(wide.mass.size(), 0);
+    const auto compare = [&](Model<2>& small, Model<2>& large) {
+        auto y = random_state(small, 12);
+        std::vector<double> Y(large.layout().size());
+        const State<2> of_small(small.layout(), y), of_large(large.layout(), Y);
+        for (const auto& block : small.layout().blocks())
+            for (Eigen::Index k = 0; k < 4 * n; ++k)
+                of_large.field(block.field).col(k) = of_small.field(block.field).col(k / 4);
+        of_large.position() = wide.reference_position;
+        const auto rates = rates_of(small, y), expected = rates_of(large, Y);
+        const ConstState<2> found(small.layout(), rates), right(large.layout(), expected);
+        BOOST_TEST(found.velocity().cwiseAbs().maxCoeff() > 1e-3);
+        for (const auto& block : small.layout().blocks()) {
+            const auto all = right.field(block.field);
+            const double size = all.cwiseAbs().maxCoeff();
+            for (Eigen::Index i = 0; i < n; ++i) {
+                const auto own = found.field(block.field).col(i);
+                // The two copies in the middle do not see the border of the wide box.
+                for (const int copy : {1, 2}) BOOST_TEST((own == all.col(4 * i + copy)));
+                for (const int copy : {0, 3})
+                    BOOST_TEST((own - all.col(4 * i + copy)).cwiseAbs().maxCoeff() < 1e-14 * size);
+            }
+        }
+    };
+    const Box<2> box({4.0, 16.0}), long_box({16.0, 16.0});
+    PairPotentialModel<2> gas(narrow, range, box), long_gas(wide, range, long_box);
+    compare(gas, long_gas);
+    for (const auto transport : {Transport::plain, Transport::monaghan}) {
+        const Scheme scheme{.transport = transport, .range = range};
+        const ElasticSolid law{0.7, 0.4};
+        SmoothParticleModel<2> solid(narrow, law, scheme, box),
+            long_solid(wide, law, scheme, long_box);
+        compare(solid, long_solid);
+    }
+}
+
+// 3,000 pairs, each across a border and far from all others, in boxes of which half lie just above a power
+// of two, where x + L is rounded most: forces are opposite to the last bit.
+BOOST_AUTO_TEST_CASE(pairs_across_a_border_pull_with_opposite_forces) {
+    std::size_t pairs = 0, not_opposite = 0, rounded_otherwise = 0;
+    std::mt19937_64 random(13);
+    std::uniform_real_distribution<double> u(0.0, 0.9), across(-0.5, 0.5);
+    for (const double L : {8.0 * (1.0 + 1e-15), 9.3}) {
+        const Box<2> box({L, 0.0});
+        Points<2> x(2, 3000);
+        for (Eigen::Index k = 0; k < x.cols(); k += 2) {
+            x.col(k) << u(random), 5.0 * static_cast<double>(k);
+            x.col(k + 1) << L - u(random), x(1, k) + across(random);
+            rounded_otherwise += (x(0, k) + L) - x(0, k + 1) != -((x(0, k + 1) - L) - x(0, k));
+        }
+        auto particles = make_particles<2>(x, 1.0);
+        particles.reference_position = x;  // pairs are neighbours in number too
+        PairPotentialModel<2> model(particles, 2.5, box);
+        auto y = random_state(model, 14);
+        const auto y_dot = rates_of(model, y);
+        const auto a = ConstState<2>(model.layout(), y_dot).velocity();
+        for (Eigen::Index k = 0; k < x.cols(); k += 2, ++pairs) {
+            BOOST_TEST(a.col(k).norm() > 0.0);
+            not_opposite += a.col(k) == -a.col(k + 1) ? 0 : 1;
+        }
+    }
+    BOOST_TEST(pairs == 3000U);
+    BOOST_TEST(not_opposite == 0U);
+    BOOST_TEST(rounded_otherwise >
+               100U);  // so it would be without the grid of the period (box.hpp)
+}

@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(after_reading_what_was_remembered_rates_are_those_of_a_mode
     const auto before = mixed(particles.reference_position, 20.0);
     const auto y = mixed(ConstState<2>(used.layout(), before).position(), 0.05);
     rates_of(used, before);
-    BOOST_TEST((rates_of(used, y) != rates_of(fresh, y)));  // in the last digits
+    BOOST_TEST((rates_of(used, y) == rates_of(fresh, y)));
     Archive written;
     used.remember(written);
     Archive reading(written.bytes());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/cluster_boxes.hpp>
+#include <spam/neighbors/cluster_cells.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/ghosts.hpp>
 #include <spam/neighbors/home.hpp>
@@ -13,14 +13,16 @@
 namespace spam {
 
 /// Neighbours of clusters: `width` particles at a time, next to each other in space, which a sweep
-/// computes in the lanes of one register (sweep.hpp). A cluster's list holds, in ascending slot, every
-/// slot j with |r_ij| < range + skin for at least one of its particles i, themselves included, in large
-/// flows some more. Slots beyond those of the particles are their images across the borders of the box
-/// (ghosts.hpp). Weight functions vanish exactly beyond the range, and adding an exact zero changes no
-/// bit, so a sum over the list depends on the order of the slots alone: not on the skin, nor on the number
-/// of threads. Slots are the particles' own numbers as long as these keep neighbours together, as in a
-/// solid, and images take the place that their particle's number has in the order: then sums do not depend
-/// on when the list was built either. In a flow slots are sorted into strips at every build.
+/// computes in the lanes of one register (sweep.hpp). A cluster's list holds every slot j with
+/// |r_ij| < range + skin for at least one of its particles i, themselves included, in large flows some
+/// more. Slots beyond those of the particles are their images across the borders of the box and behind
+/// walls (ghosts.hpp). Entries are in ascending number of the particle, those of several images of one
+/// particle in ascending place (Ghosts::itself). Weight functions vanish exactly beyond the range, and
+/// adding an exact zero changes no bit, so a sum over the list depends on the particles alone: not on the
+/// skin, on when the list was built, nor on the number of threads (tests/rhs/list_order.cpp).
+///
+/// Slots are the particles' own numbers as long as these keep neighbours together, as in a solid. In a flow
+/// they are sorted into strips at every build.
 template <int Dim>
 class ClusterList {
   public:
@@ -56,7 +58,7 @@ class ClusterList {
     /// next build; not to be asked for from several threads.
     ClusterView behind_wall(int a, bool upper) const;
     std::size_t size() const { return size_; }
-    std::size_t clusters() const { return range_of_.size(); }
+    std::size_t clusters() const { return entries_.size(); }
     int width() const { return width_; }
     /// Slot -> particle, `width` entries a cluster; without ghosts.
     std::span<const std::uint32_t> order() const { return order_; }
@@ -83,7 +85,11 @@ class ClusterList {
     const Box<Dim>& box() const { return box_; }
 
   private:
+    class Part;
     class SliceSearch;
+    class CellSearch;
+    std::size_t search_slices();
+    std::size_t search_cells();
     void sort();
     void take_home();
     void gather();
@@ -92,6 +98,7 @@ class ClusterList {
     /// Every how many clusters neighbours are looked for particle by particle, and counted; around the
     /// others everything near their bounds is listed. One where the list is not in strips.
     std::size_t counted_each() const { return !in_order_ && boxes_.size() >= 256 ? 8 : 1; }
+    const Points<Dim>& place() const { return box_.periodic() ? at_home_ : motion_.then(); }
     /// A little more than the list must hold, whatever rounding does to bounds.
     double reach() const { return (range_ + skin_) * (1.0 + 1e-9); }
 
@@ -106,20 +113,21 @@ class ClusterList {
     double typical_volume_ = 0.0;  ///< of the bounds of clusters in strips
     double strip_volume_ = 0.0;    ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> slot_of_;      ///< by particle, where slots are not numbers
+    ClusterCells<Dim> cells_;                 ///< likewise
     std::array<std::vector<double>, Dim> x_;  ///< at home, by slot; behind them those of ghosts
     MotionSince<Dim> motion_;                 ///< since the last build
     Points<Dim> at_home_;                     ///< where the box is periodic
     std::vector<std::int32_t> periods_;       ///< Dim x N, taken off there
     Home<Dim> home_;
     Ghosts<Dim> ghosts_;
-    std::vector<ClusterView::Range> range_of_;
-    std::vector<std::vector<std::uint32_t>> slices_;
-    std::vector<const std::uint32_t*> slice_of_;
+    std::vector<ClusterView::Entries> entries_;        ///< by cluster
+    std::vector<std::vector<NearLevel<Dim>>> levels_;  ///< of the searches through cells
+    std::vector<std::vector<std::uint32_t>> parts_;    ///< where they are
     struct BehindWall {
         std::size_t build = 0;  ///< of which list
-        std::vector<ClusterView::Range> range;
-        std::vector<std::uint32_t> entries;
-        std::vector<const std::uint32_t*> slices;
+        std::vector<ClusterView::Entries> entries;
+        std::vector<std::uint32_t> all;
     };
     mutable std::array<BehindWall, 2 * Dim> behind_;
 };

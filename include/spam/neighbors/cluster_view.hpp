@@ -9,16 +9,16 @@ namespace spam {
 /// What a sweep reads of a cluster list: plain pointers, because sweeps are compiled for several
 /// instruction sets and must leave no function behind that other code could be linked to.
 struct ClusterView {
-    struct Range {
-        std::uint32_t first, count;
+    struct Entries {
+        const std::uint32_t*
+            first;  ///< where the records of neighbours begin; one more may be read
+        std::uint32_t count;
     };
-    static constexpr std::size_t slice_size = 64;  ///< clusters whose entries lie in one block
 
     std::size_t particles;
     std::size_t clusters;
-    const std::uint32_t* order;          ///< slot -> particle; the last one repeated to fill lanes
-    const Range* range;                  ///< by cluster, within its slice
-    const std::uint32_t* const* slices;  ///< where the records of neighbours begin
+    const std::uint32_t* order;  ///< slot -> particle; the last one repeated to fill lanes
+    const Entries* entries;      ///< by cluster
 };
 
 /// Records of all particles by slot: `stride` numbers each, of which a sweep reads the first.

@@ -20,17 +20,27 @@ namespace spam {
 template <int Dim>
 class Ghosts {
   public:
-    /// Finds all images of the first `particles` slots that lie within `reach` of the bounds of these
-    /// particles; images of images among them. x: coordinates by slot; those of ghosts are written from
-    /// slot `first` on.
-    void build(const Box<Dim>& box, double reach, std::size_t particles, std::size_t first,
-               std::array<std::vector<double>, Dim>& x);
+    /// Which of a particle's images, along the last direction in the lowest four bits: the walls below and
+    /// above or the periods from the particle, counted from 8, ascending with the coordinate. So this order
+    /// of the images of one particle, itself among them, is the same whichever of them is at home.
+    static constexpr std::uint32_t itself = Dim == 1 ? 0x8 : Dim == 2 ? 0x88 : 0x888;
+
+    /// Finds all images of particles that lie within `reach` of the bounds of these particles; images of
+    /// images among them. Positions Dim x N by number, at home; slot_of: slots by number, empty where these
+    /// are the same. Coordinates x by slot; those of ghosts are written from slot `first` on. Ghosts are in
+    /// ascending number of their owner and ascending `which`, or sorted so that for_each_range() finds those
+    /// near a place.
+    void build(const Box<Dim>& box, double reach, const Points<Dim>& position,
+               std::span<const std::uint32_t> slot_of, std::size_t first,
+               std::array<std::vector<double>, Dim>& x, bool sorted);
 
     std::size_t size() const { return owner_.size(); }
     /// The slot of the particle whose image ghost number g is.
     std::uint32_t owner(std::size_t g) const { return owner_[g]; }
-    /// Which of a particle's images: the same number at every build.
+    /// Which of its images: the same number at every build, but for the period of the particle's home.
     std::uint32_t which(std::size_t g) const { return code_[g]; }
+    /// Where its slot is.
+    std::size_t slot(std::size_t g) const { return first_ + g; }
 
     /// Whether ghost number g is behind that wall across direction a; where it is an image of an image, the
     /// wall of the last direction counts. Precondition: the side is not open.
@@ -43,6 +53,7 @@ class Ghosts {
     /// visit(first, last): ranges of slots that hold all ghosts within the reach of the bounds.
     template <class Visit>
     void for_each_range(const Bounds<Dim>& bounds, double reach, const Visit& visit) const {
+        if (!sorted_) return visit(first_, first_ + static_cast<std::uint32_t>(owner_.size()));
         Point<Dim> low, high;
         for (int a = 0; a < Dim; ++a) {
             low[a] = bounds.centre[a] - bounds.half[a] - reach;
@@ -58,20 +69,29 @@ class Ghosts {
                  std::size_t from = 0) const;
 
   private:
+    /// Every image along one direction; number 8 is the particle itself.
+    static constexpr std::uint32_t most_images = 16, middle = 8;
+    struct Along {
+        std::vector<std::uint32_t> numbers;  ///< of the images there are, ascending
+        std::array<Image<Dim>, most_images> image;
+        double low, high;  ///< a particle between these has none within the reach
+    };
     struct Place {
         std::uint32_t owner, code;
         Point<Dim> x;
     };
-    /// Every image along one direction; number 0 is the particle itself.
-    static constexpr std::uint32_t most_images = 16;
 
-    void find_images(const Box<Dim>& box, int a, double low, double high, double reach);
-    void collect(std::vector<Place>& places, double reach, std::size_t particles,
-                 const std::array<std::vector<double>, Dim>& x);
+    void find_bounds(const Points<Dim>& position);
+    void find_images(const Box<Dim>& box, int a, double reach);
+    void collect(double reach, const Points<Dim>& position, std::span<const std::uint32_t> slot_of);
+    void add_images(std::uint32_t owner, const Point<Dim>& x, double reach);
+    void add_image(const Box<Dim>& box, std::uint32_t code);
 
-    std::array<std::vector<Image<Dim>>, Dim> along_;  ///< images along each direction
-    std::array<double, Dim> low_{}, high_{};          ///< of the particles
-    std::array<double, Dim> below_{}, above_{};       ///< nearest ghosts made along each direction
+    std::array<Along, Dim> along_;
+    std::vector<Place> places_;
+    bool sorted_ = false;
+    std::array<double, Dim> low_{}, high_{};     ///< of the particles
+    std::array<double, Dim> below_{}, above_{};  ///< nearest ghosts made along each direction
     std::uint32_t first_ = 0;
     std::vector<std::uint32_t> owner_, code_, image_;
     std::vector<Image<Dim>> images_;  ///< those that occur

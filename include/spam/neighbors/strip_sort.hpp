@@ -21,11 +21,20 @@ class StripSort {
     /// Positions Dim x N, finite; strips begin at the border of the box where it is periodic. They are as wide
     /// as the share of space of six particles is on a side: right for clusters of four and of eight.
     /// Particles flung far apart would need more bins than particles: these grow instead, which
-    /// costs time, never memory.
-    void build(const Points<Dim>& position, const Box<Dim>& box);
+    /// costs time, never memory. Up to `unsorted` particles of one bin, which hold about one, stay as their
+    /// numbers are: with a few the order is as good for neighbours, and made faster.
+    void build(const Points<Dim>& position, const Box<Dim>& box, std::uint32_t unsorted = 1);
 
     /// order()[slot] is the particle's number. Ties keep the lower number first.
     std::span<const std::uint32_t> order() const { return order_; }
+
+    /// Bins of direction a: where they begin, how wide they are (0 where all is at one place), how many
+    /// there are.
+    double origin(std::size_t a) const { return origin_[a]; }
+    double edge(std::size_t a) const { return per_edge_[a] > 0.0 ? 1.0 / per_edge_[a] : 0.0; }
+    std::size_t bins(std::size_t a) const { return static_cast<std::size_t>(count_[a]); }
+    /// The share of space of a particle, roughly.
+    double volume() const { return volume_; }
 
     /// visit(first, last): ranges of slots, ascending, that together hold every particle between the
     /// corners `low` and `high` (and some around).
@@ -45,7 +54,7 @@ class StripSort {
     void choose_bins(const Points<Dim>& position, const Box<Dim>& box);
     double volume_per_particle(const Points<Dim>& position);
     void divide(std::size_t a, double edge);
-    std::uint32_t place_in_sequence(const Point<Dim>& x) const;
+    struct Sequence;
     void sort_bin(std::size_t b, const Points<Dim>& position, double sign);
 
     /// `sequence`: number of the strip so far; in odd ones the next direction runs backwards.

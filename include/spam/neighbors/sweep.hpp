@@ -53,8 +53,8 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
         const Lanes i = gathered;
         Lanes j;
         Sums sums;
-        const ClusterView::Range range = list.range[cluster];
-        const std::uint32_t* entry = list.slices[cluster / ClusterView::slice_size] + range.first;
+        const ClusterView::Entries entries = list.entries[cluster];
+        const std::uint32_t* entry = entries.first;
         const auto distance_to = [&](const double* other) {
             Vec<Dim, T> x_j;
             for (int a = 0; a < Dim; ++a) x_j[a] = T(other[a]);
@@ -62,7 +62,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
         };
         const double* other = records.numbers + *entry;
         auto apart = distance_to(other);
-        for (const std::uint32_t* const end = entry + range.count; entry != end; ++entry) {
+        for (const std::uint32_t* const end = entry + entries.count; entry != end; ++entry) {
             // What waits for a square root would fill the processor's queue before the next one is
             // begun: it is begun here. (There is always one entry more than the list's.)
             const double* const next = records.numbers + entry[1];

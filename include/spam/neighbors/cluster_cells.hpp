@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/neighbors/cluster_boxes.hpp>
+#include <spam/neighbors/ghosts.hpp>
+
+namespace spam {
+
+/// A coordinate far from all of ClusterCells.
+inline constexpr float nowhere = 1e9F;
+
+/// What clusters of a flow choose their neighbours from: all slots in ascending number of their particles,
+/// images of one particle in the order of Ghosts::itself; and the clusters by cells of space, a few in each.
+/// Who goes down from all cells to single ones, and takes along those slots that are near, keeps their order:
+/// nothing is sorted.
+template <int Dim>
+class ClusterCells {
+  public:
+    /// As ClusterList has it, in strips. Positions are by number, slots too.
+    struct Input {
+        const StripSort<Dim>& strips;
+        const ClusterBoxes<Dim>& boxes;
+        const Ghosts<Dim>& ghosts;
+        const Points<Dim>& position;
+        std::span<const std::uint32_t> order, slot_of;
+        const std::array<std::vector<double>, Dim>& x;  ///< by slot
+        std::size_t width;                              ///< of clusters
+        double reach;
+        double most_volume;  ///< ClusterBoxes::volume of a cluster that belongs to a cell
+    };
+    void build(const Input& in);
+
+    /// Some cells in a row in every direction: [from, to).
+    struct Region {
+        std::array<std::size_t, Dim> from, to;
+        /// The direction in which there are most cells, and how many.
+        std::array<std::size_t, 2> longest() const;
+    };
+    Region everywhere() const;
+    /// Corners of the box around the clusters of a region, moved outwards by the reach; low above high where
+    /// there are none.
+    struct Corners {
+        std::array<double, Dim> low, high;
+        bool hold(const Bounds<Dim>& bounds, double reach) const;
+    };
+    Corners corners(const Region& region) const;
+    /// Clusters of the first cell of a region, ascending.
+    std::span<const std::uint32_t> clusters(const Region& region) const;
+    /// Clusters too large for a cell, ascending.
+    const std::vector<std::uint32_t>& large() const { return large_; }
+
+    /// In single precision, because a search may find too many, but as quickly as possible: coordinates from
+    /// `middle` in units of 1/scale, none above 1; these are rounded by less than `rounding` together with
+    /// what they are compared to. `x` and `slots` may be read up to `lanes` beyond; there x is `nowhere`.
+    static constexpr std::size_t lanes = 16;
+    static constexpr double rounding = 1e-6;
+    std::array<double, Dim> middle{};
+    double scale = 1.0;
+    std::array<std::vector<float>, Dim> x;
+    std::vector<std::uint32_t> slots;
+    std::size_t count = 0;
+
+  private:
+    void divide(const Input& in);
+    void assign(const Input& in);
+    void load(const Input& in);
+    std::size_t cell(std::size_t a, double at) const;
+
+    std::array<double, Dim> origin_{}, per_edge_{};
+    std::array<std::size_t, Dim> count_{};
+    std::vector<Corners> corners_;
+    std::vector<std::uint32_t> cell_of_, clusters_, large_;
+    std::vector<std::size_t> first_;  ///< of clusters_, by cell
+};
+
+/// Those of all slots that are near a region of cells.
+template <int Dim>
+struct NearLevel {
+    std::array<std::vector<float>, Dim> x;
+    std::vector<std::uint32_t> slots;
+};
+
+extern template class ClusterCells<1>;
+extern template class ClusterCells<2>;
+extern template class ClusterCells<3>;
+
+}  // namespace spam

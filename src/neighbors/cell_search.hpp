@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part of a cluster list that looks for neighbours where slots are in strips.
+#pragma once
+
+#include "list_part.hpp"
+
+namespace spam {
+
+/// Goes down from all cells of clusters to single ones, half by half, and takes along who is near.
+template <int Dim>
+class ClusterList<Dim>::CellSearch : public ClusterList<Dim>::Part {
+    using Part = ClusterList<Dim>::Part;
+    using Part::begin, Part::input_, Part::keep, Part::list_, Part::make_room, Part::members;
+    using Part::search_, Part::width_;
+    using Cells = ClusterCells<Dim>;
+
+  public:
+    /// Levels of the way down: memory.
+    using Levels = std::vector<NearLevel<Dim>>;
+
+    CellSearch(ClusterList& list, std::vector<std::uint32_t>& out, Levels& levels)
+        : Part(list, out),
+          levels_(levels),
+          cells_(list.cells_) {
+        candidates_.scale = cells_.scale;
+        candidates_.reach = list.reach() * cells_.scale * (1.0 + Cells::rounding) + Cells::rounding;
+        for (std::size_t a = 0; a < Dim; ++a) candidates_.middle[a] = cells_.middle[a];
+    }
+
+    /// The part of that number of 2^bits. Returns how many pairs were found around the clusters that are
+    /// counted, each from both ends.
+    std::size_t run(std::size_t part, unsigned bits) {
+        part_ = part, bits_ = bits;
+        if (cells_.count == 0) return 0;
+        for (std::size_t a = 0; a < Dim; ++a) candidates_.x[a] = cells_.x[a].data();
+        candidates_.slots = cells_.slots.data();
+        candidates_.count = cells_.count;
+        descend(cells_.everywhere(), candidates_, cells_.large(), 0);
+        return pairs_;
+    }
+    using Part::finish;
+
+  private:
+    using Region = typename Cells::Region;
+
+    /// `large`: clusters for whose neighbours these are enough.
+    void descend(const Region& region, const Candidates<Dim>& from,
+                 const std::vector<std::uint32_t>& large, unsigned depth) {
+        // What several parts see the first of them does.
+        const bool mine = depth >= bits_ || part_ >> depth == 0;
+        const auto [axis, longest] = region.longest();
+        if (longest == 1) {
+            if (!mine) return;
+            for (const std::uint32_t cluster : cells_.clusters(region))
+                search(cluster, from, cluster % list_.counted_each() == 0);
+            for (const std::uint32_t cluster : large) search(cluster, from, true);
+            return;
+        }
+        std::array<Region, 2> halves{region, region};
+        halves[0].to[axis] = halves[1].from[axis] = region.from[axis] + longest / 2;
+        std::array<typename Cells::Corners, 2> corners{cells_.corners(halves[0]),
+                                                       cells_.corners(halves[1])};
+        std::array<std::vector<std::uint32_t>, 2> fit;
+        for (const std::uint32_t cluster : large)
+            if (corners[0].hold(list_.boxes_[cluster], list_.reach()))
+                fit[0].push_back(cluster);
+            else if (corners[1].hold(list_.boxes_[cluster], list_.reach()))
+                fit[1].push_back(cluster);
+            else if (mine)
+                search(cluster, from, true);
+        for (std::size_t half = 0; half < 2; ++half) {
+            if (depth < bits_ && (part_ >> depth & 1U) != half) continue;
+            if (corners[half].low[0] > corners[half].high[0]) continue;
+            descend(halves[half], narrow(corners[half], from, depth), fit[half], depth + 1);
+        }
+    }
+
+    /// Those between the corners.
+    Candidates<Dim> narrow(const typename Cells::Corners& corners, const Candidates<Dim>& from,
+                           unsigned depth) {
+        if (levels_.size() <= depth) levels_.resize(depth + 1);
+        NearLevel<Dim>& level = levels_[depth];
+        const std::size_t most = from.count + Candidates<Dim>::lanes;
+        Candidates<Dim> near = from;
+        float low[Dim], high[Dim];
+        float* x[Dim];
+        if (level.slots.size() < most) level.slots.resize(most);
+        for (std::size_t a = 0; a < Dim; ++a) {
+            if (level.x[a].size() < most) level.x[a].resize(most);
+            near.x[a] = x[a] = level.x[a].data();
+            const auto unit = [&](double c) { return (c - cells_.middle[a]) * cells_.scale; };
+            low[a] = static_cast<float>(unit(corners.low[a]) - Cells::rounding);
+            high[a] = static_cast<float>(unit(corners.high[a]) + Cells::rounding);
+        }
+        near.slots = level.slots.data();
+        near.count = search_.narrow(from, low, high, x, level.slots.data());
+        return near;
+    }
+
+    void search(std::size_t cluster, const Candidates<Dim>& from, bool exactly) {
+        const Bounds<Dim>& bounds = list_.boxes_[cluster];
+        make_room(from.count + Candidates<Dim>::lanes);
+        if (!exactly) {
+            keep(cluster, search_.near_bounds(from, bounds, input_.stride, begin()));
+            return;
+        }
+        if (near_.size() < from.count + Candidates<Dim>::lanes)
+            near_.resize(from.count + Candidates<Dim>::lanes);
+        const auto count = static_cast<std::size_t>(
+            search_.near_bounds(from, bounds, 1, near_.data()) - near_.data());
+        std::size_t pairs = 0;
+        keep(cluster, search_.in_slots(input_, cluster * width_, members(cluster), near_.data(),
+                                       count, begin(), pairs));
+        if (cluster % list_.counted_each() == 0) pairs_ += pairs;
+    }
+
+    Levels& levels_;
+    const Cells& cells_;
+    Candidates<Dim> candidates_;
+    std::size_t part_ = 0, pairs_ = 0;
+    unsigned bits_ = 0;
+    std::vector<std::uint32_t> near_;
+};
+
+}  // namespace spam
