@@ -17,7 +17,7 @@ void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double low, double hig
     // Walls across a direction are further apart than the range (ClusterList): images of images in them
     // have no neighbours.
     for (const bool upper : {false, true})
-        if (const auto& wall = box.wall(a, upper); !wall.open())
+        if (const auto& wall = box.wall(a, upper); wall.has_images())
             along_[axis].push_back(wall.image(a));
     if (!box.periodic(a)) return;
     const double L = box.length(a);
@@ -72,7 +72,7 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
     std::vector<Place> places;
     below_.fill(-std::numeric_limits<double>::infinity());
     above_.fill(std::numeric_limits<double>::infinity());
-    if (particles > 0 && (box.periodic() || box.walled())) {
+    if (particles > 0 && (box.periodic() || box.has_images())) {
         for (std::size_t a = 0; a < Dim; ++a) {
             const auto end = x[a].begin() + static_cast<std::ptrdiff_t>(particles);
             const auto [low, high] = std::minmax_element(x[a].begin(), end);
@@ -111,8 +111,8 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, std::size_t particles
                 const std::uint32_t along = rest % most_images;
                 image = image.then(along_[a][along]);
                 const auto axis = static_cast<int>(a);
-                if (along == 0 || !box.walled(axis)) continue;
-                const bool upper = along == 2 || box.wall(axis, false).open();
+                if (along == 0 || box.periodic(axis)) continue;
+                const bool upper = along == 2 || !box.wall(axis, false).has_images();
                 wall = 2 * axis + (upper ? 1 : 0);
             }
             images_.push_back(image);

@@ -15,7 +15,7 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
     : range_(range),
       box_(box),
       bodies_(std::move(bodies)),
-      list_(range, skin * range, box, 1),
+      list_(range, skin * range, box.of_images(), 1),
       rows_{static_cast<std::size_t>(lanes)} {
     require_one_image(box, (1.0 + skin) * range);
 }
