@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
     options.integer("height", p.height,
                     "particles from plate to plate, twice as many along them, at spacing 1",
                     between(8, 200));
-    const Sides<2> sides(options, {"periodic", "periodic", "no-slip@1.5", "no-slip@0.5"});
+    const Sides sides(options, {"periodic", "periodic", "no-slip@1.5", "no-slip@0.5"});
     p.sides = &sides;
     options.number("rayleigh", p.rayleigh, "Rayleigh number", between(1.0, 1e6));
     options.number("roll", p.roll, "speed of the rolls at the start; sound has 1.4",

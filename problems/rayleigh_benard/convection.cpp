@@ -24,7 +24,7 @@ void refuse_without_plates(const Box<2>& box) {
             throw InputError(fmt::format(
                 "{}: heat must come from below and leave above; give a wall with a temperature, as "
                 "no-slip@{}",
-                Sides<2>::name(1, upper), upper ? "0.5" : "1.5"));
+                Sides::name(1, upper), upper ? "0.5" : "1.5"));
     const double hot = *box.wall(1, false).temperature, cold = *box.wall(1, true).temperature;
     if (!(hot > cold))
         throw InputError(fmt::format(
@@ -35,14 +35,14 @@ void refuse_without_plates(const Box<2>& box) {
         if (!box.periodic(0) && box.wall(0, upper).open())
             throw InputError(
                 fmt::format("{}: 'open' would let the gas out; use periodic, mirror or no-slip",
-                            Sides<2>::name(0, upper)));
+                            Sides::name(0, upper)));
 }
 
 }  // namespace
 
 Convection make_convection(const Parameters& p, double rayleigh, bool only_described) {
     const double L = p.height;
-    const Box<2> box = p.sides->box(Point<2>::Zero(), Point<2>(2.0 * L, L));
+    const Box<2> box = p.sides->box<2>(Point<2>::Zero(), Point<2>(2.0 * L, L));
     refuse_without_plates(box);
     const Layer layer{.L = L,
                       .rayleigh = rayleigh,

@@ -17,7 +17,7 @@ namespace rayleigh_benard {
 using namespace spam;
 
 struct Parameters {
-    const Sides<2>* sides = nullptr;
+    const Sides* sides = nullptr;
     int height = 20;
     double rayleigh = 1e4;
     double roll = 0.05;

@@ -30,7 +30,7 @@ WallImages<Dim> images_behind_walls(const Box<Dim>& box, double reach, const Poi
         const std::size_t before = all.size();
         for (const bool upper : {false, true}) {
             const Wall<Dim>& wall = box.wall(a, upper);
-            if (wall.open()) continue;
+            if (!wall.has_images()) continue;
             const Image<Dim> image = wall.image(a);
             for (std::size_t k = 0; k < before; ++k) {
                 if (std::abs(all[k].x[a] - wall.at) > reach) continue;

@@ -43,7 +43,7 @@ void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double reach) {
     // Walls across a direction are further apart than the range (ClusterList): images of images in them
     // have no neighbours.
     for (const bool upper : {false, true})
-        if (const auto& wall = box.wall(a, upper); !wall.open())
+        if (const auto& wall = box.wall(a, upper); wall.has_images())
             add(upper ? middle + 1 : middle - 1, wall.image(a));
     if (!box.periodic(a)) return;
     const double L = box.length(a);

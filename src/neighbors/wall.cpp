@@ -12,6 +12,7 @@ template <int Dim>
 std::string Wall<Dim>::describe() const {
     std::string words = kind == WallKind::open     ? "open"
                         : kind == WallKind::mirror ? "mirror"
+                        : kind == WallKind::rigid  ? "rigid"
                                                    : "no-slip";
     if (kind == WallKind::no_slip && !velocity.isZero()) {
         words = fmt::format("moving with ({:g}", velocity[0]);
@@ -42,6 +43,11 @@ void Box<Dim>::set_wall(int a, bool upper, const Wall<Dim>& wall) {
     if (wall.temperature && !(*wall.temperature > 0.0 && std::isfinite(*wall.temperature)))
         throw InputError(fmt::format("wall: temperature {:g} across direction {} must be above 0",
                                      *wall.temperature, direction));
+    if (wall.temperature && wall.kind == WallKind::rigid)
+        throw InputError(fmt::format(
+            "wall: a rigid one, across direction {}, has nothing behind it that could be warm; use mirror or "
+            "no-slip, or leave the temperature out",
+            direction));
     auto& sides = walls_[static_cast<std::size_t>(a)];
     sides[upper ? 1 : 0] = wall;
     if (!sides[0].open() && !sides[1].open() && !(sides[0].at < sides[1].at))

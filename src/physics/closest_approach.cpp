@@ -60,7 +60,8 @@ ClosestApproach<Dim>::ClosestApproach(std::vector<double> mass, const Box<Dim>& 
 
 template <int Dim>
 std::unique_ptr<ClusterList<Dim>> ClosestApproach<Dim>::new_list() const {
-    return std::make_unique<ClusterList<Dim>>(1.001 * R_, skin(first_share, R_, box_), box_, 1);
+    return std::make_unique<ClusterList<Dim>>(1.001 * R_, skin(first_share, R_, box_),
+                                              box_.of_images(), 1);
 }
 
 template <int Dim>

@@ -10,7 +10,12 @@
 namespace spam {
 namespace {
 
-constexpr std::array names{"left", "right", "bottom", "top", "front", "back"};
+constexpr std::array names_of_sides{"left", "right", "bottom", "top", "front", "back"};
+
+std::string allowed(bool along) {
+    return std::string("open, periodic, mirror, no-slip") + (along ? ", moving:V" : "") +
+           " or rigid";
+}
 
 /// A side before it has a place.
 template <int Dim>
@@ -22,10 +27,14 @@ struct Side {
 template <int Dim>
 class Reader {
   public:
-    Reader(std::string option, const std::string& words, int axis)
+    Reader(std::string option, const std::string& words, int axis, const Sides::Meanings& meanings)
         : option_(std::move(option)),
           words_(words),
-          axis_(axis) {}
+          axis_(axis) {
+        if (const auto other = meanings.find(words_); other != meanings.end())
+            words_ = other->second;
+        for (const auto& [word, meaning] : meanings) more_ += ", " + word;
+    }
 
     Side<Dim> side() const {
         const auto at = words_.find('@');
@@ -37,16 +46,21 @@ class Reader {
             side.wall.kind = WallKind::mirror;
         else if (kind == "no-slip")
             side.wall.kind = WallKind::no_slip;
+        else if (kind == "rigid")
+            side.wall.kind = WallKind::rigid;
         else if (Dim > 1 && kind.starts_with("moving:")) {
             side.wall.kind = WallKind::no_slip;
             side.wall.velocity[axis_ == 0 ? 1 : 0] = number(kind.substr(7), "velocity");
         } else if (kind != "open")
-            refuse("is none of open, periodic, mirror, no-slip" +
-                   std::string(Dim > 1 ? ", moving:V" : "") +
-                   "; walls may have @TEMPERATURE behind");
+            refuse("is none of " + allowed(Dim > 1) + more_ +
+                   "; mirrors and no-slip walls may have @TEMPERATURE behind");
         if (at == std::string::npos) return side;
         if (side.periodic || side.wall.open())
             refuse("is no wall and has no temperature; leave it out");
+        if (side.wall.kind == WallKind::rigid)
+            refuse(
+                "has nothing behind it that could be warm; use mirror or no-slip, or leave the "
+                "temperature out");
         side.wall.temperature = number(words_.substr(at + 1), "temperature");
         if (!(*side.wall.temperature > 0.0)) refuse("has a temperature that is not above 0");
         return side;
@@ -66,34 +80,38 @@ class Reader {
         return value;
     }
 
-    std::string option_;
-    const std::string& words_;
+    std::string option_, words_, more_;
     int axis_;
 };
 
 }  // namespace
 
-template <int Dim>
-std::string Sides<Dim>::name(int a, bool upper) {
-    return names[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
+std::string Sides::name(int a, bool upper) {
+    return names_of_sides[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
 }
 
-template <int Dim>
-Sides<Dim>::Sides(Options& options, const std::array<std::string, 2 * Dim>& otherwise)
-    : words_(otherwise) {
-    for (int a = 0; a < Dim; ++a)
-        for (const bool upper : {false, true})
-            options.text(name(a, upper), words_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))],
-                         fmt::format("{} side: open, periodic, mirror, no-slip{}; walls may have "
+Sides::Sides(Options& options, std::vector<std::string> otherwise, const std::string& more)
+    : words_(std::move(otherwise)) {
+    for (std::size_t k = 0; k < words_.size(); ++k)
+        if (!words_[k].empty())
+            options.text(names_of_sides[k], words_[k],
+                         fmt::format("{} side: {}{}; mirrors and no-slip walls may have "
                                      "@TEMPERATURE behind, else they are insulated",
-                                     name(a, upper), Dim > 1 ? ", moving:V" : ""));
+                                     names_of_sides[k], allowed(words_.size() > 2), more));
+}
+
+std::vector<std::string> Sides::names() const {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < words_.size(); ++k)
+        if (!words_[k].empty()) names.emplace_back(names_of_sides[k]);
+    return names;
 }
 
 template <int Dim>
-Box<Dim> Sides<Dim>::box(const Point<Dim>& low, const Point<Dim>& high) const {
+Box<Dim> Sides::box(const Point<Dim>& low, const Point<Dim>& high, const Meanings& meanings) const {
     const auto reader = [&](int a, bool upper) {
-        return Reader<Dim>(name(a, upper),
-                           words_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))], a);
+        const std::string& words = words_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
+        return Reader<Dim>(name(a, upper), words.empty() ? "open" : words, a, meanings);
     };
     std::array<double, Dim> lengths{};
     for (int a = 0; a < Dim; ++a) {
@@ -115,8 +133,8 @@ Box<Dim> Sides<Dim>::box(const Point<Dim>& low, const Point<Dim>& high) const {
     return box;
 }
 
-template class Sides<1>;
-template class Sides<2>;
-template class Sides<3>;
+template Box<1> Sides::box(const Point<1>&, const Point<1>&, const Meanings&) const;
+template Box<2> Sides::box(const Point<2>&, const Point<2>&, const Meanings&) const;
+template Box<3> Sides::box(const Point<3>&, const Point<3>&, const Meanings&) const;
 
 }  // namespace spam

@@ -59,7 +59,7 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, const BondSweeps<Di
       box_(box),
       sweeps_(sweeps),
       bodies_(std::move(bodies)),
-      list_((1.0 + skin) * range, list_skin * range, box, sweeps.lanes, Dim + 1),
+      list_((1.0 + skin) * range, list_skin * range, box.of_images(), sweeps.lanes, Dim + 1),
       rows_(static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(sweeps.lanes)) {
     require_one_image(box, (1.0 + skin) * range);
     const std::size_t filled = groups() * rows_.lanes();

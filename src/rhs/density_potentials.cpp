@@ -237,6 +237,7 @@ std::string DensityPotentialTerm<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.v_dot = now.v_dot;
     parts_->sweeps.force(parts_->input(packed), out);
+    packed.sweep_walls(parts_->input(packed), parts_->sweeps.force);
     return {};
 }
 
@@ -311,6 +312,11 @@ double DensityPotentialTerm<Dim>::neighbour_forces(std::span<const double> y) co
 template <int Dim>
 std::string DensityPotentialTerm<Dim>::describe() const {
     return fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
+}
+
+template <int Dim>
+const WallRates<Dim>* DensityPotentialTerm<Dim>::wall_rates(int a, bool upper) const {
+    return parts_->packed->walls().find(a, upper);
 }
 
 template <int Dim>

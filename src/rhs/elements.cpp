@@ -41,7 +41,7 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
       materials_(std::move(materials)),
       material_(std::move(material)) {
     if (corners_.empty()) throw InputError("elements: there are none; leave the term out");
-    if (box().periodic() || box().walled())
+    if (box().periodic() || box().has_images())
         throw InputError("elements: they cannot reach across the borders of a box; use free space");
     for (const Material& one : materials_) {
         validate(one);

@@ -44,7 +44,7 @@ double Model<Dim>::neighbour_forces(std::span<const double> y) const {
 
 template <int Dim>
 Promises Model<Dim>::in_box(Promises promises) const {
-    if (box_.periodic() || box_.walled()) promises.angular_momentum = Promise::not_kept;
+    if (box_.periodic() || box_.has_images()) promises.angular_momentum = Promise::not_kept;
     return promises;
 }
 

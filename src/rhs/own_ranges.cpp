@@ -110,7 +110,7 @@ double OwnRanges<Dim>::most_range() const {
         if (this->box().periodic(a))
             most = std::min(most, 0.5 * this->box().length(a));
         else if (const auto& lower = this->box().wall(a, false), &upper = this->box().wall(a, true);
-                 !lower.open() && !upper.open())
+                 lower.has_images() && upper.has_images())
             most = std::min(most, upper.at - lower.at);
     return most;
 }
@@ -177,6 +177,7 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     out.approach = now.rate.density().data();
     out.v_dot = now.v_dot;
     sweeps_->density(in, out);
+    WallSweeps<Dim>& walls = packed_->sweep_walls(in, sweeps_->density);
     if (close_own_sums(now) > 0) {
         std::size_t i = 0;
         while (std::isfinite(pressure_[i]) && i + 1 < n) ++i;
@@ -188,6 +189,12 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     }
     fill([&](std::size_t i, double* record) { record[R::template at<column::Pull>] = pull_[i]; });
     sweeps_->force(in, out);
+    // As in close_own_sums(): e_dot = P/rho^2 rho_dot, of which each wall has its part.
+    walls.for_each([&](WallRates<Dim>& wall) {
+        for (std::size_t k = 0; k < wall.particle.size(); ++k)
+            wall.e_dot[wall.place[k]] *= -pull_[wall.particle[k]];
+    });
+    packed_->sweep_walls(in, sweeps_->force);
     return {};
 }
 
@@ -285,6 +292,11 @@ double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
 template <int Dim>
 void OwnRanges<Dim>::remember(Archive& archive) {
     if (archive.reading()) packed_.reset();
+}
+
+template <int Dim>
+const WallRates<Dim>* OwnRanges<Dim>::wall_rates(int a, bool upper) const {
+    return packed_ ? packed_->walls().find(a, upper) : nullptr;
 }
 
 template <int Dim>

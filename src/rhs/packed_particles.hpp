@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "wall_sweeps.hpp"
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/rhs/sweeps.hpp>
 
@@ -19,8 +20,9 @@ class PackedParticles {
     /// lasts some right-hand sides.
     PackedParticles(const GeneralWeight<Dim>& weight, ListUse use, const Box<Dim>& box,
                     const Sweeps<Dim>& sweeps)
-        : list_(weight.range(), use == ListUse::once ? 0.0 : first_share * weight.range(), box,
-                sweeps.width, static_cast<std::size_t>(sweeps.numbers)),
+        : list_(weight.range(), use == ListUse::once ? 0.0 : first_share * weight.range(),
+                box.of_images(), sweeps.width, static_cast<std::size_t>(sweeps.numbers)),
+          walls_(list_.box()),
           weight_(weight),
           stride_(static_cast<std::size_t>(sweeps.numbers)),
           make_records_(sweeps.pack) {}
@@ -43,6 +45,13 @@ class PackedParticles {
         list_.refresh(records_.data(), kinds, static_cast<std::size_t>(from));
     }
 
+    /// The sweep once more, for the images behind each wall alone (WallSweeps::sweep).
+    WallSweeps<Dim>& sweep_walls(const SweepInput<Dim>& in, Sweep<Dim> sweep) {
+        walls_.sweep(list_, in, sweep);
+        return walls_;
+    }
+    const WallSweeps<Dim>& walls() const { return walls_; }
+
     const ClusterList<Dim>& list() const { return list_; }
     int numbers() const { return static_cast<int>(stride_); }  ///< in a record
     double* record(std::size_t slot) { return &records_[slot * stride_]; }
@@ -61,6 +70,7 @@ class PackedParticles {
     std::size_t pack(const PackedFields& fields, bool density_only);
 
     ClusterList<Dim> list_;
+    WallSweeps<Dim> walls_;
     GeneralWeight<Dim> weight_;
     std::size_t stride_;
     Pack<Dim> make_records_;

@@ -95,6 +95,7 @@ std::string PairTerm<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.v_dot = now.v_dot;
     law_.sweeps.force(input(*packed_), out);
+    packed_->sweep_walls(input(*packed_), law_.sweeps.force);
     return {};
 }
 
@@ -119,6 +120,11 @@ std::vector<double> PairTerm<Dim>::density(std::span<const double> y) const {
         ->summed_density(
             law_.sweeps.density, this->particles().size(),
             {this->state_of(y).position().data(), nullptr, this->particles().mass.data()});
+}
+
+template <int Dim>
+const WallRates<Dim>* PairTerm<Dim>::wall_rates(int a, bool upper) const {
+    return packed_->walls().find(a, upper);
 }
 
 template <int Dim>

@@ -79,43 +79,43 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
     });
     now.rate.field(Field::impulse) += sum.force;
     if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque;
-    if (!energy) return;
     double work = 0.0;
-    for (int a = 0; a < Dim; ++a)
-        for (const bool upper : {false, true})
-            if (now.rate.has(Field::wall_heat(a, upper))) work += book_wall(now, a, upper);
+    for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
+        if (!wall.has_images()) return;
+        book_wall(now, a, upper, wall);
+        work += now.rate.field(Field::wall_work(a, upper))(0, 0);
+    });
+    if (!energy) return;
     now.rate.field(Field::work)(0, 0) += work;
     now.rate.field(Field::heat)(0, 0) += sum.power - work;
 }
 
-/// The heat through one wall. Returns the work that it does.
+/// What the images behind one wall give.
 template <int Dim>
-double ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a, bool upper) {
+void ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a, bool upper,
+                                   const Wall<Dim>& wall) const {
     const auto v = now.state.velocity();
-    Given whole;
+    const bool energy = wall.passes_energy() && now.rate.has(Field::energy);
+    Given sum;
     for (const auto& term : terms_) {
-        const auto* wall = term->wall_rates(a, upper);
-        if (wall == nullptr) continue;
-        const auto from = static_cast<Eigen::Index>(term->among().first()),
-                   to = from + static_cast<Eigen::Index>(term->among().count());
-        const Given sum = sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
-            Given given;
-            for (Eigen::Index i = std::max(first, from); i < std::min(last, to); ++i) {
-                const auto k = static_cast<std::size_t>(i - from);
-                const double m = now.particles.mass[static_cast<std::size_t>(i)];
-                const Point<Dim> force =
-                    m * Eigen::Map<const Point<Dim>>(wall->v_dot.data() + Dim * k);
-                given.force += force;
-                given.power += force.dot(v.col(i)) + m * wall->e_dot[k];
-            }
-            return given;
-        });
-        whole.force += sum.force;
-        whole.power += sum.power;
+        const WallRates<Dim>* rates = term->wall_rates(a, upper);
+        if (rates == nullptr) continue;
+        for (std::size_t k = 0; k < rates->particle.size(); ++k) {
+            const std::size_t i = term->among().first() + rates->particle[k];
+            const double* const v_dot = rates->v_dot.data() + Dim * rates->place[k];
+            const double m = now.particles.mass[i];
+            const Point<Dim> force = m * Eigen::Map<const Point<Dim>>(v_dot);
+            sum.force += force;
+            if (energy)
+                sum.power += force.dot(v.col(static_cast<Eigen::Index>(i))) +
+                             m * rates->e_dot[rates->place[k]];
+        }
     }
-    const double work = whole.force.dot(this->box().wall(a, upper).velocity);
-    now.rate.field(Field::wall_heat(a, upper))(0, 0) += whole.power - work;
-    return work;
+    now.rate.field(Field::wall_impulse(a, upper)) += sum.force;
+    if (!energy) return;
+    const double work = sum.force.dot(wall.velocity);
+    now.rate.field(Field::wall_work(a, upper))(0, 0) += work;
+    now.rate.field(Field::wall_heat(a, upper))(0, 0) += sum.power - work;
 }
 
 /// The difference that the external makes to what the particles had before it.
@@ -165,22 +165,37 @@ bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
     return (walled_ && reflect(state)) || changed;
 }
 
-/// A particle beyond a mirror and its image change places: nothing that others see changes, whenever it is
-/// done.
 template <int Dim>
 bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
     const std::size_t before = reflections_;
-    for (int a = 0; a < Dim; ++a)
-        for (const bool upper : {false, true}) {
-            const Wall<Dim>& wall = this->box().wall(a, upper);
-            if (wall.open()) continue;
-            for (Eigen::Index i = 0; i < state.position().cols(); ++i)
-                if (upper ? state.position()(a, i) > wall.at : state.position()(a, i) < wall.at) {
-                    reflect(state, i, a, wall);
-                    ++reflections_;
-                }
+    for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
+        const auto x = state.position(), v = state.velocity();
+        for (Eigen::Index i = 0; i < x.cols(); ++i) {
+            if (!(upper ? x(a, i) > wall.at : x(a, i) < wall.at)) continue;
+            if (wall.has_images())
+                fold_back(state, i, a, upper);
+            else if (upper ? v(a, i) > 0.0 : v(a, i) < 0.0)
+                turn_back(state, i, a, upper);
+            else
+                continue;
+            ++reflections_;
         }
+    });
     return reflections_ != before;
+}
+
+/// Where it is, so that no distance changes, and no energy that depends on distances.
+template <int Dim>
+void ParticleModel<Dim>::turn_back(const State<Dim>& state, Eigen::Index i, int a,
+                                   bool upper) const {
+    const double m = this->particles().mass[static_cast<std::size_t>(i)];
+    Point<Dim> given = Point<Dim>::Zero();
+    given[a] = -2.0 * m * state.velocity()(a, i);
+    state.velocity()(a, i) *= -1.0;
+    state.field(Field::impulse) += given;
+    state.field(Field::wall_impulse(a, upper)) += given;
+    if constexpr (Dim > 1)
+        state.field(Field::angular_impulse) += moment<Dim>(state.position().col(i), given);
 }
 
 /// What a particle gains in the potentials of externals when it is moved.
@@ -195,12 +210,14 @@ double ParticleModel<Dim>::gained(std::size_t i, const Point<Dim>& from,
     return energy;
 }
 
-/// r -> -r, v_n -> -v_n, but for what the change of place means in potentials of externals: gravity has pulled
-/// the particle on behind the wall, and would have slowed it down before it. What is more than its motion
-/// can give is the wall's work.
+/// A particle beyond a mirror and its image change places: nothing that others see changes, whenever it is
+/// done. r -> -r, v_n -> -v_n, but for what the change of place means in potentials of externals: gravity has
+/// pulled the particle on behind the wall, and would have slowed it down before it. What is more than its
+/// motion can give is the wall's work.
 template <int Dim>
-void ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int axis,
-                                 const Wall<Dim>& wall) const {
+void ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int axis,
+                                   bool upper) const {
+    const Wall<Dim>& wall = this->box().wall(axis, upper);
     const auto x = state.position().col(i), v = state.velocity().col(i);
     const double m = this->particles().mass[static_cast<std::size_t>(i)];
     Point<Dim> to = x;
@@ -209,8 +226,11 @@ void ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int ax
     const double square = v[axis] * v[axis] - 2.0 * gain / m;
     const double turned =
         gain == 0.0 ? -v[axis] : -std::copysign(std::sqrt(std::max(square, 0.0)), v[axis]);
-    if (square < 0.0) state.field(Field::work)(0, 0) -= 0.5 * m * square;
-    state.field(Field::impulse)(axis, 0) += m * (turned - v[axis]);
+    if (square < 0.0)
+        for (const Field work : {Field::work, Field::wall_work(axis, upper)})
+            state.field(work)(0, 0) -= 0.5 * m * square;
+    for (const Field impulse : {Field::impulse, Field::wall_impulse(axis, upper)})
+        state.field(impulse)(axis, 0) += m * (turned - v[axis]);
     const auto book_turning = [&](double sign) {
         const auto L = moment<Dim>(x, v);
         for (int plane = 0; plane < Given::planes; ++plane)
@@ -234,11 +254,12 @@ void ParticleModel<Dim>::reflect(const State<Dim>& state, Eigen::Index i, int ax
         const External<D>&, const External<D>::Now&, Eigen::Index, Eigen::Index) const;            \
     template void ParticleModel<D>::book(const External<D>&, const Given&, const State<D>&) const; \
     template void ParticleModel<D>::book_walls(const External<D>::Now&);                           \
-    template double ParticleModel<D>::book_wall(const External<D>::Now&, int, bool);               \
+    template void ParticleModel<D>::book_wall(const External<D>::Now&, int, bool, const Wall<D>&)  \
+        const;                                                                                     \
     template bool ParticleModel<D>::settle(double, std::span<double>);                             \
     template bool ParticleModel<D>::reflect(const State<D>&);                                      \
-    template void ParticleModel<D>::reflect(const State<D>&, Eigen::Index, int, const Wall<D>&)    \
-        const;                                                                                     \
+    template void ParticleModel<D>::turn_back(const State<D>&, Eigen::Index, int, bool) const;     \
+    template void ParticleModel<D>::fold_back(const State<D>&, Eigen::Index, int, bool) const;     \
     template double ParticleModel<D>::gained(std::size_t, const Point<D>&, const Point<D>&) const;
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)

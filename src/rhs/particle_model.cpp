@@ -16,30 +16,45 @@ ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
     if (!walled_) return;
     refuse_beyond_walls();
     add_accounts();
+    for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
+        this->layout().add(Field::wall_impulse(a, upper));
+        this->layout().add(Field::wall_work(a, upper));
+        if (wall.passes_energy()) this->layout().add(Field::wall_heat(a, upper));
+    });
 }
 
 template <int Dim>
 void ParticleModel<Dim>::refuse_beyond_walls() const {
     const Points<Dim>& x = this->particles().reference_position;
-    for (int a = 0; a < Dim; ++a)
-        for (const bool upper : {false, true}) {
-            const Wall<Dim>& wall = this->box().wall(a, upper);
-            if (wall.open()) continue;
-            for (Eigen::Index i = 0; i < x.cols(); ++i)
-                if (upper ? x(a, i) > wall.at : x(a, i) < wall.at)
-                    throw InputError(fmt::format(
-                        "wall: particle {} at {} = {:g} is beyond the {} wall at {:g}; move the body "
-                        "or the wall",
-                        this->particles().id[static_cast<std::size_t>(i)], "xyz"[a], x(a, i),
-                        wall.describe(), wall.at));
-        }
+    for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
+        for (Eigen::Index i = 0; i < x.cols(); ++i)
+            if (upper ? x(a, i) > wall.at : x(a, i) < wall.at)
+                throw InputError(fmt::format(
+                    "wall: particle {} at {} = {:g} is beyond the {} wall at {:g}; move the body "
+                    "or the wall",
+                    this->particles().id[static_cast<std::size_t>(i)], "xyz"[a], x(a, i),
+                    wall.describe(), wall.at));
+    });
+}
+
+/// Images have to mean something to the law; a rigid wall stops what moves with its own velocity.
+template <int Dim>
+void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
+    if (this->box().has_images())
+        if (auto why = term.no_walls(); !why.empty())
+            throw InputError(fmt::format("wall: {} ({})", why, term.describe()));
+    for_each_wall([&](int, bool, const Wall<Dim>& wall) {
+        if (wall.kind == WallKind::rigid && !term.moves_with_velocity())
+            throw InputError(fmt::format(
+                "wall: a rigid one turns the velocity of a particle back, and particles that are moved by "
+                "another one go on through it; use mirror, or --transport plain ({})",
+                term.describe()));
+    });
 }
 
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
-    if (walled_)
-        if (auto why = term->no_walls(); !why.empty())
-            throw InputError(fmt::format("wall: {} ({})", why, term->describe()));
+    refuse_walls(*term);
     for (const auto& other : terms_) {
         if (!other->quadrilaterals().empty() && !term->quadrilaterals().empty())
             throw InputError(fmt::format(
@@ -67,10 +82,6 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
         this->layout().set_elements(term->quadrilaterals().size());
         for (const Field field : term->element_fields()) this->layout().add(field, Holder::element);
     }
-    for (int a = 0; a < Dim; ++a)
-        for (const bool upper : {false, true})
-            if (term->wall_rates(a, upper) != nullptr)
-                this->layout().add(Field::wall_heat(a, upper));
     whole_ = whole_ && term->among().whole();
     terms_.push_back(std::move(term));
     if (terms_.size() > 1 || !whole_) more_.resize(Dim * this->particles().size());
@@ -129,7 +140,7 @@ void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<do
         if (b.field.role() != Role::integrated)
             std::fill_n(y_dot.begin() + static_cast<std::ptrdiff_t>(b.offset), b.size, 0.0);
     const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
-    if (walled_) book_walls(now);
+    if (this->box().has_images()) book_walls(now);
     for (const auto& external : externals_) {
         external->prepare(now);
         apply(*external, now);

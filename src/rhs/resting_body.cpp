@@ -12,7 +12,7 @@ template <int Dim>
 RestingBody resting_body(const Particles<Dim>& particles, const Box<Dim>& box,
                          const GeneralWeight<Dim>& weight) {
     const auto& X = particles.reference_position;
-    ClusterList<Dim> list(weight.range(), 0.0, box, 1, Dim);
+    ClusterList<Dim> list(weight.range(), 0.0, box.of_images(), 1, Dim);
     list.build(X);
     std::vector<double> x(list.slots() * Dim);
     for (std::size_t slot = 0; slot < list.size(); ++slot)

@@ -74,7 +74,6 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
         torques_ = std::make_unique<TorqueFactors>(n, law);
         if (sweeps_->gradient != nullptr) heat_.resize(n);
     }
-    tell_walls_apart();
     estimate_damping();
     set_bodies();
 }
@@ -126,13 +125,13 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
         balance(now, in, out);
     } else {
         sweeps_->force(in, out);
-        if (!walls_.empty()) sweep_walls(in, sweeps_->force);
+        packed_->sweep_walls(in, sweeps_->force);
         if (sweeps_->second != nullptr) {
             load_transport(now);
             if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
             out.close = nullptr;
             sweeps_->second(in, out);
-            if (!walls_.empty()) sweep_walls(in, sweeps_->second);
+            packed_->sweep_walls(in, sweeps_->second);
         }
     }
     if (gauss_)
@@ -306,6 +305,11 @@ std::vector<Event> SmoothParticles<Dim>::events() const {
     return {closest_approach_event<Dim>(
         {this->particles().mass, this->box(), scheme_.closest_approach, moves_with_velocity()},
         this->layout(), this->among().first())};
+}
+
+template <int Dim>
+const WallRates<Dim>* SmoothParticles<Dim>::wall_rates(int a, bool upper) const {
+    return packed_->walls().find(a, upper);
 }
 
 template <int Dim>

@@ -101,7 +101,7 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
       scheme_(validated(scheme, this->particles(), material.stiffness())),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
           best_sweeps([](auto level) { return lagrangian_sweeps<Dim, level>(); }))),
-      list_(scheme.range, 0.0, this->box(), sweeps_->width, stride<Dim>) {
+      list_(scheme.range, 0.0, this->box().of_images(), sweeps_->width, stride<Dim>) {
     if (material_.flows())
         throw InputError(fmt::format(
             "material: '{}' flows by changing what neighbours remember, and these never change; use a "

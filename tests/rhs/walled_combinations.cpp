@@ -18,7 +18,8 @@ const std::map<std::string, Wall<2>> walls{
     {"mirror of a temperature", {WallKind::mirror, 0.0, {0, 0}, 0.3}},
     {"no_slip", {WallKind::no_slip, 0.0, {0, 0}, {}}},
     {"no_slip of a temperature", {WallKind::no_slip, 0.0, {0, 0}, 0.3}},
-    {"no_slip that moves", {WallKind::no_slip, 0.0, {0.02, 0.02}, {}}}};
+    {"no_slip that moves", {WallKind::no_slip, 0.0, {0.02, 0.02}, {}}},
+    {"rigid", {WallKind::rigid, 0.0, {0, 0}, {}}}};
 
 Box<2> walled_by(Wall<2> wall) {
     const Points<2> x = triangular_block(8, 5);

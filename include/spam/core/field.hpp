@@ -107,9 +107,11 @@ class Field {
     static const Field position, velocity, density, stress, energy;
     /// Accounts: what externals have given to all particles since the start.
     static const Field work, heat, impulse, angular_impulse;
-    /// Heat given to the particles through the wall across direction a, the lower or the upper one: part of
-    /// `heat`.
+    /// What the wall across direction a, the lower or the upper one, has given to the particles: parts of
+    /// `heat`, `work` and `impulse`.
     static constexpr Field wall_heat(int a, bool upper);
+    static constexpr Field wall_work(int a, bool upper);     ///< see wall_heat()
+    static constexpr Field wall_impulse(int a, bool upper);  ///< see wall_heat()
 
   private:
     const FieldKind* kind_;
@@ -126,7 +128,7 @@ inline constexpr FieldKind heat{"heat", Rank::scalar, Role::account, "m l^2/t^2"
 inline constexpr FieldKind impulse{"impulse", Rank::vector, Role::account, "m l/t", 202};
 inline constexpr FieldKind angular_impulse{"angular_impulse", Rank::axial, Role::account, "m l^2/t",
                                            203};
-/// Through one side of the box, [2 direction + (1 for the upper one)].
+/// Through or by one side of the box, [2 direction + (1 for the upper one)].
 inline constexpr std::array wall_heat{
     FieldKind{"heat_left", Rank::scalar, Role::account, "m l^2/t^2", 204},
     FieldKind{"heat_right", Rank::scalar, Role::account, "m l^2/t^2", 205},
@@ -134,6 +136,20 @@ inline constexpr std::array wall_heat{
     FieldKind{"heat_top", Rank::scalar, Role::account, "m l^2/t^2", 207},
     FieldKind{"heat_front", Rank::scalar, Role::account, "m l^2/t^2", 208},
     FieldKind{"heat_back", Rank::scalar, Role::account, "m l^2/t^2", 209}};
+inline constexpr std::array wall_work{
+    FieldKind{"work_left", Rank::scalar, Role::account, "m l^2/t^2", 210},
+    FieldKind{"work_right", Rank::scalar, Role::account, "m l^2/t^2", 211},
+    FieldKind{"work_bottom", Rank::scalar, Role::account, "m l^2/t^2", 212},
+    FieldKind{"work_top", Rank::scalar, Role::account, "m l^2/t^2", 213},
+    FieldKind{"work_front", Rank::scalar, Role::account, "m l^2/t^2", 214},
+    FieldKind{"work_back", Rank::scalar, Role::account, "m l^2/t^2", 215}};
+inline constexpr std::array wall_impulse{
+    FieldKind{"impulse_left", Rank::vector, Role::account, "m l/t", 216},
+    FieldKind{"impulse_right", Rank::vector, Role::account, "m l/t", 217},
+    FieldKind{"impulse_bottom", Rank::vector, Role::account, "m l/t", 218},
+    FieldKind{"impulse_top", Rank::vector, Role::account, "m l/t", 219},
+    FieldKind{"impulse_front", Rank::vector, Role::account, "m l/t", 220},
+    FieldKind{"impulse_back", Rank::vector, Role::account, "m l/t", 221}};
 }  // namespace field_kind
 
 inline constexpr Field Field::position{field_kind::position};  ///< never wrapped
@@ -148,6 +164,12 @@ inline constexpr Field Field::angular_impulse{field_kind::angular_impulse};  ///
 
 inline constexpr Field Field::wall_heat(int a, bool upper) {
     return field_kind::wall_heat[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
+}
+inline constexpr Field Field::wall_work(int a, bool upper) {
+    return field_kind::wall_work[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
+}
+inline constexpr Field Field::wall_impulse(int a, bool upper) {
+    return field_kind::wall_impulse[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
 }
 
 /// The fields that have options of their own (--atol-NAME) and columns in the studies of integrators.

@@ -47,7 +47,7 @@ class Box {
 
     /// The side across direction a, the lower one or the upper one. Throws InputError for a wall across a
     /// periodic direction, one that moves across itself or slips and moves, a temperature that is not above
-    /// 0, and a lower wall that is not below the upper one.
+    /// 0 or of a rigid wall, and a lower wall that is not below the upper one.
     void set_wall(int a, bool upper, const Wall<Dim>& wall);
     /// The side across direction `a`, the lower one or the upper one; WallKind::open where none was set.
     const Wall<Dim>& wall(int a, bool upper) const { return walls_[at(a)][upper ? 1 : 0]; }
@@ -57,6 +57,13 @@ class Box {
     bool walled() const {
         for (int a = 0; a < Dim; ++a)
             if (walled(a)) return true;
+        return false;
+    }
+    /// Whether any wall acts by images (Wall::has_images).
+    bool has_images() const {
+        for (const auto& sides : walls_)
+            for (const Wall<Dim>& side : sides)
+                if (side.has_images()) return true;
         return false;
     }
     /// Whether energy passes a wall (Wall::passes_energy).
@@ -77,6 +84,14 @@ class Box {
     Box without_walls() const {
         Box box = *this;
         box.walls_ = {};
+        return box;
+    }
+    /// The same space without the walls that have no images: what neighbours are looked for in.
+    Box of_images() const {
+        Box box = *this;
+        for (auto& sides : box.walls_)
+            for (Wall<Dim>& side : sides)
+                if (!side.has_images()) side = {};
         return box;
     }
     /// "walls: mirror at x = 0; no-slip, T = 1.5 at y = 20"; empty where there are none.

@@ -14,11 +14,18 @@ enum class WallKind {
     open,
     mirror,   ///< the images' velocity across the wall is opposite: slip without friction
     no_slip,  ///< images have velocity 2 V - v: matter sticks to a wall that moves with V
+    rigid,    ///< no images: a particle that has passed is turned back, v_n -> -v_n
 };
 
-/// A plane wall across one direction, by images of the particles before it, [HH07] 7: an image has the
-/// owner's density and pressure; its velocity and temperature are those that make the mean of both that of
-/// the wall. Insulated, unless a temperature is given.
+/// A plane wall across one direction. A mirror and a no-slip wall act by images of the particles before them,
+/// [HH07] 7: an image has the owner's density and pressure; its velocity and temperature are those that make
+/// the mean of both that of the wall. Insulated, unless a temperature is given.
+///
+/// A rigid wall is met by particles one by one and acts by nothing else, so that every law of matter takes it
+/// that moves particles with their own velocities. There is nothing behind it: sums over neighbours, a
+/// density above all, have half of their parts there, and a fluid is drawn to it. A particle is turned back
+/// at the end of the step in which it has passed, where it is: neither kind of energy changes, and it may
+/// stand behind the wall by what it goes in a step.
 template <int Dim>
 struct Wall {
     /// What the side does to particles before it.
@@ -30,10 +37,12 @@ struct Wall {
 
     /// Whether there is no wall at all.
     bool open() const { return kind == WallKind::open; }
+    /// Whether it acts by images.
+    bool has_images() const { return kind == WallKind::mirror || kind == WallKind::no_slip; }
     /// Whether energy passes it: friction heats and moves matter, a temperature warms or cools it.
     bool passes_energy() const { return kind == WallKind::no_slip || temperature.has_value(); }
 
-    /// Image behind the wall across direction `axis`.
+    /// Image behind the wall across direction `axis`. Precondition: has_images().
     Image<Dim> image(int axis) const {
         const auto a = static_cast<std::size_t>(axis);
         Image<Dim> image;
@@ -50,7 +59,7 @@ struct Wall {
         return image;
     }
 
-    /// "mirror", "no-slip", "moving with (0.5, 0), T = 1.5"
+    /// "mirror", "no-slip", "rigid", "moving with (0.5, 0), T = 1.5"
     std::string describe() const;
 };
 

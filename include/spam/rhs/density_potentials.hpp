@@ -48,6 +48,7 @@ class DensityPotentialTerm final : public Term<Dim> {
     std::string describe() const override;
 
     double neighbour_forces(std::span<const double> y) const override;
+    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     std::size_t pairs() const override;
     double reach() const override { return potentials_.range; }
     void remember(Archive& archive) override;

@@ -46,6 +46,7 @@ class OwnRanges final : public Term<Dim> {
     double neighbour_forces(std::span<const double> y) const override;
     std::string describe() const override;
 
+    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     std::size_t pairs() const override;
     /// The largest range of the latest rates().
     double reach() const override { return reach_; }

@@ -42,6 +42,7 @@ class PairTerm : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
     std::string describe() const override { return law_.description; }
+    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     std::size_t pairs() const override;
     double reach() const override { return law_.range; }
     std::size_t list_builds() const override;

@@ -21,8 +21,9 @@ class ParticleModel : public Model<Dim> {
     using Externals = std::vector<std::unique_ptr<External<Dim>>>;
 
     /// Without a term nothing moves but by externals. Walls of the box (neighbors/wall.hpp) act by images of
-    /// particles in every term; what they give is booked in the accounts: y then has these. Throws InputError
-    /// where the reference position of a particle is beyond one.
+    /// particles in every term, rigid ones by reflections; what they give is booked in the accounts, as a whole
+    /// and wall by wall: y then has these. Throws InputError where the reference position of a particle is
+    /// beyond one.
     explicit ParticleModel(Particles<Dim> particles, const Box<Dim>& box = {});
 
     /// One more term, Law(*this, arguments...). y grows by its fields: add terms and externals before a
@@ -99,8 +100,9 @@ class ParticleModel : public Model<Dim> {
     bool settles() const final;
     /// Whether all terms that settle do so seldom, and the box has no walls.
     bool settles_seldom() const final;
-    /// Of the terms; then particles that have crossed a wall are reflected: r -> -r, v_n -> -v_n, where
-    /// externals have potentials with the velocity that keeps the energy.
+    /// Of the terms; then particles that have crossed a wall are reflected. Of walls with images r -> -r,
+    /// v_n -> -v_n, where externals have potentials with the velocity that keeps the energy; of rigid ones
+    /// v_n -> -v_n where that leads outwards.
     bool settle(double t, std::span<double> y) final;
     /// How many have been, so far.
     std::size_t reflections() const { return reflections_; }
@@ -118,7 +120,16 @@ class ParticleModel : public Model<Dim> {
     };
     static constexpr Eigen::Index block = 256;  ///< particles whose rates are changed at a time
 
+    /// f(a, upper, wall): of every side that is a wall.
+    template <class F>
+    void for_each_wall(const F& f) const {
+        for (int a = 0; a < Dim; ++a)
+            for (const bool upper : {false, true})
+                if (const Wall<Dim>& wall = this->box().wall(a, upper); !wall.open())
+                    f(a, upper, wall);
+    }
     void refuse_beyond_walls() const;
+    void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
@@ -129,10 +140,12 @@ class ParticleModel : public Model<Dim> {
     template <class GiveBlock>
     Given sum_of_blocks(const GiveBlock& give);
     void book_walls(const typename External<Dim>::Now& now);
-    double book_wall(const typename External<Dim>::Now& now, int a, bool upper);
+    void book_wall(const typename External<Dim>::Now& now, int a, bool upper,
+                   const Wall<Dim>& wall) const;
     bool reflect(const State<Dim>& state);
+    void turn_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;
     double gained(std::size_t i, const Point<Dim>& from, const Point<Dim>& to) const;
-    void reflect(const State<Dim>& state, Eigen::Index i, int axis, const Wall<Dim>& wall) const;
+    void fold_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;
 
     bool moves_with_velocity() const;
     /// Where x_dot is not v a potential changes at another rate than its forces do work: the work is booked

@@ -74,13 +74,7 @@ class SmoothParticles final : public Term<Dim> {
                    "wall; leave --closest-approach out";
         return Term<Dim>::no_walls();
     }
-    using typename Term<Dim>::WallRates;
-    /// Of walls that energy passes.
-    const WallRates* wall_rates(int a, bool upper) const override {
-        for (const WallRates& wall : walls_)
-            if (wall.axis == a && wall.upper == upper) return &wall;
-        return nullptr;
-    }
+    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     /// The restriction of the distance of closest approach, where the scheme has one.
     std::vector<Event> events() const override;
     Promises promises() const override;
@@ -119,9 +113,6 @@ class SmoothParticles final : public Term<Dim> {
     SmoothParticles(const Selection<Dim>& among, std::unique_ptr<Constitution<Dim>> constitution,
                     const Scheme& scheme);
     std::string load(const Now& now);
-    void tell_walls_apart();
-    void sweep_walls(const SweepInput<Dim>& in,
-                     void (*sweep)(const SweepInput<Dim>&, const SweepOutput<Dim>&));
     std::string complaint(std::span<const double> rho) const;
     void balance(const Now& now, const SweepInput<Dim>& in, SweepOutput<Dim>& out);
     PackedFields fields_of(const ConstState<Dim>& state) const;
@@ -146,8 +137,6 @@ class SmoothParticles final : public Term<Dim> {
     std::unique_ptr<GaussForces> gauss_;
     bool gauss_works_ = false;           ///< at the latest accepted state
     std::vector<double> watched_rates_;  ///< there
-    std::vector<WallRates> walls_;
-    std::vector<double> not_wanted_;  ///< x_dot and rho_dot of sweeps over the images behind a wall
 };
 
 extern template class SmoothParticles<1>;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/rhs/selection.hpp>
+#include <spam/rhs/wall_rates.hpp>
 
 #include <span>
 #include <string>
@@ -66,14 +67,8 @@ class Term {
         return {};
     }
 
-    /// Of the latest rates() the part that is due to the images behind one wall.
-    struct WallRates {
-        int axis;
-        bool upper;
-        std::vector<double> v_dot, e_dot;  ///< Dim x N and N
-    };
-    /// Null from terms that do not tell this wall from the others.
-    virtual const WallRates* wall_rates(int /*a*/, bool /*upper*/) const { return nullptr; }
+    /// Of the latest rates() the part that is due to the images behind one wall; null where there are none.
+    virtual const WallRates<Dim>* wall_rates(int /*a*/, bool /*upper*/) const { return nullptr; }
 
     virtual std::vector<Event> events() const { return {}; }
     /// In open space.
