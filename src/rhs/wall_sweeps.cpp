@@ -29,17 +29,16 @@ template <int Dim>
 void WallSweeps<Dim>::gather(Part& part, const ClusterList<Dim>& list, std::size_t stride) {
     const ClusterView behind = list.behind_wall(part.rates.axis, part.rates.upper);
     const auto width = static_cast<std::size_t>(list.width());
-    part.slots.clear(), part.entries.clear(), part.range.clear();
+    part.slots.clear(), part.entries.clear(), part.clusters.clear();
     std::size_t filled_up = 0;  // lanes behind the last particle
     for (std::size_t c = 0; c < behind.clusters; ++c) {
-        const auto [first, count] = behind.range[c];
+        const auto [first, count] = behind.entries[c];
         if (count == 0) continue;
         for (std::size_t slot = c * width; slot < (c + 1) * width; ++slot)
             part.slots.push_back(static_cast<std::uint32_t>(slot));
         filled_up = std::max(behind.particles, (c + 1) * width) - behind.particles;
-        part.range.push_back({static_cast<std::uint32_t>(part.entries.size()), count});
-        const std::uint32_t* const entry = behind.slices[c / ClusterView::slice_size] + first;
-        part.entries.insert(part.entries.end(), entry, entry + count);
+        part.clusters.push_back({nullptr, count});
+        part.entries.insert(part.entries.end(), first, first + count);
     }
     const std::size_t lanes = part.slots.size();
     part.particles = lanes - filled_up;
@@ -53,7 +52,11 @@ void WallSweeps<Dim>::gather(Part& part, const ClusterList<Dim>& list, std::size
     part.entries.insert(part.entries.end(), 2, 0);  // sweeps look one ahead
     for (const std::uint32_t image : images)
         part.slots.push_back(image / static_cast<std::uint32_t>(stride));
-    part.slices.assign(part.range.size() / ClusterView::slice_size + 1, part.entries.data());
+    const std::uint32_t* next = part.entries.data();
+    for (ClusterView::Entries& cluster : part.clusters) {
+        cluster.first = next;
+        next += cluster.count;
+    }
     part.records.resize(part.slots.size() * stride);
     part.not_wanted.resize((Dim + 2) * lanes);
     number_places(part, list);
@@ -70,7 +73,7 @@ void WallSweeps<Dim>::number_places(Part& part, const ClusterList<Dim>& list) {
               [&](std::uint32_t p, std::uint32_t q) { return number(p) < number(q); });
     rates.particle.resize(part.particles);
     std::transform(rates.place.begin(), rates.place.end(), rates.particle.begin(), number);
-    const std::size_t lanes = part.range.size() * static_cast<std::size_t>(list.width());
+    const std::size_t lanes = part.clusters.size() * static_cast<std::size_t>(list.width());
     part.order.resize(lanes);
     std::iota(part.order.begin(), part.order.end(), 0U);
     rates.v_dot.assign(Dim * lanes, 0.0);
@@ -84,13 +87,13 @@ void WallSweeps<Dim>::sweep(const ClusterList<Dim>& list, const SweepInput<Dim>&
     for (Part& part : parts_) {
         if (part.build != list.builds()) gather(part, list, stride);
         part.build = list.builds();
-        if (part.range.empty()) continue;
+        if (part.clusters.empty()) continue;
         for (std::size_t k = 0; k < part.slots.size(); ++k)
             std::copy_n(in.records.numbers + part.slots[k] * stride, stride,
                         part.records.data() + k * stride);
         SweepInput<Dim> behind = in;
-        behind.list = {part.particles, part.range.size(), part.order.data(), part.range.data(),
-                       part.slices.data()};
+        behind.list = {part.particles, part.clusters.size(), part.order.data(),
+                       part.clusters.data()};
         behind.records.numbers = part.records.data();
         const std::size_t lanes = part.order.size();
         SweepOutput<Dim> out;

@@ -40,8 +40,7 @@ class WallSweeps {
         std::size_t particles = 0;
         std::vector<std::uint32_t> slots{};  ///< of the list, by slot here: particles, then images
         std::vector<std::uint32_t> order{}, entries{};
-        std::vector<ClusterView::Range> range{};
-        std::vector<const std::uint32_t*> slices{};
+        std::vector<ClusterView::Entries> clusters{};
         std::vector<double> records{}, not_wanted{};
     };
 
