@@ -3,8 +3,6 @@
 
 #include <spam/core/lanes.hpp>
 
-#include <algorithm>
-
 namespace spam {
 namespace {
 
@@ -92,6 +90,46 @@ struct Row {
     static void pick(unsigned which, Slots k, std::uint32_t* out) {
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
                             _mm256_permutevar8x32_epi32(k, lanes_of(which)));
+    }
+};
+#elif defined(__SSE4_1__)
+/// By the bits of four lanes: the bytes of those that have one, the first first.
+struct BytesOfLanes {
+    signed char of[16][16] = {};
+    constexpr BytesOfLanes() {
+        for (int bits = 0; bits < 16; ++bits)
+            for (int lane = 0, to = 0; lane < 4; ++lane)
+                for (int b = 0; b < 4 && (bits >> lane & 1) != 0; ++b)
+                    of[bits][to++] = static_cast<signed char>(4 * lane + b);
+    }
+};
+constexpr BytesOfLanes bytes_of_lanes;
+struct Row {
+    static constexpr std::size_t lanes = 4;
+    using Numbers = __m128;
+    using Slots = __m128i;
+    static Numbers all(float x) { return _mm_set1_ps(x); }
+    static Numbers load(const float* x) { return _mm_loadu_ps(x); }
+    static Slots load(const std::uint32_t* k) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(k));
+    }
+    static Numbers size(Numbers x) { return _mm_andnot_ps(all(-0.0F), x); }
+    static Numbers positive(Numbers x) { return _mm_max_ps(x, all(0.0F)); }
+    static unsigned below(Numbers a, Numbers b) {
+        return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+    }
+    static Slots times(Slots k, std::uint32_t n) {
+        return _mm_mullo_epi32(k, _mm_set1_epi32(static_cast<int>(n)));
+    }
+    static void pick(unsigned which, Slots k, std::uint32_t* out) {
+        const auto* const bytes = reinterpret_cast<const __m128i*>(bytes_of_lanes.of[which]);
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(out),
+                         _mm_shuffle_epi8(k, _mm_loadu_si128(bytes)));
+    }
+    static void pick(unsigned which, Numbers x, float* out) {
+        const auto* const bytes = reinterpret_cast<const __m128i*>(bytes_of_lanes.of[which]);
+        _mm_storeu_ps(
+            out, _mm_castsi128_ps(_mm_shuffle_epi8(_mm_castps_si128(x), _mm_loadu_si128(bytes))));
     }
 };
 #else
