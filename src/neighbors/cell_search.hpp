@@ -1,30 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of a cluster list that looks for neighbours where slots are in strips.
+// The part of a cluster list that looks for neighbours.
 #pragma once
 
-#include "list_part.hpp"
+#include "../core/levels.hpp"
+#include "search.hpp"
+#include <spam/neighbors/cluster_list.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace spam {
 
 /// Goes down from all cells of clusters to single ones, half by half, and takes along who is near.
 template <int Dim>
-class ClusterList<Dim>::CellSearch : public ClusterList<Dim>::Part {
-    using Part = ClusterList<Dim>::Part;
-    using Part::begin, Part::input_, Part::keep, Part::list_, Part::make_room, Part::members;
-    using Part::search_, Part::width_;
+class ClusterList<Dim>::CellSearch {
     using Cells = ClusterCells<Dim>;
 
   public:
-    /// Levels of the way down: memory.
+    /// Levels of the way down: memory. Entries are written to `out`.
     using Levels = std::vector<NearLevel<Dim>>;
-
     CellSearch(ClusterList& list, std::vector<std::uint32_t>& out, Levels& levels)
-        : Part(list, out),
+        : list_(list),
+          cells_(list.cells_),
           levels_(levels),
-          cells_(list.cells_) {
+          out_(out),
+          search_(at_level(instruction_set(),
+                           [&](auto level) { return search_for<Dim, level>(list.width_); })) {
+        const double cutoff = list.range_ + list.skin_;
+        input_.cutoff2 = cutoff * cutoff;
+        input_.stride = list.stride_;
         candidates_.scale = cells_.scale;
         candidates_.reach = list.reach() * cells_.scale * (1.0 + Cells::rounding) + Cells::rounding;
-        for (std::size_t a = 0; a < Dim; ++a) candidates_.middle[a] = cells_.middle[a];
+        for (std::size_t a = 0; a < Dim; ++a) {
+            input_.x[a] = list.x_[a].data();
+            candidates_.middle[a] = cells_.middle[a];
+        }
     }
 
     /// The part of that number of 2^bits. Returns how many pairs were found around the clusters that are
@@ -38,7 +49,17 @@ class ClusterList<Dim>::CellSearch : public ClusterList<Dim>::Part {
         descend(cells_.everywhere(), candidates_, cells_.large(), 0);
         return pairs_;
     }
-    using Part::finish;
+
+    /// To be called when all clusters of the part have their entries: these move no more.
+    void finish() {
+        make_room(1);
+        out_[used_] = 0;  // sweeps look one entry ahead
+        const std::uint32_t* next = out_.data();
+        for (const std::uint32_t cluster : finished_) {
+            list_.entries_[cluster].first = next;
+            next += list_.entries_[cluster].count;
+        }
+    }
 
   private:
     using Region = typename Cells::Region;
@@ -97,29 +118,48 @@ class ClusterList<Dim>::CellSearch : public ClusterList<Dim>::Part {
         return near;
     }
 
+    /// Every neighbour of the cluster and, if not exactly, some more.
     void search(std::size_t cluster, const Candidates<Dim>& from, bool exactly) {
         const Bounds<Dim>& bounds = list_.boxes_[cluster];
-        make_room(from.count + Candidates<Dim>::lanes);
+        const std::size_t most = from.count + Candidates<Dim>::lanes;
+        make_room(most);
+        std::uint32_t* const begin = out_.data() + used_;
         if (!exactly) {
-            keep(cluster, search_.near_bounds(from, bounds, input_.stride, begin()));
+            keep(cluster, search_.near_bounds(from, bounds, input_.stride, begin) - begin);
             return;
         }
-        if (near_.size() < from.count + Candidates<Dim>::lanes)
-            near_.resize(from.count + Candidates<Dim>::lanes);
+        if (near_.size() < most) near_.resize(most);
         const auto count = static_cast<std::size_t>(
             search_.near_bounds(from, bounds, 1, near_.data()) - near_.data());
+        // The repeated particle of the last cluster counts once.
+        const auto width = static_cast<std::size_t>(list_.width_);
+        const auto members = static_cast<unsigned>(std::min(width, list_.size_ - cluster * width));
         std::size_t pairs = 0;
-        keep(cluster, search_.in_slots(input_, cluster * width_, members(cluster), near_.data(),
-                                       count, begin(), pairs));
+        keep(cluster, search_.near_members(input_, cluster * width, members, near_.data(), count,
+                                           begin, pairs) -
+                          begin);
         if (cluster % list_.counted_each() == 0) pairs_ += pairs;
     }
 
-    Levels& levels_;
+    void make_room(std::size_t entries) {
+        if (out_.size() < used_ + entries) out_.resize((used_ + entries) * 5 / 4);
+    }
+    void keep(std::size_t cluster, std::ptrdiff_t count) {
+        used_ += static_cast<std::size_t>(count);
+        list_.entries_[cluster].count = static_cast<std::uint32_t>(count);
+        finished_.push_back(static_cast<std::uint32_t>(cluster));
+    }
+
+    ClusterList& list_;
     const Cells& cells_;
+    Levels& levels_;
+    std::vector<std::uint32_t>& out_;
+    Search<Dim> search_;
+    SearchInput<Dim> input_;
     Candidates<Dim> candidates_;
-    std::size_t part_ = 0, pairs_ = 0;
+    std::size_t part_ = 0, pairs_ = 0, used_ = 0;
     unsigned bits_ = 0;
-    std::vector<std::uint32_t> near_;
+    std::vector<std::uint32_t> near_, finished_;
 };
 
 }  // namespace spam

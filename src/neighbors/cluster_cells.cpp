@@ -71,20 +71,30 @@ std::size_t ClusterCells<Dim>::cell(std::size_t a, double at) const {
     return static_cast<std::size_t>(std::clamp((at - origin_[a]) * per_edge_[a], 0.0, last));
 }
 
-/// Cells of whole strips, of about eight clusters. In smaller ones less is found that is not near, but going
-/// down to them takes longer.
+/// Cells of about eight clusters. In smaller ones less is found that is not near, but going down to them
+/// takes longer.
 template <int Dim>
 void ClusterCells<Dim>::divide(const Input& in) {
-    const double side =
-        std::pow(8.0 * static_cast<double>(in.width) * in.strips.volume(), 1.0 / Dim);
+    std::array<double, Dim> extent;
     for (std::size_t a = 0; a < Dim; ++a) {
-        const auto bins = static_cast<double>(in.strips.bins(a));
-        const double cells = std::round(bins * in.strips.edge(a) / side);
-        const double each = std::ceil(bins / std::clamp(cells, 1.0, bins));
-        count_[a] = static_cast<std::size_t>(std::ceil(bins / each));
-        origin_[a] = in.strips.origin(a);
-        const double edge = each * in.strips.edge(a);
-        per_edge_[a] = edge > 0.0 ? 1.0 / edge : 0.0;
+        double low = infinite, high = -infinite;
+        for (std::size_t c = 0; c < in.boxes.size(); ++c)
+            low = std::min(low, in.boxes[c].centre[a]),
+            high = std::max(high, in.boxes[c].centre[a]);
+        origin_[a] = low;
+        extent[a] = high > low ? high - low : 0.0;
+    }
+    double side = std::pow(8.0 * static_cast<double>(in.width) * in.volume, 1.0 / Dim);
+    const double most =
+        64.0 + static_cast<double>(in.boxes.size());  // far apart: fewer, larger ones
+    for (double total = infinite; total > most; side *= 1.2) {
+        total = 1.0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const double cells = std::clamp(std::round(extent[a] / side), 1.0, 1e9);
+            count_[a] = static_cast<std::size_t>(cells);
+            per_edge_[a] = extent[a] > 0.0 ? cells / extent[a] : 0.0;
+            total *= cells;
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_search.hpp"
-#include "slice_search.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/neighbors/cluster_list.hpp>
@@ -120,7 +119,6 @@ void ClusterList<Dim>::gather_strips() {
         slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
     gather();
     strip_volume_ = boxes_.mean_volume(reach());
-    typical_volume_ = boxes_.typical_volume(reach());
 }
 
 /// Slots are particle numbers. Members of a cluster stay together across a border of the box: all take the
@@ -129,6 +127,7 @@ template <int Dim>
 void ClusterList<Dim>::gather_in_order() {
     order_.resize(size_);
     std::iota(order_.begin(), order_.end(), 0U);
+    slot_of_ = order_;
     take_home();
     if (box_.periodic()) {
         const auto width = static_cast<std::size_t>(width_);
@@ -157,38 +156,17 @@ void ClusterList<Dim>::sort() {
     if (builds_ % 64 == 0) gather_strips();
     if (in_order_ || builds_ % 8 == 0) {
         gather_in_order();
-        in_order_ = boxes_.mean_volume(reach()) < 1.1 * strip_volume_ && boxes_.sort();
+        in_order_ = boxes_.mean_volume(reach()) < 1.1 * strip_volume_ && boxes_.alike();
     }
     if (!in_order_) gather_strips();
 }
 
-/// Clusters in the order of their slots, which is that of numbers. Returns the number of pairs found.
+/// Returns the number of pairs found around the clusters that are counted.
 template <int Dim>
-std::size_t ClusterList<Dim>::search_slices() {
-    constexpr std::size_t slice_size = 64;  // clusters
-    const auto width = static_cast<std::size_t>(width_);
-    const std::size_t group = std::max<std::size_t>(1, 32 / width);
-    parts_.resize((boxes_.size() + slice_size - 1) / slice_size);
-    return parallel_count(
-        parts_.size(),
-        [&](std::size_t slice) {
-            SliceSearch search(*this, parts_[slice]);
-            const std::size_t end = std::min((slice + 1) * slice_size, boxes_.size());
-            std::size_t pairs = 0;
-            for (std::size_t c = slice * slice_size; c < end; c += group)
-                pairs += search.run(c, std::min(c + group, end));
-            search.finish();
-            return pairs;
-        },
-        slice_size * width);
-}
-
-/// Clusters by cells of space. Returns the number of pairs found around those that are counted.
-template <int Dim>
-std::size_t ClusterList<Dim>::search_cells() {
+std::size_t ClusterList<Dim>::search() {
     // Bounds of members far from each other hold many who are near none of them.
-    cells_.build({strips_, boxes_, ghosts_, place(), order_, slot_of_, x_,
-                  static_cast<std::size_t>(width_), reach(), 2.0 * typical_volume_});
+    cells_.build({boxes_, ghosts_, place(), order_, slot_of_, x_, static_cast<std::size_t>(width_),
+                  strips_.volume(), reach(), 2.0 * boxes_.typical_volume(reach())});
     unsigned bits = 0;  // some parts for each thread
     if (const int threads = set_threads(0); threads > 1 && size_ >= parallel_threshold)
         while (bits < 10 && 1 << bits < 4 * threads) ++bits;
@@ -210,10 +188,9 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     size_ = static_cast<std::size_t>(position.cols());
     motion_.begin(position);
     sort();
-    ghosts_.build(box_, reach(), place(), in_order_ ? std::span<const std::uint32_t>() : slot_of_,
-                  order_.size(), x_, in_order_);
+    ghosts_.build(box_, reach(), place(), slot_of_, order_.size(), x_);
     entries_.resize(boxes_.size());
-    const std::size_t found = in_order_ ? search_slices() : search_cells();
+    const std::size_t found = search();
     // Each pair was found from both ends, each particle found itself.
     std::size_t counted = 0;
     const auto width = static_cast<std::size_t>(width_);

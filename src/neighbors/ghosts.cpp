@@ -80,9 +80,6 @@ void Ghosts<Dim>::add_images(std::uint32_t owner, const Point<Dim>& x, double re
             const double image = change.sign * now + change.shift;
             if (!(image >= low_[a] - reach && image <= high_[a] + reach)) continue;
             append(number, image);
-            const bool is_below = image < now;
-            double& nearest = is_below ? below_[a] : above_[a];
-            nearest = is_below ? std::max(nearest, image) : std::min(nearest, image);
         }
         if (!passed) append(middle, now);
     }
@@ -110,8 +107,7 @@ void Ghosts<Dim>::collect(double reach, const Points<Dim>& position,
             inside = inside & (x > along_[a].low) & (x < along_[a].high);
         }
         if (inside) continue;
-        const auto number = static_cast<std::uint32_t>(i);
-        add_images(slot_of.empty() ? number : slot_of[number], position.col(i), reach);
+        add_images(slot_of[static_cast<std::size_t>(i)], position.col(i), reach);
     }
 }
 
@@ -132,23 +128,15 @@ void Ghosts<Dim>::add_image(const Box<Dim>& box, std::uint32_t code) {
 template <int Dim>
 void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& position,
                         std::span<const std::uint32_t> slot_of, std::size_t first,
-                        std::array<std::vector<double>, Dim>& x, bool sorted) {
+                        std::array<std::vector<double>, Dim>& x) {
     first_ = static_cast<std::uint32_t>(first);
-    sorted_ = sorted;
     places_.clear();
-    below_.fill(-std::numeric_limits<double>::infinity());
-    above_.fill(std::numeric_limits<double>::infinity());
     if (position.cols() > 0 && (box.periodic() || box.walled())) {
         find_bounds(position);
         for (int a = 0; a < Dim; ++a) find_images(box, a, reach);
         collect(reach, position, slot_of);
     }
     const std::size_t count = places_.size();
-    if (sorted) {
-        Points<Dim> at(Dim, static_cast<Eigen::Index>(count));
-        for (std::size_t k = 0; k < count; ++k) at.col(static_cast<Eigen::Index>(k)) = places_[k].x;
-        strips_.build(at, {});
-    }
     for (auto& coordinate : x) coordinate.resize(first + count + 8);
     owner_.resize(count);
     code_.resize(count);
@@ -159,7 +147,7 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& po
     std::array<std::uint32_t, 1U << 4 * Dim> image_of;
     if (count > 0) image_of.fill(unseen);
     for (std::size_t g = 0; g < count; ++g) {
-        const Place& place = places_[sorted ? strips_.order()[g] : g];
+        const Place& place = places_[g];
         owner_[g] = place.owner;
         code_[g] = place.code;
         for (std::size_t a = 0; a < Dim; ++a)
@@ -171,17 +159,6 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& po
         }
         image_[g] = number;
     }
-}
-
-template <int Dim>
-bool Ghosts<Dim>::near(const Bounds<Dim>& bounds, double reach) const {
-    if (owner_.empty()) return false;
-    for (std::size_t a = 0; a < Dim; ++a) {
-        const double most = bounds.half[a] + reach;
-        if (bounds.centre[a] - most <= below_[a] || bounds.centre[a] + most >= above_[a])
-            return true;
-    }
-    return false;
 }
 
 template <int Dim>

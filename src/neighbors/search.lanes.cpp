@@ -3,69 +3,36 @@
 
 #include <spam/core/lanes.hpp>
 
-#include <algorithm>
-
 namespace spam {
 namespace {
 
-/// f(slot) for those in the ranges listed.
-struct Ranges {
-    using Place = SlotRange;
-    template <class F>
-    [[gnu::always_inline]] static void for_each(const SlotRange* ranges, std::size_t count,
-                                                std::size_t, const F& f) {
-        for (std::size_t k = 0; k < count; ++k)
-            for (std::uint32_t slot = ranges[k].first; slot < ranges[k].last; ++slot) f(slot);
-    }
-};
-/// f(slot) for those listed.
-struct Slots {
-    using Place = std::uint32_t;
-    template <class F>
-    [[gnu::always_inline]] static void for_each(const std::uint32_t* slots, std::size_t count,
-                                                std::size_t, const F& f) {
-        for (std::size_t k = 0; k < count; ++k) f(slots[k]);
-    }
-};
-/// f(slot) for all that belong to the clusters listed.
-template <int W>
-struct Clusters {
-    using Place = std::uint32_t;
-    template <class F>
-    [[gnu::always_inline]] static void for_each(const std::uint32_t* ids, std::size_t count,
-                                                std::size_t all, const F& f) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::uint32_t first = ids[k] * W;
-            if (first + W <= all)
-                for (std::uint32_t l = 0; l < W; ++l) f(first + l);
-            else
-                for (std::uint32_t slot = first; slot < all; ++slot) f(slot);
-        }
-    }
-};
-
-template <int Dim, int W, class Places>
-std::uint32_t* search(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
-                      const typename Places::Place* places, std::size_t count, std::uint32_t* out,
-                      std::size_t& pairs) {
+template <int Dim, int W>
+std::uint32_t* near_members(const SearchInput<Dim>& in, std::size_t first_slot, unsigned members,
+                            const std::uint32_t* slots, std::size_t count, std::uint32_t* out,
+                            std::size_t& pairs) {
     using T = LanesOf<W>;
     T x[Dim];
-    for (int a = 0; a < Dim; ++a)
-        for (int l = 0; l < W; ++l) set_lane(x[a], l, in.x[a][first_slot + std::size_t(l)]);
+    const double* all[Dim];
+    for (int a = 0; a < Dim; ++a) {
+        all[a] = in.x[a];
+        for (int l = 0; l < W; ++l) set_lane(x[a], l, all[a][first_slot + std::size_t(l)]);
+    }
     const T cutoff2(in.cutoff2);
+    const std::uint32_t stride = in.stride;
     const unsigned counted = (1U << members) - 1;
     std::size_t found = 0;
-    Places::for_each(places, count, in.slots, [&](std::uint32_t j) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t j = slots[k];
         T r2(0.0);
         for (int a = 0; a < Dim; ++a) {
-            const T s = x[a] - T(in.x[a][j]);
+            const T s = x[a] - T(all[a][j]);
             r2 += s * s;
         }
         const unsigned near = lanes_below(r2, cutoff2);
-        *out = j * in.stride;
+        *out = j * stride;
         out += near != 0;
         found += static_cast<unsigned>(__builtin_popcount(near & counted));
-    });
+    }
     pairs += found;
     return out;
 }
@@ -123,6 +90,46 @@ struct Row {
     static void pick(unsigned which, Slots k, std::uint32_t* out) {
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
                             _mm256_permutevar8x32_epi32(k, lanes_of(which)));
+    }
+};
+#elif defined(__SSE4_1__)
+/// By the bits of four lanes: the bytes of those that have one, the first first.
+struct BytesOfLanes {
+    signed char of[16][16] = {};
+    constexpr BytesOfLanes() {
+        for (int bits = 0; bits < 16; ++bits)
+            for (int lane = 0, to = 0; lane < 4; ++lane)
+                for (int b = 0; b < 4 && (bits >> lane & 1) != 0; ++b)
+                    of[bits][to++] = static_cast<signed char>(4 * lane + b);
+    }
+};
+constexpr BytesOfLanes bytes_of_lanes;
+struct Row {
+    static constexpr std::size_t lanes = 4;
+    using Numbers = __m128;
+    using Slots = __m128i;
+    static Numbers all(float x) { return _mm_set1_ps(x); }
+    static Numbers load(const float* x) { return _mm_loadu_ps(x); }
+    static Slots load(const std::uint32_t* k) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(k));
+    }
+    static Numbers size(Numbers x) { return _mm_andnot_ps(all(-0.0F), x); }
+    static Numbers positive(Numbers x) { return _mm_max_ps(x, all(0.0F)); }
+    static unsigned below(Numbers a, Numbers b) {
+        return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+    }
+    static Slots times(Slots k, std::uint32_t n) {
+        return _mm_mullo_epi32(k, _mm_set1_epi32(static_cast<int>(n)));
+    }
+    static void pick(unsigned which, Slots k, std::uint32_t* out) {
+        const auto* const bytes = reinterpret_cast<const __m128i*>(bytes_of_lanes.of[which]);
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(out),
+                         _mm_shuffle_epi8(k, _mm_loadu_si128(bytes)));
+    }
+    static void pick(unsigned which, Numbers x, float* out) {
+        const auto* const bytes = reinterpret_cast<const __m128i*>(bytes_of_lanes.of[which]);
+        _mm_storeu_ps(
+            out, _mm_castsi128_ps(_mm_shuffle_epi8(_mm_castps_si128(x), _mm_loadu_si128(bytes))));
     }
 };
 #else
@@ -191,33 +198,9 @@ std::uint32_t* near_bounds(const Candidates<Dim>& in, const Bounds<Dim>& bounds,
     return out;
 }
 
-template <int Dim>
-std::size_t keep_near(const SearchInput<Dim>& in, const Bounds<Dim>& bounds,
-                      const std::uint32_t* ids, std::size_t count, std::uint32_t* kept) {
-    const Bounds<Dim> b = bounds;
-    std::size_t found = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t id = ids[k];
-        const Bounds<Dim>& other = in.bounds[id];
-        double d2 = 0.0;
-        for (int a = 0; a < Dim; ++a) {
-            const double s = other.centre[a] - b.centre[a];
-            const double gap = __builtin_fabs(s) - (other.half[a] + b.half[a]);
-            const double twice =
-                gap + __builtin_fabs(gap);  // of its positive part, without a branch
-            d2 += twice * twice;
-        }
-        kept[found] = id;
-        found += d2 < 4.0 * in.reach2;
-    }
-    return found;
-}
-
 template <int Dim, int W>
 constexpr Search<Dim> functions() {
-    return {
-        keep_near<Dim>, search<Dim, W, Ranges>, search<Dim, W, Clusters<W>>, search<Dim, W, Slots>,
-        narrow<Dim>,    near_bounds<Dim>};
+    return {near_members<Dim, W>, narrow<Dim>, near_bounds<Dim>};
 }
 
 }  // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/state.hpp>
 #include <spam/neighbors/bounds.hpp>
-#include <spam/neighbors/strip_sort.hpp>
 
 #include <array>
 #include <vector>
 
 namespace spam {
 
-/// Bounds of clusters, and who is near whom.
+/// Bounds of clusters.
 template <int Dim>
 class ClusterBoxes {
   public:
@@ -17,18 +17,11 @@ class ClusterBoxes {
     void build(const std::array<std::vector<double>, Dim>& x, std::size_t width,
                std::size_t clusters);
 
-    /// Prepares collect(). False where too many clusters are much larger than most.
-    bool sort();
+    /// Whether few clusters are much larger than most.
+    bool alike() const;
 
     std::size_t size() const { return bounds_.size(); }
-    const Bounds<Dim>* data() const { return bounds_.data(); }
     const Bounds<Dim>& operator[](std::size_t cluster) const { return bounds_[cluster]; }
-    /// Around clusters [first, last), which must not be far apart.
-    Bounds<Dim> around(std::size_t first, std::size_t last) const;
-
-    /// Adds all clusters closer than `reach` to the bounds, and some around.
-    void collect(const Bounds<Dim>& bounds, double reach, std::vector<std::uint32_t>& found) const;
-
     /// Of the space between bounds that are `reach` wider on every side.
     static double volume(const Bounds<Dim>& bounds, double reach) {
         double volume = 1.0;
@@ -43,10 +36,6 @@ class ClusterBoxes {
 
   private:
     std::vector<Bounds<Dim>> bounds_;
-    StripSort<Dim> centres_;
-    std::array<double, Dim> largest_half_{};  ///< of clusters in centres_
-    std::vector<std::uint32_t> sorted_;       ///< clusters in centres_
-    std::vector<std::uint32_t> large_;        ///< the others
 };
 
 extern template class ClusterBoxes<1>;

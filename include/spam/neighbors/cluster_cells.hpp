@@ -9,22 +9,22 @@ namespace spam {
 /// A coordinate far from all of ClusterCells.
 inline constexpr float nowhere = 1e9F;
 
-/// What clusters of a flow choose their neighbours from: all slots in ascending number of their particles,
+/// What the clusters of a list choose their neighbours from: all slots in ascending number of their particles,
 /// images of one particle in the order of Ghosts::itself; and the clusters by cells of space, a few in each.
 /// Who goes down from all cells to single ones, and takes along those slots that are near, keeps their order:
 /// nothing is sorted.
 template <int Dim>
 class ClusterCells {
   public:
-    /// As ClusterList has it, in strips. Positions are by number, slots too.
+    /// As ClusterList has it: positions and slots by number, coordinates by slot.
     struct Input {
-        const StripSort<Dim>& strips;
         const ClusterBoxes<Dim>& boxes;
         const Ghosts<Dim>& ghosts;
         const Points<Dim>& position;
         std::span<const std::uint32_t> order, slot_of;
-        const std::array<std::vector<double>, Dim>& x;  ///< by slot
-        std::size_t width;                              ///< of clusters
+        const std::array<std::vector<double>, Dim>& x;
+        std::size_t width;  ///< of clusters
+        double volume;      ///< roughly the share of space of a particle
         double reach;
         double most_volume;  ///< ClusterBoxes::volume of a cluster that belongs to a cell
     };

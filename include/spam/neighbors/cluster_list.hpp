@@ -5,7 +5,7 @@
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/ghosts.hpp>
 #include <spam/neighbors/home.hpp>
-#include <spam/neighbors/motion_since.hpp>
+#include <spam/neighbors/strip_sort.hpp>
 
 #include <span>
 #include <vector>
@@ -85,11 +85,8 @@ class ClusterList {
     const Box<Dim>& box() const { return box_; }
 
   private:
-    class Part;
-    class SliceSearch;
     class CellSearch;
-    std::size_t search_slices();
-    std::size_t search_cells();
+    std::size_t search();
     void sort();
     void take_home();
     void gather();
@@ -109,12 +106,11 @@ class ClusterList {
     std::size_t size_ = 0, pairs_ = 0, builds_ = 0;
     StripSort<Dim> strips_;
     ClusterBoxes<Dim> boxes_;
-    bool in_order_ = false;        ///< slots are particle numbers
-    double typical_volume_ = 0.0;  ///< of the bounds of clusters in strips
-    double strip_volume_ = 0.0;    ///< mean_volume() of boxes_ when strips were made last
+    bool in_order_ = false;      ///< slots are particle numbers
+    double strip_volume_ = 0.0;  ///< mean_volume() of boxes_ when strips were made last
     std::vector<std::uint32_t> order_;
-    std::vector<std::uint32_t> slot_of_;      ///< by particle, where slots are not numbers
-    ClusterCells<Dim> cells_;                 ///< likewise
+    std::vector<std::uint32_t> slot_of_;  ///< by particle
+    ClusterCells<Dim> cells_;
     std::array<std::vector<double>, Dim> x_;  ///< at home, by slot; behind them those of ghosts
     MotionSince<Dim> motion_;                 ///< since the last build
     Points<Dim> at_home_;                     ///< where the box is periodic

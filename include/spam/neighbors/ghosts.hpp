@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/neighbors/bounds.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/neighbors/image.hpp>
-#include <spam/neighbors/strip_sort.hpp>
 
 #include <array>
 #include <cstdint>
@@ -26,13 +24,11 @@ class Ghosts {
     static constexpr std::uint32_t itself = Dim == 1 ? 0x8 : Dim == 2 ? 0x88 : 0x888;
 
     /// Finds all images of particles that lie within `reach` of the bounds of these particles; images of
-    /// images among them. Positions Dim x N by number, at home; slot_of: slots by number, empty where these
-    /// are the same. Coordinates x by slot; those of ghosts are written from slot `first` on. Ghosts are in
-    /// ascending number of their owner and ascending `which`, or sorted so that for_each_range() finds those
-    /// near a place.
+    /// images among them. Positions Dim x N by number, at home; slots by number. Coordinates x by slot; those of ghosts are written from slot `first` on, in
+    /// ascending number of their owner and ascending `which`.
     void build(const Box<Dim>& box, double reach, const Points<Dim>& position,
                std::span<const std::uint32_t> slot_of, std::size_t first,
-               std::array<std::vector<double>, Dim>& x, bool sorted);
+               std::array<std::vector<double>, Dim>& x);
 
     std::size_t size() const { return owner_.size(); }
     /// The slot of the particle whose image ghost number g is.
@@ -46,22 +42,6 @@ class Ghosts {
     /// wall of the last direction counts. Precondition: the side is not open.
     bool behind(std::size_t g, int a, bool upper) const {
         return wall_of_[image_[g]] == 2 * a + upper;
-    }
-
-    /// Whether there may be ghosts within `reach` of the bounds.
-    bool near(const Bounds<Dim>& bounds, double reach) const;
-    /// visit(first, last): ranges of slots that hold all ghosts within the reach of the bounds.
-    template <class Visit>
-    void for_each_range(const Bounds<Dim>& bounds, double reach, const Visit& visit) const {
-        if (!sorted_) return visit(first_, first_ + static_cast<std::uint32_t>(owner_.size()));
-        Point<Dim> low, high;
-        for (int a = 0; a < Dim; ++a) {
-            low[a] = bounds.centre[a] - bounds.half[a] - reach;
-            high[a] = bounds.centre[a] + bounds.half[a] + reach;
-        }
-        strips_.for_each_range(low, high, [&](std::uint32_t from, std::uint32_t to) {
-            if (from < to) visit(first_ + from, first_ + to);
-        });
     }
 
     /// The numbers from `from` on in the records of all ghosts, as those of their owners are now.
@@ -89,14 +69,11 @@ class Ghosts {
 
     std::array<Along, Dim> along_;
     std::vector<Place> places_;
-    bool sorted_ = false;
-    std::array<double, Dim> low_{}, high_{};     ///< of the particles
-    std::array<double, Dim> below_{}, above_{};  ///< nearest ghosts made along each direction
+    std::array<double, Dim> low_{}, high_{};  ///< of the particles
     std::uint32_t first_ = 0;
     std::vector<std::uint32_t> owner_, code_, image_;
-    std::vector<Image<Dim>> images_;  ///< those that occur
-    std::vector<int> wall_of_;        ///< 2 a + (1 for the upper one); -1: behind none
-    StripSort<Dim> strips_;
+    std::vector<Image<Dim>> images_;       ///< those that occur
+    std::vector<int> wall_of_;             ///< 2 a + (1 for the upper one); -1: behind none
     mutable std::vector<double> changes_;  ///< sign and shift of every number, by image
 };
 
