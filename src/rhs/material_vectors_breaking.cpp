@@ -8,7 +8,7 @@
 
 namespace spam {
 
-/// F F's Kirchhoff stress P F^t, by the rates' law.
+/// P F^t of a particle, by the law of the rates; 0 where F means nothing.
 template <int Dim>
 SymTensor<Dim> MaterialVectors<Dim>::kirchhoff_stress(std::size_t k,
                                                       const ConstState<Dim>& state) const {

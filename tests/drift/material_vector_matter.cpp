@@ -136,7 +136,6 @@ BOOST_AUTO_TEST_CASE(spacings_that_differ) {
 BOOST_AUTO_TEST_CASE(two_materials_in_one_body) {
     for (const double ratio : {3.0, 10.0}) {
         auto particles = make_particles<2>(triangular_block(14, 14), 1.0);
-
         TwoMaterials law{elastic, {ratio * 0.43, ratio * 0.43}, particles.size() / 2};
         MaterialVectorModel<2> model(particles, law, {std::sqrt(4.0 / 3.0)});
         check(turned(model, "two materials", effort(5.0, 1.0), 0.1));

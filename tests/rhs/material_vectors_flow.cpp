@@ -131,6 +131,8 @@ void check_bits_without_yield() {
     const auto y = moved(plain, 0.1, 6);
     BOOST_TEST((rates_of(plain, y) == rates_of(strong, y)));
     BOOST_TEST(plain.internal_energy(y) == strong.internal_energy(y));
+    BOOST_TEST(HyperelasticMaterial<Dim>(FlowingSolid{elastic, 10.0}).flows());
+    BOOST_TEST(!HyperelasticMaterial<Dim>(FlowingSolid{elastic}).flows());
 }
 
 /// Sheared and disordered: what flows has misfits as well.

@@ -39,6 +39,7 @@ struct FlowingSolid {
                     "{}: {} must be above 0; leave it out where there is none", name, limit));
     }
     double stiffness() const { return elastic.stiffness(); }
+    bool flows() const { return yield_stress < never || tension_limit < never; }
     double yield_strain() const { return yield_stress / (2.0 * elastic.eta); }
     std::string describe() const {
         std::string words = elastic.describe();

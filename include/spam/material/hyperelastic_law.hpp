@@ -53,11 +53,12 @@ concept HyperelasticLawWithRates = HyperelasticLawWithMemory<Law, Dim> &&
 /// which F is returned, F <- F G, where the stress is beyond what the law bears; nothing where it is not. `energy`
 /// holds what such a return would spend, and `stress` is its derivative: the return changes neither the
 /// stress, stress(F) = stress(F G) G^t, nor the energy with what is spent. `yield_strain`: the deviatoric
-/// strain at which it flows, infinite where it does not.
+/// strain at which it flows, infinite where it does not; `flows`: whether it may flow at all.
 template <class Law, int Dim>
 concept FlowingLaw = HyperelasticLaw<Law, Dim> && requires(const Law law, Mat<Dim> F) {
     { law.flow(F) } -> std::same_as<std::optional<Mat<Dim>>>;
     { law.yield_strain() } -> std::convertible_to<double>;
+    { law.flows() } -> std::same_as<bool>;
 };
 
 }  // namespace spam

@@ -50,7 +50,7 @@ class HyperelasticMaterial {
     }
     /// False where the law's energy is not that of its stress (it says so by a keeps_energy of its own).
     bool keeps_energy() const { return loop_->keeps_energy(); }
-    /// Whether the law is a FlowingLaw, and its flow.
+    /// Whether the law is a FlowingLaw that may flow, and its flow.
     bool flows() const { return loop_->flows(); }
     std::optional<Mat<Dim>> flow(const Mat<Dim>& F) const { return loop_->flow(F); }
     /// Infinite where the law does not flow.
@@ -134,7 +134,10 @@ class HyperelasticMaterial {
             if constexpr (requires { Law::keeps_energy; }) return Law::keeps_energy;
             return true;
         }
-        bool flows() const override { return FlowingLaw<Law, Dim>; }
+        bool flows() const override {
+            if constexpr (FlowingLaw<Law, Dim>) return law.flows();
+            return false;
+        }
         std::optional<Mat<Dim>> flow([[maybe_unused]] const Mat<Dim>& F) const override {
             if constexpr (FlowingLaw<Law, Dim>) return law.flow(F);
             return {};

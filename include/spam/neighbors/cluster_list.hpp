@@ -5,6 +5,7 @@
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/ghosts.hpp>
 #include <spam/neighbors/home.hpp>
+#include <spam/neighbors/motion_since.hpp>
 #include <spam/neighbors/strip_sort.hpp>
 
 #include <span>
