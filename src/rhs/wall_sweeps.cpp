@@ -82,7 +82,7 @@ void WallSweeps<Dim>::number_places(Part& part, const ClusterList<Dim>& list) {
 
 template <int Dim>
 void WallSweeps<Dim>::sweep(const ClusterList<Dim>& list, const SweepInput<Dim>& in,
-                            Sweep<Dim> sweep) {
+                            Sweep<Dim> run) {
     const std::size_t stride = in.records.stride;
     for (Part& part : parts_) {
         if (part.build != list.builds()) gather(part, list, stride);
@@ -102,7 +102,7 @@ void WallSweeps<Dim>::sweep(const ClusterList<Dim>& list, const SweepInput<Dim>&
         out.x_dot = part.not_wanted.data();
         out.rho_dot = part.not_wanted.data() + Dim * lanes;
         out.spread = part.not_wanted.data() + (Dim + 1) * lanes;
-        sweep(behind, out);
+        run(behind, out);
     }
 }
 

@@ -23,7 +23,7 @@ class WallSweeps {
     /// Sets v_dot and e_dot to what the sweep stores of them; several sweeps in turn find what they find in
     /// the term's own output. An `approach` (of own ranges) comes into e_dot. To be called next to the whole
     /// sweep: later ones find other records. Allocates only after a build of the list.
-    void sweep(const ClusterList<Dim>& list, const SweepInput<Dim>& in, Sweep<Dim> sweep);
+    void sweep(const ClusterList<Dim>& list, const SweepInput<Dim>& in, Sweep<Dim> run);
 
     /// Null where that side has no images.
     const WallRates<Dim>* find(int a, bool upper) const;
