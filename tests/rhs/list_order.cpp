@@ -111,12 +111,11 @@ BOOST_AUTO_TEST_CASE(gases_and_liquids) {
     Fluid rubbing = water;
     rubbing.by_pairs = true;
     rubbing.viscosity = NewtonViscosity{0.1, 0.3};
-    for (const auto density : {Density::continuity, Density::summed})
-        for (const auto kernel : {Kernel::lucy, Kernel::w4})
-            for (const Fluid& material : {gas, water, rubbing}) {
-                const Scheme scheme{.density = density, .kernel = kernel, .range = 3.0};
-                in_every_box<2>(fluid<2>(material, scheme), 48, scheme.describe());
-            }
+    Scheme scheme{.density = Density::continuity, .range = 3.0};
+    for (const Fluid& material : {gas, water, rubbing})
+        in_every_box<2>(fluid<2>(material, scheme), 48, material.describe());
+    scheme.kernel = Kernel::w4, scheme.density = Density::summed;
+    in_every_box<2>(fluid<2>(water, scheme), 48, scheme.describe());
     const Scheme cube{.density = Density::continuity, .range = 2.5};
     in_every_box<3>(fluid<3>(water, cube), 12, "cube");
     const Scheme line{.density = Density::summed, .range = 3.0};
@@ -175,14 +174,12 @@ BOOST_AUTO_TEST_CASE(which_image_is_at_home_does_not_matter) {
         auto y = random_state(*one, 3);
         const State<2> state(one->layout(), y);
         for (auto& e : state.energy().reshaped()) e = std::abs(e) + 0.5;
-        // On a grid on which periods leave coordinates as they are.
-        for (auto& x : state.position().reshaped()) x = std::round(x * 0x1p32) * 0x1p-32;
+        // The list is made where all are somewhere else, and keeps the images that are in the box there.
         auto z = y;
-        const State<2> shifted(one->layout(), z);
-        for (Eigen::Index i = 0; i < shifted.position().cols(); ++i)
-            shifted.position().col(i) +=
-                Point<2>(4.0 * static_cast<double>(i % 3 - 1), 5.0 * static_cast<double>(i % 5));
-        BOOST_TEST((rates_of(*one, y) == rates_of(*other, z)));
+        State<2>(one->layout(), z).position().colwise() += Point<2>(1.75, 2.25);
+        rates_of(*other, z);
+        BOOST_TEST((rates_of(*one, y) == rates_of(*other, y)));
+        BOOST_TEST(other->list_builds() == 1U);
     }
 }
 
