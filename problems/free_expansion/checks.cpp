@@ -37,8 +37,8 @@ const std::vector<Known> known_16384{
 bool is_standard(const Session& session, const Parameters& p) {
     const auto& integrator = session.integrator();
     const bool lucy = (p.kernel == Kernel::lucy || p.kernel == Kernel::w3) && p.range >= 5.0;
-    return lucy && p.ranges == Ranges::fixed && integrator.method == "rk4" &&
-           *integrator.dt <= 0.25;
+    return lucy && p.ranges == Ranges::fixed && session.when_default(p.sides->names()) &&
+           integrator.method == "rk4" && *integrator.dt <= 0.25;
 }
 
 /// Largest change of the momentum of all.
