@@ -175,11 +175,15 @@ void run(Session& session, const Parameters& p) {
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
     if (is_ghias(session, p))
         for (std::size_t k = 1; k < runs.size(); ++k) {
-            const auto off = [&](std::size_t n) {
-                return CentreLine::off_converged(flows[n].line->mean());
-            };
-            session.measure(fmt::format("order_{}_to_{}", flows[k - 1].label, flows[k].label),
-                            std::log2(off(k - 1) / off(k)), "of off_converged");
+            const auto fine = flows[k].line->mean(), coarse = flows[k - 1].line->mean();
+            const std::string both = fmt::format("{}_to_{}", flows[k - 1].label, flows[k].label);
+            session.measure("order_" + both,
+                            std::log2(CentreLine::off_ghia(coarse) / CentreLine::off_ghia(fine)),
+                            "of the difference from Ghia's profile");
+            session.measure(
+                "order_of_converged_" + both,
+                std::log2(CentreLine::off_converged(coarse) / CentreLine::off_converged(fine)),
+                "of off_converged");
         }
     if (session.plots() && !runs.empty()) draw(session, p, flows, runs);
 }
