@@ -29,6 +29,7 @@ constexpr double turns = 12.0;
 
 struct Flow {
     double L, speed;
+    bool ghias;  ///< it is the flow of Ghia, Ghia and Shin
     std::shared_ptr<ParticleModel<2>> model;
     std::vector<double> y0;
     std::string label{};
@@ -38,12 +39,24 @@ struct Flow {
     double turn() const { return L / speed; }
 };
 
+/// Whether the fluid sticks to all sides, of which the upper one alone moves.
+bool under_a_lid(const Box<2>& box, double speed) {
+    bool sticks = true;
+    for (const int a : {0, 1})
+        for (const bool upper : {false, true}) {
+            const Wall<2>& wall = box.wall(a, upper);
+            const Point<2> V(a == 1 && upper ? speed : 0.0, 0.0);
+            sticks = sticks && wall.kind == WallKind::no_slip && wall.velocity == V;
+        }
+    return sticks;
+}
+
 Flow make_flow(const Parameters& p, int cells, bool only_described) {
     const double L = cells;
     const auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(L, L),
                                      {{"moving", fmt::format("moving:{}", p.speed)}});
     auto model = stirred::make_model(p, cells, box);
-    Flow flow{L, p.speed, nullptr, {}};
+    Flow flow{L, p.speed, p.reynolds == 100.0 && under_a_lid(box, p.speed), nullptr, {}};
     if (!only_described) {
         const Points<2>& x = model->particles().reference_position;
         flow.y0 = model->state(x, Points<2>::Zero(2, x.cols()));
@@ -62,11 +75,6 @@ Column<2> stirred_column(double speed) {
             }};
 }
 
-/// Whether it is the flow of Ghia, Ghia and Shin.
-bool is_ghias(const Session& session, const Parameters& p) {
-    return p.reynolds == 100.0 && session.when_default(p.sides->names());
-}
-
 Plan<2> plan_of(const Session& session, const Parameters& p, Flow& flow) {
     Plan<2> plan;
     plan.t_end =
@@ -77,7 +85,7 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Flow& flow) {
     // The mean over the last sixth: what is left of disorder comes and goes.
     flow.line =
         std::make_shared<CentreLine>(p.scheme, flow.L, p.speed, (5.0 / 6.0 - 1e-9) * plan.t_end);
-    plan.observe(flow.line->observer(is_ghias(session, p)));
+    plan.observe(flow.line->observer(flow.ghias));
     for (const double part : {0.1, 1.0}) flow.drawn.push_back({part * plan.t_end});
     plan.observe(keep_nearest(flow.drawn));
     return plan;
@@ -90,11 +98,12 @@ double drag(const Flow& flow, const RunRecord& run, const std::string& impulse) 
            (until - run.history.at(since, "t")) / (flow.speed * flow.speed * flow.L);
 }
 
-void report(Session& session, const Parameters& p, const Flow& flow, const RunRecord& run) {
+void report(Session& session, const Flow& flow, const RunRecord& run) {
     const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
-    const bool known = session.when_default(stirred::decisive_options()) && run.complete &&
-                       flow.L >= 40.0 && run.statistics.t_end >= 0.99 * turns * flow.turn();
-    if (is_ghias(session, p)) {
+    const bool known = session.when_default(stirred::decisive_options()) && flow.ghias &&
+                       run.complete && flow.L >= 40.0 &&
+                       run.statistics.t_end >= 0.99 * turns * flow.turn();
+    if (flow.ghias) {
         const auto u = flow.line->mean();
         for (std::size_t k = 0; k < ghia().size(); ++k)
             session.claim({fmt::format("{}u_at_{:.4f}", prefix, ghia()[k].y), u[k], ghia()[k].u,
@@ -127,7 +136,7 @@ void draw_profiles(Session& session, const Parameters& p, const std::vector<Flow
                                 .y = heights,
                                 .style = static_cast<int>(k) + 2});
     }
-    if (is_ghias(session, p)) {
+    if (flows.front().ghias) {
         Curve points{.title = "Ghia et al.", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
         for (const auto& [y, u] : ghia()) points.x.push_back(u), points.y.push_back(y);
         panel.curves.push_back(points);
@@ -172,8 +181,8 @@ void run(Session& session, const Parameters& p) {
     for (auto& flow : flows)
         cases.push_back({flow.model, flow.y0, plan_of(session, p, flow), flow.label});
     const auto runs = session.run_all(std::move(cases));
-    for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
-    if (is_ghias(session, p))
+    for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
+    if (flows.front().ghias)
         for (std::size_t k = 1; k < runs.size(); ++k) {
             const auto fine = flows[k].line->mean(), coarse = flows[k - 1].line->mean();
             const std::string both = fmt::format("{}_to_{}", flows[k - 1].label, flows[k].label);
