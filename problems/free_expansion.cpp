@@ -145,6 +145,11 @@ int main(int argc, char** argv) {
                     between(4, 16000000));
     options.choice<Walls>("walls", p.walls, {Walls::periodic, Walls::mirror},
                           "boundary of the box");
+    const Sides sides(options, {"walls", "walls", "walls", "walls"}, ", walls (as with --walls)");
+    p.sides = &sides;
+    options.only_when(
+        {"bottom", "top"}, {"dimension"}, [&p] { return p.dimension == 2; },
+        "has no meaning with {by}; a line has a left and a right end");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "range h: pairs farther apart do not interact", positive());
     options.choice<Ranges>("ranges", p.ranges, {Ranges::fixed, Ranges::density},

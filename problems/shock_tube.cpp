@@ -8,11 +8,14 @@
 //    -1/2               0                1/2    the solution depends on x/t alone and is known.
 //
 // All particles have the same distance at the start, those on the right an eighth of the mass. Von Neumann's
-// artificial viscosity turns the energy that a shock takes into heat. The ends are mirrors.
+// artificial viscosity turns the energy that a shock takes into heat. The ends are mirrors (--left, --right); what
+// they give is the pressure of the gas before them, as long as nothing has arrived.
 #include "shock_tube/riemann.hpp"
+#include <spam/core/error.hpp>
 #include <spam/material/gamma_gas.hpp>
 #include <spam/picture/draw.hpp>
 #include <spam/problem/nearest_state.hpp>
+#include <spam/problem/sides.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 
@@ -31,6 +34,7 @@ constexpr double known_until =
     0.25;  // the fan meets the left end at 0.42, the shock the right one at 0.28
 
 struct Parameters {
+    const Sides* sides = nullptr;
     int cells = 800;
     double gamma = 1.4;
     bool single = false;
@@ -49,9 +53,11 @@ struct Tube {
 Tube make_tube(const Parameters& p, int cells, bool only_described) {
     const GasState left{1.0, 0.0, 1.0}, right{0.125, 0.0, 0.1};
     const double spacing = 1.0 / cells;
-    Box<1> box;
-    box.set_wall(0, false, {WallKind::mirror, -0.5});
-    box.set_wall(0, true, {WallKind::mirror, 0.5});
+    const auto box = p.sides->box<1>(Point<1>(-0.5), Point<1>(0.5));
+    if (box.periodic())
+        throw InputError(
+            "left: 'periodic' would let the two gases meet at the ends as well, without a diaphragm; use "
+            "mirror, no-slip, rigid or open");
     Points<1> x(1, cells);
     for (int k = 0; k < cells; ++k) x(0, k) = spacing * (k + 0.5) - 0.5;
     auto particles = make_particles<1>(x, spacing, spacing, box);
@@ -103,6 +109,25 @@ double plateau(const Tube& tube, std::span<const double> y, double t, double fro
     return all[all.size() / 2];
 }
 
+/// Mean pressure on a wall at an end: its impulse by the time.
+void report_ends(Session& session, const Parameters& p, const Tube& tube, const RunRecord& run,
+                 const std::string& prefix) {
+    const double t = run.statistics.t_end;
+    if (!run.complete || !(t > 0.0)) return;
+    for (const bool upper : {false, true}) {
+        const Wall<1>& wall = tube.model->box().wall(0, upper);
+        if (wall.open()) continue;
+        const double P = upper ? 0.1 : 1.0;
+        const std::string side = Sides::name(0, upper);
+        session.claim({prefix + "pressure_on_" + side,
+                       std::abs(run.history.last("impulse_" + side + "_x")) / t, P, 0.02 * P,
+                       "of the gas at rest before that end"},
+                      wall.kind == WallKind::mirror && t <= known_until &&
+                          session.when_default({"kernel", "range", "viscosity", "density"}) &&
+                          p.gamma <= 1.4 && tube.cells >= 800);
+    }
+}
+
 void report(Session& session, const Parameters& p, const Tube& tube, const RunRecord& run) {
     const std::string prefix = tube.label.empty() ? "" : tube.label + "_";
     const double t = run.statistics.t_end;
@@ -130,6 +155,7 @@ void report(Session& session, const Parameters& p, const Tube& tube, const RunRe
     claim("density_behind_shock", u, shock, tube.exact.density(true), of(rho));
     claim("pressure", u - behind, shock, tube.exact.pressure(), of(P));
     claim("velocity", u - behind, shock, u, [&](Eigen::Index i) { return state.velocity()(0, i); });
+    report_ends(session, p, tube, run, prefix);
     session.check_promises(run, prefix);
 }
 
@@ -211,6 +237,8 @@ int main(int argc, char** argv) {
                    non_negative());
     options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
                             "density as a sum over neighbours, or by the continuity equation");
+    const Sides sides(options, {"mirror", "mirror"});
+    p.sides = &sides;
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
     options.number("range", p.scheme.range, "range h of the weight function, in spacings",
                    between(1.2, 20.0));

@@ -29,6 +29,8 @@
 //     --aspect 2      the dam of Martin and Moyce 1952, whose fronts of water are then in the picture. At the
 //                     end they are alike; before, this fluid is up to 17 % ahead: it is pushed together
 //                     by its weight, and springs apart. --gravity 0.1 makes it stiffer: 8 %, 10 s
+//     --left, --right, --bottom
+//                     walls: mirrors, or rigid ones. The one on the right is taken away.
 //     --cavitation P  the tension is P at most (text: "P > Pc -> P = Pc", where pressure is meant to be
 //                     tension); the energy of the limited law is used, so that energy is still kept
 #include "water_column/column.hpp"
@@ -150,6 +152,8 @@ int main(int argc, char** argv) {
                           "a column of water comes to rest and collapses, [HH07] 11", 0.05);
     water_column::Parameters p;
     water_column::add_options(problem.options(), p);
+    const spam::Sides sides(problem.options(), {"mirror", "mirror", "mirror", ""});
+    p.sides = &sides;
     return problem.main(argc, argv, [&](spam::Session& session) {
         if (session.common().smoke && !session.given("width")) p.width = 8;
         if (session.common().smoke && !session.given("relaxation-time")) p.relaxation_time = 8.0;

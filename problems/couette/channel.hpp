@@ -5,6 +5,7 @@
 
 #include "../friction.hpp"
 #include <spam/problem/nearest_state.hpp>
+#include <spam/problem/sides.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 
@@ -14,6 +15,7 @@ using namespace spam;
 
 enum class Drive { plate, force };
 struct Parameters {
+    const Sides* sides = nullptr;
     int cells = 20;          // particles from plate to plate, at spacing 1
     double speed = 0.1;      // of the plate, or in the middle of the finished flow; sound: 1
     double reynolds = 10.0;  // speed cells/nu
@@ -32,18 +34,24 @@ struct ExactFlow {
     double velocity(double y, double t) const;
     /// After that long nothing changes by more than 1e-4.
     double time() const { return H * H / nu; }
+    /// Force of the finished flow on it by one plate, along the plates, by their length.
+    double stress(bool upper) const {
+        if (drive == Drive::plate) return (upper ? 1.0 : -1.0) * nu * speed / H;
+        return -4.0 * nu * speed / H;
+    }
 };
 
 struct Flow {
     ExactFlow exact;
     std::shared_ptr<ParticleModel<2>> model;
     std::vector<double> y0;
+    bool known = true;  ///< the sides are those of the exact flow
     std::vector<NearestState<2>> drawn{};
     std::string label{};
 };
 
 /// cells x cells particles of the fluid P = rho^2/2 with Newton's viscosity, density and sound speed 1, on a
-/// square lattice, at rest. Periodic along the plates.
+/// square lattice, at rest, between sides as options say: plates below and above and periods along them.
 Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described);
 
 /// The whole of a problem's main().

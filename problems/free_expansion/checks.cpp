@@ -34,7 +34,11 @@ const std::vector<Known> known_16384{
     {"entropy_grid", 0.75, 0.705, 0.01},  {"entropy_grid", 1.25, 0.879, 0.01},
     {"entropy_full_v2", 0.25, 0.40, 0.02}};
 
-bool is_standard(const Session& session, const Parameters& p) {
+template <int Dim>
+bool is_standard(const Session& session, const Parameters& p, const Box<Dim>& box) {
+    for (int a = 0; a < Dim; ++a)  // mirrors and periods do alike
+        for (const bool upper : {false, true})
+            if (!box.periodic(a) && box.wall(a, upper).kind != WallKind::mirror) return false;
     const auto& integrator = session.integrator();
     const bool lucy = (p.kernel == Kernel::lucy || p.kernel == Kernel::w3) && p.range >= 5.0;
     return lucy && p.ranges == Ranges::fixed && integrator.method == "rk4" &&
@@ -112,7 +116,7 @@ void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const Run
                          double tolerance = 0.0, const char* source = "measured") {
         session.check({gas.prefix + name, value, expected, tolerance, source});
     };
-    const bool standard = is_standard(session, p);
+    const bool standard = is_standard(session, p, gas.model->box());
     const double n = gas.cells, end = run.complete ? h.last("t") : 0.0;
     if (standard) {
         say("energy_drift_per_particle",

@@ -37,7 +37,8 @@ FieldGrid<Dim> grid_of(const Gas<Dim>& gas, double spacing) {
     // Of mirrors, the middles of cells between them.
     const Box<Dim> room(all_along<double, Dim>(gas.side()));
     FieldGrid<Dim> grid = FieldGrid<Dim>::over(room, all_along<int, Dim>(nodes));
-    if (gas.model->box().walled()) grid.origin += 0.5 * grid.spacing;
+    for (int a = 0; a < Dim; ++a)
+        if (!gas.model->box().periodic(a)) grid.origin[a] += 0.5 * grid.spacing[a];
     return grid;
 }
 
@@ -102,14 +103,8 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
     sites.array() += 0.5 * (cells + 1.0);
     // Numbered alike whatever the walls: so that they draw the same offsets.
     auto particles = make_particles<Dim>(sites, 1.0, 1.0, room);
-    Box<Dim> box = room;
-    if (p.walls == Walls::mirror) {
-        box = {};
-        for (int a = 0; a < Dim; ++a) {
-            box.set_wall(a, false, {WallKind::mirror, 0.0});
-            box.set_wall(a, true, {WallKind::mirror, room.length(a)});
-        }
-    }
+    const auto box = p.sides->box<Dim>(Point<Dim>::Zero(), Point<Dim>::Constant(2.0 * cells),
+                                       {{"walls", std::string(to_string(p.walls))}});
     std::mt19937_64 random(static_cast<std::uint64_t>(p.seed));
     Points<Dim> x = particles.reference_position;
     for (Eigen::Index i = 0; i < x.cols(); ++i)  // the same numbers with every library

@@ -6,6 +6,7 @@
 #include <spam/kernel/any_weight.hpp>
 #include <spam/material/fluid.hpp>
 #include <spam/problem/nearest_state.hpp>
+#include <spam/problem/sides.hpp>
 #include <spam/rhs/model.hpp>
 #include <spam/spam.hpp>
 
@@ -20,6 +21,7 @@ enum class Ranges { fixed, density };
 inline std::string_view to_string(Ranges r) { return r == Ranges::fixed ? "fixed" : "density"; }
 
 struct Parameters {
+    const Sides* sides = nullptr;
     int dimension = 2;
     int cells = 64;                // along an edge of the gas, at spacing 1
     std::optional<int> particles;  // in place of cells

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../friction.hpp"
+#include <spam/problem/sides.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/spam.hpp>
 
@@ -11,6 +12,7 @@ namespace stirred {
 using namespace spam;
 
 struct Parameters {
+    const Sides* sides = nullptr;
     int cells = 50;           // particles along each side, at spacing 1
     double speed = 0.1;       // of the lid, or the largest at the start; sound: 1
     double reynolds = 100.0;  // speed cells/nu

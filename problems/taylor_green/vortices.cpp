@@ -9,27 +9,35 @@ namespace taylor_green {
 
 Point<2> ExactFlow::velocity(const Point<2>& x, double t) const {
     const double k = wave(), now = U * left(t);
-    return {-now * std::cos(k * x[0]) * std::sin(k * x[1]),
-            now * std::sin(k * x[0]) * std::cos(k * x[1])};
+    const double a = k * x[0] - quarter[0], b = k * x[1] - quarter[1];
+    return {-now * std::cos(a) * std::sin(b), now * std::sin(a) * std::cos(b)};
 }
 
 double ExactFlow::pressure(const Point<2>& x, double t) const {
     const double k = wave(), now = U * left(t);
-    return -0.25 * now * now * (std::cos(2.0 * k * x[0]) + std::cos(2.0 * k * x[1]));
+    const double a = k * x[0] - quarter[0], b = k * x[1] - quarter[1];
+    return -0.25 * now * now * (std::cos(2.0 * a) + std::cos(2.0 * b));
 }
 
 Flow make_flow(const Parameters& p, int cells, const std::string& label) {
     const double L = cells;
-    const Box<2> box({L, L});
+    const auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(L, L));
     auto model = stirred::make_model(p, cells, box, p.disorder, static_cast<std::uint64_t>(p.seed));
     Flow flow{{L, p.viscosity(cells), p.speed}, nullptr, {}, label};
+    for (const int a : {0, 1}) {
+        if (box.periodic(a)) continue;
+        flow.exact.quarter[a] = 0.5 * std::numbers::pi;
+        for (const bool upper : {false, true})
+            flow.known = flow.known && box.wall(a, upper).kind == WallKind::mirror;
+    }
     flow.transport = to_string(p.scheme.transport);
     flow.title = p.compare ? fmt::format("{0} x {0}", cells) : flow.transport;
     const Points<2>& x = model->particles().reference_position;
     Points<2> v(2, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) v.col(i) = flow.exact.velocity(x.col(i), 0.0);
-    // Moved particles carry the mean momentum of where they happen to be: they start without.
-    v.colwise() -= Point<2>(v.rowwise().mean());
+    // Moved particles carry the mean momentum of where they happen to be: they start without. Walls take it.
+    for (const int a : {0, 1})
+        if (box.periodic(a)) v.row(a).array() -= v.row(a).mean();
     flow.y0 = model->state(x, v);
     stirred::set_pressure(*model, flow.y0,
                           [&](const Point<2>& at) { return flow.exact.pressure(at, 0.0); });
@@ -97,7 +105,7 @@ void draw_curves_of(Session& session, const Parameters& p, const std::vector<Flo
 
 void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
           const std::vector<RunRecord>& runs) {
-    draw_curves_of(session, p, flows, runs);
+    if (flows.front().known) draw_curves_of(session, p, flows, runs);
     std::vector<ConfigurationPanel> panels;
     if (p.compare) return;
     for (const Flow& flow : flows)

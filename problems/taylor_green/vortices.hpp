@@ -13,9 +13,12 @@ struct Parameters : stirred::Parameters {
     int seed = 1;
 };
 
-/// Four vortices in a periodic square of side L, an exact solution for a fluid that is not compressed.
+/// Four vortices in a square of side L, an exact solution for a fluid that is not compressed. A direction is
+/// periodic, or between mirrors: the flow is then moved by a quarter of its wave, so that planes of its
+/// symmetry are there.
 struct ExactFlow {
     double L, nu, U;
+    Point<2> quarter = Point<2>::Zero();  ///< pi/2 in a direction between mirrors
 
     double wave() const { return 2.0 * std::numbers::pi / L; }
     /// What is left of velocities after this time.
@@ -31,6 +34,7 @@ struct Flow {
     std::shared_ptr<ParticleModel<2>> model;
     std::vector<double> y0;
     std::string label{}, transport{}, title{};
+    bool known = true;  ///< the sides are such that the flow is exact
     std::vector<NearestState<2>> drawn{};
 };
 

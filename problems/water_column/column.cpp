@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "column.hpp"
 
+#include <spam/core/error.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/cavitation.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +14,20 @@
 namespace water_column {
 namespace {
 
-/// Floor and left wall are mirrors; the wall on the right can be taken away.
-Box<2> room(int width, bool right_wall) {
-    Box<2> box;
-    box.set_wall(0, false, {WallKind::mirror, 0.0});
-    box.set_wall(1, false, {WallKind::mirror, 0.0});
-    if (right_wall) box.set_wall(0, true, {WallKind::mirror, static_cast<double>(width)});
+/// The wall on the right can be taken away.
+Box<2> room(const Parameters& p, const FluidColumn& column, bool right_wall) {
+    auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(column.width, column.rows));
+    for (int a = 0; a < 2; ++a)
+        if (box.periodic(a))
+            throw InputError(
+                fmt::format("{}: 'periodic' leaves nothing that could collapse; give a wall",
+                            Sides::name(a, false)));
+    for (int a = 0; a < 2; ++a)
+        if (box.wall(a, false).open())
+            throw InputError(
+                fmt::format("{}: 'open' lets the fluid out before it has come to rest; give a wall",
+                            Sides::name(a, false)));
+    if (!right_wall) box.set_wall(0, true, {});
     return box;
 }
 
@@ -33,7 +44,7 @@ DensityPotentials potentials_of(const Parameters& p) {
 std::shared_ptr<ParticleModel<2>> model_of(const Parameters& p, const FluidColumn& column,
                                            const Particles<2>& particles, bool right_wall) {
     auto model = std::make_shared<DensityPotentialModel<2>>(particles, potentials_of(p),
-                                                            room(column.width, right_wall));
+                                                            room(p, column, right_wall));
     model->add(std::make_unique<Gravity<2>>(Point<2>(0.0, -column.g)));
     if (right_wall)
         model->add(std::make_unique<Friction<2>>(column.damping, FrictionOf::all_motion));

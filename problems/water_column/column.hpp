@@ -3,6 +3,7 @@
 #pragma once
 
 #include <spam/problem/nearest_state.hpp>
+#include <spam/problem/sides.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/spam.hpp>
 
@@ -14,6 +15,7 @@ constexpr int figure_width = 16;        // 640 particles
 constexpr double figure_gravity = 0.4;  // g times height by c^2 = B0/rho0 = 1
 
 struct Parameters {
+    const Sides* sides = nullptr;
     int width = figure_width;
     double aspect = 2.5;
     double gravity = figure_gravity;

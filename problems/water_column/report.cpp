@@ -13,7 +13,14 @@ namespace {
 bool is_standard(const Session& session, const Parameters& p) {
     return session.when_default({"gravity", "surface-tension", "core", "core-range", "damping",
                                  "relaxation-time", "kernel", "range"}) &&
-           !p.cavitation;
+           session.when_default(p.sides->names()) && !p.cavitation;
+}
+
+/// Mean force of the floor over the last tenth of the run, by the weight.
+double floor_force(const FluidColumn& column, const History& h) {
+    const double until = h.last("t"), since = 0.9 * until;
+    return (h.last("impulse_bottom_y") - h.at(since, "impulse_bottom_y")) /
+           (until - h.at(since, "t")) / (column.g * column.particles());
 }
 
 void report_rest(Session& session, const FluidColumn& column, double range, bool known,
@@ -24,6 +31,9 @@ void report_rest(Session& session, const FluidColumn& column, double range, bool
                   known && run.complete && column.width >= figure_width);
     session.measure(column.prefix + "mass_error", mass_error(column, run.y, range),
                     "particles below the surface, against the same formula");
+    session.claim(
+        {column.prefix + "floor_force", floor_force(column, h), 1.0, 0.01, "by the weight"},
+        known && run.complete && column.width >= figure_width);
     session.measure(column.prefix + "kinetic_energy_at_rest",
                     h.last("kinetic") / column.particles(), "a particle's");
     session.check_promises(run, column.prefix + "relaxation_");

@@ -20,8 +20,8 @@ inline const std::set<std::string> no_part_of_the_case{
 
 /// What must happen for an option to show: given beside it, and to the run it is compared with.
 inline const std::map<std::string, Words> beside{
-    {"left", {"--right", "mirror"}},
-    {"right", {"--left", "mirror"}},
+    {"left", {"--right", "rigid"}},
+    {"right", {"--left", "rigid"}},
     {"balance", {"--t-end", "80"}},  // the bar has broken
     {"guard", {"--limit-energy", "1e-300"}},
     {"gauss-singular", {"--t-end", "40"}},  // the constraint sets in at 14 and is singular at 36
@@ -142,8 +142,8 @@ inline const std::map<std::string, std::string> another_value{
     {"gravity", "0.3"},
     {"relaxation-time", "6.4"},
     {"shifting", "0.7"},
-    {"left", "mirror"},
-    {"right", "mirror"},
+    {"left", "rigid"},
+    {"right", "rigid"},
     {"bottom", "mirror@1.5"},
     {"top", "mirror@0.5"},
     {"height", "12"},

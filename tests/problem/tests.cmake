@@ -25,6 +25,7 @@ spam_test(problem/lattice_sums property)  # a part of the problem kernels
 target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
 spam_problem_test(problem/flows nlohmann_json::nlohmann_json)
+spam_problem_test(problem/wall_flows nlohmann_json::nlohmann_json)
 spam_problem_test(problem/plastic nlohmann_json::nlohmann_json)
 spam_problem_test(problem/water_column nlohmann_json::nlohmann_json)
 spam_problem_test(problem/tension_test nlohmann_json::nlohmann_json)
@@ -58,6 +59,13 @@ target_sources(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems/relaxat
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/wall.cpp
                                           ${PROJECT_SOURCE_DIR}/problems/relaxation/quality.cpp)
 target_include_directories(test.problem.walls PRIVATE ${PROJECT_SOURCE_DIR}/problems)
+spam_test(problem/mirror_twin property)  # parts of the problem free_expansion
+target_sources(test.problem.mirror_twin PRIVATE ${PROJECT_SOURCE_DIR}/problems/free_expansion/gas.cpp
+                                                ${PROJECT_SOURCE_DIR}/problems/free_expansion/entropy.cpp)
+target_include_directories(test.problem.mirror_twin PRIVATE ${PROJECT_SOURCE_DIR}/problems)
+spam_test(problem/cavity_reference property)  # a part of the problem cavity
+target_sources(test.problem.cavity_reference PRIVATE ${PROJECT_SOURCE_DIR}/problems/cavity/centre_line.cpp)
+target_include_directories(test.problem.cavity_reference PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_test(problem/element_twins property)  # parts of the problems tension_test and ball_plate
 target_sources(test.problem.element_twins PRIVATE
   ${PROJECT_SOURCE_DIR}/problems/tension_test/elements.cpp

@@ -216,6 +216,7 @@ BOOST_AUTO_TEST_CASE(gas_between_mirrors_keeps_its_energy) {
     const auto space = run<3>(gas, mirrors<3>(cells), 0.04, 4.0);
     BOOST_TEST(space.reflections > 20U);
     BOOST_TEST(space.energy < 1e-5);
+    BOOST_TEST(run<3>(gas, mirrors<3>(cells), 0.02, 4.0).energy < space.energy / 8.0);
     BOOST_TEST(space.momentum < 1e-10);
     const auto adaptive = run<2>(gas, mirrors<2>(cells), {}, 12.0, "arkode:DORMAND_PRINCE_7_4_5");
     BOOST_TEST(adaptive.energy < 1e-7);
