@@ -2,18 +2,19 @@
 // spam-list: penalty and weights of material vectors, chosen by lattices, hexagon, beam and projectile; 1.5 min
 //
 // How a solid with material vectors (rhs/material_vectors.hpp) is best summed: its penalty kappa, the part
-// g(X) = (1 - X/(reach h))^power of its weights, and its range h. Every scheme is tried four times:
+// g(X) = (1 - X/(reach h))^power of its weights, and its range h. Every scheme is tried five times:
 //
 //     lattice      the largest tension under which no wave grows, in 16 kinds of stress; the lowest frequency
 //                  at rest, by that of an elastic transverse wave
 //     beam         a free bar of 12 rows bends: period against Timoshenko's beam
+//     disorder     how much more a hexagon breathes whose particles are displaced by up to 0.2 at the start
 //     hexagon      that of [HHM04] with 16 times its stress (corner speed 0.4), 5 turns
-//     projectile   91 particles through a bar that yields and tears at 0.05, speed 1, no bond yield
+//     projectile   91 particles through a bar that yields and tears at 0.05, speed 1
 //
 // Beginning with the library's own choice, one number is changed at a time, then penalty and power together.
-// One scheme beats another where it bears no less tension, bends as right, and keeps the particles of the
-// bar that is pierced as far apart. The library's own choice and the one that beats it by most are
-// computed with 6, 12 and 24 rows: the order at which the period converges.
+// One scheme beats another where it bears no less tension, bends as right and knows no more of disorder (by 2
+// percent). Of the library's own choice a beam of 6, 12 and 24 rows: the order at which the period converges.
+// Numbers of the projectile scatter: what breaks where is decided by the last digits.
 #include "material_vectors_study/trials.hpp"
 #include <spam/picture/draw.hpp>
 
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <thread>
 
 namespace material_vectors_study {
@@ -38,6 +40,7 @@ const std::vector<std::string> columns{"case",
                                        "beam_error_coarse",
                                        "beam_error",
                                        "beam_error_fine",
+                                       "disorder_error",
                                        "hexagon_closest_pair",
                                        "hexagon_shape_error",
                                        "hexagon_energy_drift",
@@ -55,26 +58,23 @@ struct Parameters {
 /// A number that is changed, and the values it takes.
 struct Family {
     std::string name;
-    double MaterialVectorScheme::*member;
-    double MaterialWeight::*weight;
+    std::function<void(MaterialVectorScheme& scheme, double value)> set;
     std::vector<double> values;
-
-    double& of(MaterialVectorScheme& scheme) const {
-        return member ? scheme.*member : scheme.weight.*weight;
-    }
 };
 
 const std::vector<Family>& families() {
     static const std::vector<Family> all{
-        {"penalty κ", &MaterialVectorScheme::penalty, nullptr, {0.1, 0.3, 0.5, 1, 1.5, 2, 3, 10}},
-        {"power", nullptr, &MaterialWeight::power, {0, 1, 2, 3, 4, 6}},
-        {"reach", nullptr, &MaterialWeight::reach, {1, 1.25, 1.5, 2}},
-        {"range h", &MaterialVectorScheme::range, nullptr, {2.2, 2.5, 2.75, 3, 3.25, 3.5, 4}}};
+        {"penalty κ", [](auto& s, double x) { s.penalty = x; }, {0.1, 0.3, 0.5, 1, 1.5, 2, 3, 10}},
+        {"power",
+         [](auto& s, double x) { s.weight.power = static_cast<int>(x); },
+         {0, 1, 2, 3, 4, 6}},
+        {"reach", [](auto& s, double x) { s.weight.reach = x; }, {1, 1.25, 1.5, 2}},
+        {"range h", [](auto& s, double x) { s.range = x; }, {2.2, 2.5, 2.75, 3, 3.25, 3.5, 4}}};
     return all;
 }
 
 std::string name_of(const MaterialVectorScheme& s) {
-    return fmt::format("kappa_{:g}_reach_{:g}_power_{:g}_range_{:g}", s.penalty, s.weight.reach,
+    return fmt::format("kappa_{:g}_reach_{:g}_power_{}_range_{:g}", s.penalty, s.weight.reach,
                        s.weight.power, s.range);
 }
 
@@ -90,12 +90,12 @@ std::vector<MaterialVectorScheme> schemes(bool smoke) {
     for (const Family& family : families())
         for (const double value : family.values) {
             MaterialVectorScheme other = own;
-            family.of(other) = value;
+            family.set(other, value);
             add(other);
             if (smoke && all.size() % 2 == 0) return all;
         }
     for (const double penalty : {1.0, 1.5, 2.0})
-        for (const double power : {2.0, 3.0, 4.0, 6.0}) {
+        for (const int power : {2, 3, 4, 6}) {
             MaterialVectorScheme other = own;
             other.penalty = penalty;
             other.weight.power = power;
@@ -118,6 +118,9 @@ std::optional<Row> try_out(const Parameters& p, const MaterialVectorScheme& sche
         if (!error) return {};
         row.push_back(number(*error));
     }
+    const auto disorder = disorder_error(scheme, p.sizes);
+    if (!disorder) return {};
+    row.push_back(number(*disorder));
     const auto turned = turn_hexagon(scheme, p.sizes);
     if (!turned) return {};
     for (const double x : {turned->closest_pair, turned->shape_error, turned->energy_drift})
@@ -138,9 +141,9 @@ double cell(const Row& row, std::string_view name) { return number_of(row, colum
 bool beats(const Row& a, const Row& b) {
     const double tension = cell(a, "tension_borne") - cell(b, "tension_borne");
     const double error = std::abs(cell(b, "beam_error")) - std::abs(cell(a, "beam_error"));
-    const double apart = cell(a, "shot_closest_pair") - cell(b, "shot_closest_pair");
-    return tension > -0.01 && error > -1e-3 && apart > -0.01 &&
-           (tension > 0.03 || error > 3e-3 || apart > 0.03);
+    const double order = std::abs(cell(b, "disorder_error")) - std::abs(cell(a, "disorder_error"));
+    return tension > -0.01 && error > -1e-3 && order > -0.02 &&
+           (tension > 0.03 || error > 3e-3 || order > 0.02);
 }
 
 /// Tension that it bears by the error of the beam, of those that beat the first; the first where none does.
@@ -165,24 +168,24 @@ void report(Session& session, const std::vector<Row>& rows) {
         std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return beats(row, own); });
     auto& terminal = session.terminal();
     terminal.say("");
-    terminal.say(fmt::format("{:<42}{:>8}{:>9}{:>9}{:>9}{:>7}", "scheme", "tension", "beam",
-                             "hexagon", "shot", "pieces"));
+    terminal.say(fmt::format("{:<42}{:>8}{:>9}{:>10}{:>7}{:>9}{:>7}", "scheme", "tension", "beam",
+                             "disorder", "shot", "dE/E", "pieces"));
     for (std::size_t k = 0; k < rows.size(); ++k)
-        terminal.say(fmt::format("{:<42}{:>8.2f}{:>+8.2f}%{:>9.3f}{:>9.3f}{:>7.0f}{}",
-                                 rows[k].front(), cell(rows[k], "tension_borne"),
-                                 100.0 * cell(rows[k], "beam_error"),
-                                 cell(rows[k], "hexagon_closest_pair"),
-                                 cell(rows[k], "shot_closest_pair"), cell(rows[k], "shot_pieces"),
-                                 k == 0                ? "  the library's"
-                                 : k == best           ? "  best of those that beat it"
-                                 : beats(rows[k], own) ? "  beats it"
-                                                       : ""));
+        terminal.say(fmt::format(
+            "{:<42}{:>8.2f}{:>+8.2f}%{:>+9.2f}%{:>7.3f}{:>9.0e}{:>7.0f}{}", rows[k].front(),
+            cell(rows[k], "tension_borne"), 100.0 * cell(rows[k], "beam_error"),
+            100.0 * cell(rows[k], "disorder_error"), cell(rows[k], "shot_closest_pair"),
+            cell(rows[k], "shot_energy_drift"), cell(rows[k], "shot_pieces"),
+            k == 0                ? "  the library's"
+            : k == best           ? "  best of those that beat it"
+            : beats(rows[k], own) ? "  beats it"
+                                  : ""));
     const auto measured = [&](const char* name, double value, const char* source) {
         if (std::isfinite(value)) session.measure(name, value, source);
     };
     session.measure("tension_borne", cell(own, "tension_borne"), "by the shear modulus");
     session.measure("lowest_frequency", cell(own, "lowest_frequency"), "omega/(c_T k)");
-    for (const char* name : {"beam_error_coarse", "beam_error", "beam_error_fine",
+    for (const char* name : {"beam_error_coarse", "beam_error", "beam_error_fine", "disorder_error",
                              "hexagon_closest_pair", "hexagon_shape_error", "hexagon_energy_drift",
                              "shot_closest_pair", "shot_energy_drift", "shot_heat", "shot_pieces"})
         measured(name, cell(own, name), "of the library's scheme");
@@ -194,6 +197,7 @@ void report(Session& session, const std::vector<Row>& rows) {
     session.measure("best_power", cell(rows[best], "power"));
     session.measure("best_tension_borne", cell(rows[best], "tension_borne"));
     session.measure("best_beam_error", cell(rows[best], "beam_error"));
+    session.measure("best_disorder_error", cell(rows[best], "disorder_error"));
     session.measure("best_shot_closest_pair", cell(rows[best], "shot_closest_pair"));
 }
 
@@ -206,20 +210,20 @@ void draw(Session& session, const Parameters& p, const std::vector<Row>& rows) {
                         fmt::format("error of the beam's period, {} rows, %", p.sizes.beam_rows),
                         "tension that it bears / shear modulus",
                         {}};
-    LogLogPanel plastic{"bar that is pierced: higher and further left is better",
-                        "change of energy, by energy",
-                        "closest pair, by the spacing",
-                        {}};
+    LogLogPanel disorder{"disordered: higher and further left is better",
+                         "error of the breathing, particles displaced by 0.2, %",
+                         "tension that it bears / shear modulus",
+                         {}};
     const auto add = [&](const std::string& name, const std::vector<Row>& some) {
         LogLogCurve a{picture.key.size(), false, {}, {}}, b = a;
         for (const Row& row : some) {
             a.x.push_back(100.0 * std::abs(cell(row, "beam_error")));
             a.y.push_back(cell(row, "tension_borne"));
-            b.x.push_back(std::abs(cell(row, "shot_energy_drift")));
-            b.y.push_back(cell(row, "shot_closest_pair"));
+            b.x.push_back(100.0 * std::abs(cell(row, "disorder_error")));
+            b.y.push_back(cell(row, "tension_borne"));
         }
         elastic.curves.push_back(std::move(a));
-        plastic.curves.push_back(std::move(b));
+        disorder.curves.push_back(std::move(b));
         picture.key.push_back(name);
     };
     const auto row_of = [&](const MaterialVectorScheme& scheme) -> const Row* {
@@ -231,7 +235,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Row>& rows) {
         std::vector<Row> some;
         for (const double value : family.values) {
             MaterialVectorScheme other = own;
-            family.of(other) = value;
+            family.set(other, value);
             if (const Row* row = row_of(other)) some.push_back(*row);
         }
         if (!some.empty())
@@ -242,7 +246,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Row>& rows) {
     add("the library's", {rows.front()});
     const Row& best = rows[best_of(rows)];
     if (&best != &rows.front()) add(fmt::format("κ = {}, power {}", best[1], best[3]), {best});
-    picture.panels = {elastic, plastic};
+    picture.panels = {elastic, disorder};
     session.note_drawn(draw_log_log(session.plots_folder(), "material_vectors_study", picture));
 }
 
@@ -257,8 +261,8 @@ int main(int argc, char** argv) {
     Parameters p;
     auto& options = problem.options();
     options.integer("rows", p.sizes.beam_rows,
-                    "rows of the beam; half as many are computed as well, twice as many of two "
-                    "schemes",
+                    "rows of the beam; half as many are computed as well, and twice as many of the "
+                    "library's scheme",
                     between(6, 100));
     options.number("turns", p.sizes.turns, "turns of the hexagon", positive());
     options.number("shot-time", p.sizes.shot_time, "time from the start of the projectile",

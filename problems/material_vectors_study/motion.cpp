@@ -7,9 +7,11 @@
 #include <spam/neighbors/connected_parts.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/contact.hpp>
+#include <spam/setup/drawn.hpp>
 
 #include <algorithm>
 #include <numbers>
+#include <random>
 
 namespace material_vectors_study {
 namespace {
@@ -46,23 +48,45 @@ Column<2> deflection(const cantilever::Beam& beam) {
             }};
 }
 
-}  // namespace
-
-std::optional<Turned> turn_hexagon(const MaterialVectorScheme& scheme, const Sizes& sizes) {
-    constexpr double speed = 0.4;
-    auto model = std::make_shared<MaterialVectorModel<2>>(
-        make_particles<2>(triangular_hexagon(sizes.hexagon), 1.0), solid(), scheme);
-    auto y0 = initial_state<2>(*model, rho, solid().eta, rigid_rotation(speed / sizes.hexagon));
+/// Of a body that turns from rest in shape and stress, until it has lost its shape.
+std::optional<History> history_of(const Points<2>& sites, double omega, double t_end,
+                                  const MaterialVectorScheme& scheme) {
+    auto model =
+        std::make_shared<MaterialVectorModel<2>>(make_particles<2>(sites, 1.0), solid(), scheme);
+    auto y0 = initial_state<2>(*model, rho, solid().eta, rigid_rotation(omega));
     Plan<2> plan;
-    plan.t_end = sizes.turns * 2.0 * pi * sizes.hexagon / speed;
+    plan.t_end = t_end;
     plan.output_every = 3.0;
     plan.snapshot_every = plan.t_end;
     plan.observe({.columns = {closest_pair_column<2>(), shape_error_column<2>()},
                   .enough = [](const History& h) { return !survival(h).whole; }});
     const auto run = finished({std::move(model), std::move(y0), std::move(plan)}, leapfrog);
     if (!run) return {};
-    const History& h = run->history;
-    return Turned{h.smallest("closest_pair"), h.largest("shape_error"), h.relative_drift("energy")};
+    return run->history;
+}
+
+}  // namespace
+
+std::optional<Turned> turn_hexagon(const MaterialVectorScheme& scheme, const Sizes& sizes) {
+    constexpr double speed = 0.4;
+    const auto h = history_of(triangular_hexagon(sizes.hexagon), speed / sizes.hexagon,
+                              sizes.turns * 2.0 * pi * sizes.hexagon / speed, scheme);
+    if (!h) return {};
+    return Turned{h->smallest("closest_pair"), h->largest("shape_error"),
+                  h->relative_drift("energy")};
+}
+
+std::optional<double> disorder_error(const MaterialVectorScheme& scheme, const Sizes& sizes) {
+    const double omega = 0.1 / sizes.hexagon, t_end = 10.0 * sizes.hexagon;
+    const Points<2> lattice = triangular_hexagon(sizes.hexagon);
+    Points<2> displaced = lattice;
+    std::mt19937_64 random(5);
+    for (double& x : displaced.reshaped()) x += 0.2 * (2.0 * drawn(random) - 1.0);
+    const auto ordered = history_of(lattice, omega, t_end, scheme);
+    if (!ordered) return {};
+    const auto disordered = history_of(displaced, omega, t_end, scheme);
+    if (!disordered) return {};
+    return disordered->largest("shape_error") / ordered->largest("shape_error") - 1.0;
 }
 
 std::optional<double> beam_error(const MaterialVectorScheme& scheme, int rows) {

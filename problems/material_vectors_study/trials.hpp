@@ -40,6 +40,10 @@ struct Turned {
 /// The hexagon of [HHM04] at a corner speed of 0.4, 16 times the stress of the paper's.
 std::optional<Turned> turn_hexagon(const MaterialVectorScheme& scheme, const Sizes& sizes);
 
+/// How much more a hexagon breathes whose particles are displaced by up to 0.2 at the start, by one that is a
+/// lattice, less 1; corner speed 0.1.
+std::optional<double> disorder_error(const MaterialVectorScheme& scheme, const Sizes& sizes);
+
 /// Period of the first bending mode of a free bar, ten times as long in particles as it has rows, by that of
 /// Timoshenko's beam, less 1.
 std::optional<double> beam_error(const MaterialVectorScheme& scheme, int rows);

@@ -45,6 +45,7 @@ struct Analysed {
     std::string label, title;
     std::string row;          ///< in the table
     std::string description;  ///< of the scheme
+    bool stable = false;      ///< whether nothing is known to grow
     bool elastic;             ///< whether long waves are known to be those of linear elasticity
     std::function<Waves(RunStatistics&)> analyse;
     Spectrum path{}, sample{};

@@ -39,6 +39,9 @@ void report(Session& session, const Parameters& p, const Analysed& one) {
     if (p.stress == 0.0 && p.shear_stress == 0.0)
         session.check(
             {prefix + "growth_rate", growth, 0.0, one.noise, "nothing pulls, [HHM04] IV"});
+    else if (one.stable)
+        session.check({prefix + "growth_rate", growth, 0.0, one.noise,
+                       "the penalty is enough (rhs/material_vectors.hpp)"});
     else
         measured("growth_rate", growth);
     if (growth > 0.0) {

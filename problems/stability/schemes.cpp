@@ -62,6 +62,9 @@ Analysed vectors(const Parameters& p, double range, double penalty, BondMemory m
     one.description =
         fmt::format("material vectors, {}, range {:g}, {}", solid.describe(), range,
                     kept ? fmt::format("penalty kappa = {:g}", penalty) : "without memory");
+    // and under pressure (tests/diagnostics/bonded_lattice.cpp)
+    one.stable = kept && penalty > 0.0 && p.stress >= -0.2 &&
+                 p.stress + std::abs(p.shear_stress) <= scheme.safe_tension(solid.stiffness(), 1.0);
     one.elastic = p.shear_stress == 0.0 && std::abs(p.stress) <= 0.02 && range >= 2.5 &&
                   range <= 4.0 && penalty <= 3.0;
     one.analyse = [p, solid, scheme, memory](RunStatistics&) {
