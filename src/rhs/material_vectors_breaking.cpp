@@ -75,9 +75,14 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
         const std::size_t k = ends[e];
         const double energy = energy_of(before[e], k, state);
         loss[e] = energy - energy_of(fit(x, k), k, state);
-        // Another fit of F may store more. The old one stays where what is left has no misfit to it.
+        // Another fit of F may store more. The old one stays where what is left has no misfit to it; what has
+        // too few bonds for that, or weighs more so, forgets its strain.
         if (loss[e] < 0.0 && anchor(k, before[e], x))
             loss[e] = energy - energy_of(fit(x, k), k, state);
+        if (loss[e] < 0.0) {
+            anchor(k, {}, x);
+            loss[e] = energy - energy_of(fit(x, k), k, state);
+        }
         p.book(k, loss[e]);
     });
     for (const double one : loss)
@@ -91,16 +96,18 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
     return true;
 }
 
-/// X = F^-1 r for all bonds, which leaves them their weights. Returns false where there is no F^-1.
+/// X = F^-1 r for all bonds, which leaves them their weights; X = r where there is no F^-1. Returns whether there is.
 template <int Dim>
 bool MaterialVectors<Dim>::anchor(std::size_t k, const Fit& fit, const double* x) {
     BondTable<Dim>& table = parts_->table;
-    if (!Wholeness::of(fit.K, parts_->N0).spans() || std::abs(determinant(fit.F)) < 1e-3)
-        return false;
-    const Mat<Dim> back = inverse(fit.F);
+    const bool invertible =
+        std::abs(determinant(fit.F)) > 1e-3 && Wholeness::of(fit.K, parts_->N0).spans();
+    Mat<Dim> back;
+    for (int a = 0; a < Dim; ++a) back(a, a) = 1.0;
+    if (invertible) back = inverse(fit.F);
     for (std::size_t m = 0; m < table.row(k); ++m)
         table.set_bond(k, m, back * table.separation(x, k, table.partner(k, m)), table.g(k, m));
-    return true;
+    return invertible;
 }
 
 /// After rows have been made anew: pairs that have broken weigh nothing until they have been apart.
