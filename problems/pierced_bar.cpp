@@ -18,7 +18,7 @@
 //
 //     --contact repulsive   the projectile is a body of its own: particles of the two repel each other inside one
 //                           spacing, without adhesion (rhs/contact.hpp)
-//     --contact none        both are of one body: they meet as neighbours do, and what yields is welded
+//     --contact none        both are of one body: they meet as neighbours do, and what yields may stick
 #include "pierced_bar/shot.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ void add_options(Options& options, Parameters& p) {
     options.choice<ContactKind>(
         "contact", p.contact_kind, {ContactKind::repulsive, ContactKind::none},
         "with repulsive, particles of projectile and bar only push each other away; with none they "
-        "become neighbours like any others, and are welded");
+        "become neighbours like any others, and may stick");
     options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive())
         .only_when(
             {"contact"}, [&p] { return p.repulsion().has_value(); },

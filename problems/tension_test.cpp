@@ -18,7 +18,7 @@
 //                            --end-speed it has no load: it flies apart, necks where its ends are left
 //                            behind, and parts into three
 //     --model elements       finite elements of the same solid, drawn out at their ends: necks in the middle
-//     --model all            the four kinds of particles, each with a step of its own
+//     --model all            the first three, each with a step of its own
 //
 // A bar of molecules that is loaded slowly parts where its rows are torn: bonds bear 5.30, a load f pulls with
 // 15 f on each row of the middle, f = 0.353. It takes a while to move apart: at 0.364 with load-rate 1/1500 (the

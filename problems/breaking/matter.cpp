@@ -105,8 +105,7 @@ std::string title_of(MatterKind kind) {
 
 std::vector<MatterKind> kinds_of(MatterKind kind) {
     if (kind != MatterKind::all) return {kind};
-    return {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
-            MatterKind::material_vectors};
+    return {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam};
 }
 
 void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds) {
@@ -117,8 +116,10 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         options.only_when(
             names, {"model"},
             [&matter, of] {
-                return matter.kind == MatterKind::all ||
-                       std::find(of.begin(), of.end(), matter.kind) != of.end();
+                const auto asked = kinds_of(matter.kind);
+                return std::any_of(asked.begin(), asked.end(), [&of](MatterKind one) {
+                    return std::find(of.begin(), of.end(), one) != of.end();
+                });
             },
             "has no meaning with {by}: " + why + "; leave it out");
     };

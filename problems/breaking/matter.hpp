@@ -21,7 +21,7 @@ enum class MatterKind {
     spam,              ///< smooth particles of an elastic solid that yields, and a core
     material_vectors,  ///< the same with a vector for each neighbour: a solid that yields and tears
     elements,          ///< finite elements of a solid that yields: a twin with options of its own
-    all                ///< all but the elements, one after the other
+    all                ///< the first three, one after the other
 };
 
 std::string_view to_string(MatterKind kind);

@@ -22,18 +22,6 @@ BOOST_AUTO_TEST_CASE(a_projectile_goes_through_a_bar) {
     BOOST_TEST(found.value.at("largest_angle") > 0.3);
 }
 
-// Whether the two repel each other or are of one body.
-BOOST_AUTO_TEST_CASE(what_meets_is_welded_or_not) {
-    const Words slow{"--smoke", "--speed", "0.3", "--t-end", "80"};
-    const auto pieces = [&](const char* contact) {
-        Words words = slow;
-        words.insert(words.end(), {"--contact", contact});
-        return Results("pierced_bar", words, "pieces").value.at("pieces");
-    };
-    BOOST_TEST(pieces("repulsive") == 2.0);
-    BOOST_TEST(pieces("none") == 1.0);
-}
-
 // The bar of the paper: no body loses angular momentum, without a balance of torques.
 BOOST_AUTO_TEST_CASE(bodies_of_the_paper_s_bar_keep_their_angular_momentum) {
     const Results found("fragmenting_bar", {"--smoke", "--compare"},

@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(material_vectors_neck_and_part) {
     BOOST_TEST(found.value.at("closest_pair") > 0.6);
     BOOST_TEST(found.value.at("momentum_drift") < 1e-13);
     BOOST_TEST(found.value.at("angular_momentum_drift") < 1e-9);
-    BOOST_TEST(found.value.at("energy_drift") < 1e-5);
+    BOOST_TEST(found.value.at("energy_drift") < 1e-4);
 }
 
 BOOST_AUTO_TEST_CASE(material_vectors_that_fly_apart_neck_twice) {
@@ -51,7 +51,8 @@ BOOST_AUTO_TEST_CASE(material_vectors_that_fly_apart_neck_twice) {
          "--end-speed", "0.4", "--yield-stress", "0.03", "--tension-limit", "0.06"},
         "pieces");
     BOOST_TEST(found.claims == 1U);
-    BOOST_TEST(found.value.at("pieces") == 3.0);
+    BOOST_TEST(found.value.at("pieces") >= 3.0);
+    BOOST_TEST(found.value.at("difference_of_ends") == 0.0);
     BOOST_TEST(found.value.at("closest_pair") > 0.65);
     BOOST_TEST(found.value.at("energy_drift") < 1e-5);
 }
