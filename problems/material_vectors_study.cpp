@@ -168,17 +168,17 @@ void report(Session& session, const std::vector<Row>& rows) {
         std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return beats(row, own); });
     auto& terminal = session.terminal();
     terminal.say("");
-    terminal.say(fmt::format("{:<42}{:>8}{:>9}{:>10}{:>7}{:>9}{:>7}", "scheme", "tension", "beam",
+    terminal.say(fmt::format("{:<36}{:>9}{:>9}{:>10}{:>7}{:>8}{:>7}", "scheme", "tension", "beam",
                              "disorder", "shot", "dE/E", "pieces"));
     for (std::size_t k = 0; k < rows.size(); ++k)
         terminal.say(fmt::format(
-            "{:<42}{:>8.2f}{:>+8.2f}%{:>+9.2f}%{:>7.3f}{:>9.0e}{:>7.0f}{}", rows[k].front(),
+            "{:<36}{:>9.2f}{:>+8.2f}%{:>+9.2f}%{:>7.3f}{:>8.0e}{:>7.0f}{}", rows[k].front(),
             cell(rows[k], "tension_borne"), 100.0 * cell(rows[k], "beam_error"),
             100.0 * cell(rows[k], "disorder_error"), cell(rows[k], "shot_closest_pair"),
             cell(rows[k], "shot_energy_drift"), cell(rows[k], "shot_pieces"),
-            k == 0                ? "  the library's"
-            : k == best           ? "  best of those that beat it"
-            : beats(rows[k], own) ? "  beats it"
+            k == 0                ? "  default"
+            : k == best           ? "  best"
+            : beats(rows[k], own) ? "  better"
                                   : ""));
     const auto measured = [&](const char* name, double value, const char* source) {
         if (std::isfinite(value)) session.measure(name, value, source);

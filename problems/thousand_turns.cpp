@@ -145,7 +145,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& all
                                                      one.turns[k] == 1.0 ? "" : "s"),
                                          *model, state));
             // of a body that has lost its shape it would be a tangle
-            if (shape_error<2>(reference, state.position, 1.0) > 1.0)
+            if (shape_error<2>(reference, state.position, 1.0) > 0.5)
                 panels.back().outlines.clear();
         }
     }
