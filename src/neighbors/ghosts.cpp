@@ -104,7 +104,7 @@ void Ghosts<Dim>::collect(double reach, const Points<Dim>& position,
         bool inside = true;
         for (std::size_t a = 0; a < Dim; ++a) {
             const double x = position(static_cast<Eigen::Index>(a), i);
-            inside = inside & (x > along_[a].low) & (x < along_[a].high);
+            inside = inside && x > along_[a].low && x < along_[a].high;
         }
         if (inside) continue;
         add_images(slot_of[static_cast<std::size_t>(i)], position.col(i), reach);

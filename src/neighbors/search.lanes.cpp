@@ -165,6 +165,7 @@ std::size_t narrow(const Candidates<Dim>& in, const float* low, const float* hig
             own[a] = Row::load(from.x[a] + k);
             near &= Row::below(least[a], own[a]) & Row::below(own[a], most[a]);
         }
+        if (near == 0) continue;  // often, where numbers follow each other in space
         for (int a = 0; a < Dim; ++a) Row::pick(near, own[a], out[a] + found);
         Row::pick(near, Row::load(from.slots + k), slots + found);
         found += static_cast<unsigned>(__builtin_popcount(near));
