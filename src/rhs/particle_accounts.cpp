@@ -189,13 +189,14 @@ template <int Dim>
 void ParticleModel<Dim>::turn_back(const State<Dim>& state, Eigen::Index i, int a,
                                    bool upper) const {
     const double m = this->particles().mass[static_cast<std::size_t>(i)];
-    Point<Dim> given = Point<Dim>::Zero();
-    given[a] = -2.0 * m * state.velocity()(a, i);
+    const double given = -2.0 * m * state.velocity()(a, i);
     state.velocity()(a, i) *= -1.0;
-    state.field(Field::impulse) += given;
-    state.field(Field::wall_impulse(a, upper)) += given;
-    if constexpr (Dim > 1)
-        state.field(Field::angular_impulse) += moment<Dim>(state.position().col(i), given);
+    for (const Field impulse : {Field::impulse, Field::wall_impulse(a, upper)})
+        state.field(impulse)(a, 0) += given;
+    const Point<Dim> at = state.position().col(i), force = given * Point<Dim>::Unit(a);
+    const auto turned = moment<Dim>(at, force);
+    for (int plane = 0; plane < Given::planes; ++plane)
+        state.field(Field::angular_impulse)(plane, 0) += turned[plane];
 }
 
 /// What a particle gains in the potentials of externals when it is moved.
