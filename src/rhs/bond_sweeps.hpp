@@ -85,6 +85,10 @@ struct BondSweeps {
     /// become vacancies; others beyond the range, which weigh nothing, get X = F^-1 r.
     void (*renew)(const BondView<Dim>&, const BondRenewal<Dim>&, std::size_t first,
                   std::size_t last) = nullptr;
+    /// After fit: a bit for every lane of a group that has a bond of weight with |e|^2 > misfit2 |F X|^2 or
+    /// |r|^2 > stretch2 |X|^2; `found` begins with that of the first group.
+    void (*beyond)(const BondView<Dim>&, const double* records, double misfit2, double stretch2,
+                   unsigned char* found, std::size_t first, std::size_t last) = nullptr;
 };
 
 template <int Dim, InstructionSet Level>

@@ -306,13 +306,44 @@ void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size
     }
 }
 
+template <int Dim>
+void beyond(const BondView<Dim>& view, const double* records, double misfit2, double stretch2,
+            unsigned char* found, std::size_t first, std::size_t last) {
+    using R = BondRecord<Dim>;
+    for (std::size_t group = first; group < last; ++group) {
+        const double* const record = records + (group - first) * W * R::numbers;
+        Mat<Dim, T> F;
+        for (std::size_t c = 0; c < R::square; ++c)
+            F.c[c] = from_records(record, R::numbers, R::F + c);
+        unsigned lanes = 0;
+        for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
+            Vec<Dim, T> r, X;
+            T g;
+            for (int a = 0; a < Dim; ++a) r[a] = load_lanes<W>(view.t + bond * Dim + a * W);
+            load_vector(view, bond, X, g);
+            const Vec<Dim, T> FX = F * X;
+            Vec<Dim, T> e = r;
+            e -= FX;
+            const T r2 = dot(r, r);
+            const unsigned weighs =
+                lanes_below(T(0.0), g) &
+                lanes_below(r2 * T(view.inverse_range * view.inverse_range), T(1.0));
+            lanes |= weighs & (lanes_below(T(misfit2) * dot(FX, FX), dot(e, e)) |
+                               lanes_below(T(stretch2) * dot(X, X), r2));
+        }
+        found[group - first] = static_cast<unsigned char>(lanes);
+    }
+}
+
 }  // namespace
 
 template <int Dim, InstructionSet Level>
 BondSweeps<Dim> bond_sweeps(bool periodic) {
     if (periodic)
-        return {W, fit<Dim, true>, forces<Dim>, gather<Dim>, count<Dim>, renew<Dim, true>};
-    return {W, fit<Dim, false>, forces<Dim>, gather<Dim>, count<Dim>, renew<Dim, false>};
+        return {W,          fit<Dim, true>,   forces<Dim>, gather<Dim>,
+                count<Dim>, renew<Dim, true>, beyond<Dim>};
+    return {W,          fit<Dim, false>,   forces<Dim>, gather<Dim>,
+            count<Dim>, renew<Dim, false>, beyond<Dim>};
 }
 
 template BondSweeps<2> bond_sweeps<2, InstructionSet::SPAM_LEVEL>(bool);
