@@ -311,19 +311,16 @@ void beyond(const BondView<Dim>& view, const double* records, double misfit2, do
             unsigned char* found, std::size_t first, std::size_t last) {
     using R = BondRecord<Dim>;
     for (std::size_t group = first; group < last; ++group) {
-        const double* const record = records + (group - first) * W * R::numbers;
         Mat<Dim, T> F;
         for (std::size_t c = 0; c < R::square; ++c)
-            F.c[c] = from_records(record, R::numbers, R::F + c);
+            F.c[c] = from_records(records + (group - first) * W * R::numbers, R::numbers, R::F + c);
         unsigned lanes = 0;
         for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
             Vec<Dim, T> r, X;
             T g;
             for (int a = 0; a < Dim; ++a) r[a] = load_lanes<W>(view.t + bond * Dim + a * W);
             load_vector(view, bond, X, g);
-            const Vec<Dim, T> FX = F * X;
-            Vec<Dim, T> e = r;
-            e -= FX;
+            const Vec<Dim, T> FX = F * X, e = r - FX;
             const T r2 = dot(r, r);
             const unsigned weighs =
                 lanes_below(T(0.0), g) &
