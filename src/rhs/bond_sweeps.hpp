@@ -87,6 +87,11 @@ struct BondSweeps {
     /// v_dot_i = (v_dot_i - sum_j t_ji)/m_i
     void (*gather)(const BondView<Dim>&, const double* mass, double* v_dot, std::size_t first,
                    std::size_t last) = nullptr;
+};
+
+/// After accepted steps, for the groups [first, last).
+template <int Dim>
+struct BondUpdates {
     /// How many others are nearer than the reach, by particle, of the clusters [first, last) of a list of so many
     /// lanes. `records`: Dim + 1 coordinates by slot.
     void (*count)(const ClusterView&, const double* records, double reach2, double* neighbours,
@@ -95,9 +100,15 @@ struct BondSweeps {
     /// become vacancies; others beyond the range, which weigh nothing, get X = F^-1 r.
     void (*renew)(const BondView<Dim>&, const BondRenewal<Dim>&, std::size_t first,
                   std::size_t last) = nullptr;
+    /// By F of records: a bit for every lane of a group that has a bond of weight with |e|^2 > misfit2 |F X|^2 or
+    /// |r|^2 > stretch2 |X|^2; `found` begins with that of the first group.
+    void (*beyond)(const BondView<Dim>&, const double* records, double misfit2, double stretch2,
+                   unsigned char* found, std::size_t first, std::size_t last) = nullptr;
 };
 
 template <int Dim, InstructionSet Level>
 BondSweeps<Dim> bond_sweeps(bool periodic);
+template <int Dim, InstructionSet Level>
+BondUpdates<Dim> bond_updates(bool periodic);
 
 }  // namespace spam

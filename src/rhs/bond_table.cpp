@@ -51,16 +51,16 @@ class Partners {
 }  // namespace
 
 template <int Dim>
-BondTable<Dim>::BondTable(double range, const Box<Dim>& box, const BondSweeps<Dim>& sweeps,
-                          const Points<Dim>& x, std::vector<std::int32_t> bodies,
-                          const MaterialWeight& weight)
+BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
+                          const BondUpdates<Dim>& loops, const Points<Dim>& x,
+                          std::vector<std::int32_t> bodies, const MaterialWeight& weight)
     : range_(range),
       weight_(weight),
       box_(box),
-      sweeps_(sweeps),
+      loops_(loops),
       bodies_(std::move(bodies)),
-      list_((1.0 + skin) * range, list_skin * range, box.of_images(), sweeps.lanes, Dim + 1),
-      rows_(static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(sweeps.lanes)) {
+      list_((1.0 + skin) * range, list_skin * range, box.of_images(), lanes, Dim + 1),
+      rows_(static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(lanes)) {
     require_one_image(box, (1.0 + skin) * range);
     const std::size_t filled = groups() * rows_.lanes();
     x_.assign(filled * Dim, 0.0);
@@ -151,8 +151,8 @@ void BondTable<Dim>::count_neighbours(const double* x) {
     list_.refresh(records_.data(), position_kinds<Dim>());
     const ClusterView view = list_.view();
     parallel_blocks(view.clusters, [&](std::size_t first, std::size_t count) {
-        sweeps_.count(view, records_.data(), reach * reach, neighbours_.data(), first,
-                      first + count);
+        loops_.count(view, records_.data(), reach * reach, neighbours_.data(), first,
+                     first + count);
     });
 }
 
@@ -215,7 +215,7 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
         [&](std::size_t b) {
             const std::size_t lanes = rows_.lanes(), first = b * block / lanes,
                               last = std::min(groups(), first + block / lanes);
-            sweeps_.renew(view, renewal, first, last);
+            loops_.renew(view, renewal, first, last);
             Partners partners;
             std::size_t gone = 0;
             for (std::size_t group = first; group < last; ++group) {

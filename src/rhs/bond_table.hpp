@@ -19,7 +19,7 @@ class BondTable {
     using Newcomer = typename BondRows<Dim>::Newcomer;
 
     /// Throws InputError where a periodic length is not above twice range + skin.
-    BondTable(double range, const Box<Dim>& box, const BondSweeps<Dim>& sweeps,
+    BondTable(double range, const Box<Dim>& box, int lanes, const BondUpdates<Dim>& loops,
               const Points<Dim>& x, std::vector<std::int32_t> bodies,
               const MaterialWeight& weight = {});
 
@@ -38,6 +38,8 @@ class BondTable {
     const std::vector<Newcomer>& idle() const { return idle_; }
     /// F^-1 at the last renew(), before anybody was admitted; 1 where there is none.
     Mat<Dim> anchoring(std::size_t k) const;
+
+    const BondUpdates<Dim>& loops() const { return loops_; }
 
     std::size_t particles() const { return rows_.particles(); }
     std::size_t groups() const { return rows_.groups(); }
@@ -84,7 +86,7 @@ class BondTable {
     double range_;
     MaterialWeight weight_;
     Box<Dim> box_;
-    BondSweeps<Dim> sweeps_;
+    BondUpdates<Dim> loops_;
     std::vector<std::int32_t> bodies_;
     ClusterList<Dim> list_;
     std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle

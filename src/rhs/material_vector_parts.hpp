@@ -34,6 +34,38 @@ struct MaterialVectors<Dim>::Parts {
     std::size_t watched = 0;                ///< states that watch() was shown
     bool warned = false;
 
+    /// Sum of body(k, F, beyond) over all particles, beyond: whether a bond of k exceeds one of these limits
+    /// (BondSweeps::beyond). Blocks are fitted in lanes, and body may change the bonds of k.
+    template <class Body>
+    std::size_t count_particles(const double* x, double misfit2, double stretch2,
+                                const Body& body) {
+        table.load(x);
+        const BondView<Dim> shown = view();
+        const auto lanes = static_cast<std::size_t>(sweeps.lanes);
+        const std::size_t each = table.block / lanes;
+        return parallel_count(
+            table.blocks(),
+            [&](std::size_t b) {
+                std::array<double, BondTable<Dim>::block * Record::numbers> records;
+                std::array<unsigned char, BondTable<Dim>::block> found{};
+                const std::size_t first = b * each, last = std::min(table.groups(), first + each);
+                sweeps.gradients(shown, records.data(), first, last);
+                if (std::min(misfit2, stretch2) < HUGE_VAL)
+                    table.loops().beyond(shown, records.data(), misfit2, stretch2, found.data(),
+                                         first, last);
+                std::size_t sum = 0;
+                for (std::size_t k = first * lanes; k < std::min(last * lanes, shown.particles);
+                     ++k) {
+                    const std::size_t at = k - first * lanes;
+                    Mat<Dim> F;
+                    std::copy_n(&records[at * Record::numbers + Record::F], F.c.size(),
+                                F.c.begin());
+                    sum += body(k, F, (found[at / lanes] >> at % lanes & 1U) != 0);
+                }
+                return sum;
+            },
+            table.block);
+    }
     void book(std::size_t k, double loss) { heat[k] += loss; }
     bool excludes(std::uint32_t k, std::uint32_t j) const {
         return std::binary_search(excluded.begin(), excluded.end(),

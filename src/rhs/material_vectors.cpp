@@ -82,10 +82,13 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     const auto sweeps = at_level(instruction_set(), [&](auto level) {
         return bond_sweeps<Dim, level>(this->box().periodic());
     });
+    const auto updates = at_level(instruction_set(), [&](auto level) {
+        return bond_updates<Dim, level>(this->box().periodic());
+    });
     const Particles<Dim>& all = this->particles();
     parts_ = std::make_unique<Parts>(
-        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps, all.reference_position,
-                                     all.body, scheme.weight)});
+        Parts{sweeps, BondTable<Dim>(scheme.range, this->box(), sweeps.lanes, updates,
+                                     all.reference_position, all.body, scheme.weight)});
     Parts& p = *parts_;
     const std::size_t n = all.size();
     p.numbers.resize(n);

@@ -33,35 +33,42 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
     const double stretch2 = scheme_.stretch_limit * scheme_.stretch_limit,
                  range2 = scheme_.range * scheme_.range;
     const bool by_stress = scheme_.stress_limit < HUGE_VAL;
+    p.breaking.assign(n, 0);
+    bool any = p.count_particles(x, HUGE_VAL, stretch2,
+                                 [&](std::size_t k, const Mat<Dim>&, bool beyond) -> std::size_t {
+                                     p.breaking[k] = beyond;
+                                     return beyond;
+                                 }) > 0;
     p.tau.resize(by_stress ? n : 0);
     if (by_stress) parallel_for(n, [&](std::size_t k) { p.tau[k] = kirchhoff_stress(k, state); });
-
-    const auto beyond = [&](std::size_t k, std::size_t m) {
+    const auto breaks = [&](std::size_t k, std::size_t m) {
+        if (!(p.table.g(k, m) > 0.0)) return false;
         const std::uint32_t j = p.table.partner(k, m);
-        if (j <= k) return false;
-        const Vec<Dim> r = p.table.separation(x, k, j);
+        const Vec<Dim> r = p.table.separation(x, k, j), X = p.table.X(k, m);
         const double r2 = dot(r, r);
         if (!(r2 < range2)) return false;
-        const std::size_t back = p.table.way_back(k, m);
-        const Vec<Dim> X = p.table.X(k, m), Y = p.table.X(j, back);
-        const bool from = p.table.g(k, m) > 0.0, to = p.table.g(j, back) > 0.0;
-        if (!from && !to) return false;
-        if ((from && r2 > stretch2 * dot(X, X)) || (to && r2 > stretch2 * dot(Y, Y))) return true;
-        return by_stress && dot(r, (p.tau[k] + p.tau[j]) * r) > 2.0 * scheme_.stress_limit * r2;
+        return r2 > stretch2 * dot(X, X) ||
+               (by_stress && dot(r, (p.tau[k] + p.tau[j]) * r) > 2.0 * scheme_.stress_limit * r2);
     };
-    p.breaking.assign(n, 0);
-    const bool any = parallel_count(n, [&](std::size_t k) -> std::size_t {
-                         for (std::size_t m = 0; m < p.table.row(k); ++m)
-                             if (beyond(k, m)) p.breaking[k] = 1;
-                         return p.breaking[k];
-                     }) > 0;
+    if (by_stress)
+        any = parallel_count(n, [&](std::size_t k) -> std::size_t {
+                  for (std::size_t m = 0; m < p.table.row(k); ++m)
+                      if (breaks(k, m)) p.breaking[k] = 1;
+                  return p.breaking[k];
+              }) > 0;
     if (!any) return false;
 
     std::vector<std::array<std::uint32_t, 2>> pairs;
     for (std::uint32_t k = 0; k < n; ++k)
         if (p.breaking[k] != 0)
             for (std::size_t m = 0; m < p.table.row(k); ++m)
-                if (beyond(k, m)) pairs.push_back({k, p.table.partner(k, m)});
+                if (breaks(k, m)) {
+                    const std::uint32_t j = p.table.partner(k, m);
+                    pairs.push_back({std::min(k, j), std::max(k, j)});
+                }
+    if (pairs.empty()) return false;
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     std::vector<std::uint32_t> ends;
     for (const auto& pair : pairs) ends.insert(ends.end(), pair.begin(), pair.end());
     std::sort(ends.begin(), ends.end());

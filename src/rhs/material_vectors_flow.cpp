@@ -11,27 +11,13 @@ namespace spam {
 template <int Dim>
 bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
     Parts& p = *parts_;
-    p.table.load(state.position().data());
-    const BondView<Dim> view = p.view();
-    const auto lanes = static_cast<std::size_t>(p.sweeps.lanes);
-    const std::size_t each = p.table.block / lanes;
-    const auto flow_of_block = [&](std::size_t b) {
-        using Record = BondRecord<Dim>;
-        std::array<double, BondTable<Dim>::block * Record::numbers> records;
-        const std::size_t first = b * each, last = std::min(p.table.groups(), first + each);
-        p.sweeps.gradients(view, records.data(), first, last);
-        std::size_t flowed = 0;
-        for (std::size_t k = first * lanes; k < std::min(last * lanes, view.particles); ++k) {
-            Mat<Dim> F;
-            std::copy_n(&records[(k - first * lanes) * Record::numbers + Record::F], F.c.size(),
-                        F.c.begin());
-            bool changed = p.misfit_limit < HUGE_VAL && flow_of_bonds(k, F, state);
-            if (changed || material_.flow(F)) changed = flow_of_particle(k, state) || changed;
-            flowed += changed;
-        }
-        return flowed;
-    };
-    return parallel_count(p.table.blocks(), flow_of_block, p.table.block) > 0;
+    const double limit = p.misfit_limit;
+    return p.count_particles(
+               state.position().data(), limit * limit, HUGE_VAL,
+               [&](std::size_t k, const Mat<Dim>& F, bool beyond) -> std::size_t {
+                   const bool changed = beyond && flow_of_bonds(k, F, state);
+                   return ((changed || material_.flow(F)) && flow_of_particle(k, state)) || changed;
+               }) > 0;
 }
 
 /// F <- F G, X <- G^-1 X: F X stays. So does g until rows are made anew: then F is the same fit, and rates change by
