@@ -292,7 +292,8 @@ int main(int argc, char** argv) {
             {fmt::format("{} schemes, {} at a time: lattices, a beam of {} rows, a hexagon of {} "
                          "particles, a projectile",
                          tasks.size(), p.jobs, p.sizes.beam_rows,
-                         1 + 3 * p.sizes.hexagon * (p.sizes.hexagon + 1))},
+                         1 + 3 * p.sizes.hexagon * (p.sizes.hexagon + 1)),
+             "integrator  leapfrog, dt = 0.3; of the projectile rk4, dt = 0.1"},
             true);
         if (!session.run_study(table, tasks, p.jobs)) return;
         const auto rows = table.rows(tasks);

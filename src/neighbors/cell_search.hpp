@@ -18,13 +18,15 @@ class ClusterList<Dim>::CellSearch {
     using Cells = ClusterCells<Dim>;
 
   public:
-    /// Levels of the way down: memory. Entries are written to `out`.
+    /// Levels of the way down: memory. Entries are written to pages, which stay where they are: one long
+    /// vector would be copied as it grows, and leave holes of its size behind in memory.
     using Levels = std::vector<NearLevel<Dim>>;
-    CellSearch(ClusterList& list, std::vector<std::uint32_t>& out, Levels& levels)
+    using Pages = std::vector<std::vector<std::uint32_t>>;
+    CellSearch(ClusterList& list, Pages& pages, Levels& levels)
         : list_(list),
           cells_(list.cells_),
           levels_(levels),
-          out_(out),
+          pages_(pages),
           search_(at_level(instruction_set(),
                            [&](auto level) { return search_for<Dim, level>(list.width_); })) {
         const double cutoff = list.range_ + list.skin_;
@@ -50,15 +52,9 @@ class ClusterList<Dim>::CellSearch {
         return pairs_;
     }
 
-    /// To be called when all clusters of the part have their entries: these move no more.
+    /// To be called when all clusters of the part have their entries.
     void finish() {
-        make_room(1);
-        out_[used_] = 0;  // sweeps look one entry ahead
-        const std::uint32_t* next = out_.data();
-        for (const std::uint32_t cluster : finished_) {
-            list_.entries_[cluster].first = next;
-            next += list_.entries_[cluster].count;
-        }
+        if (page_ < pages_.size()) pages_[page_][used_] = 0;  // sweeps look one entry ahead
     }
 
   private:
@@ -122,10 +118,9 @@ class ClusterList<Dim>::CellSearch {
     void search(std::size_t cluster, const Candidates<Dim>& from, bool exactly) {
         const Bounds<Dim>& bounds = list_.boxes_[cluster];
         const std::size_t most = from.count + Candidates<Dim>::lanes;
-        make_room(most);
-        std::uint32_t* const begin = out_.data() + used_;
+        std::uint32_t* const begin = room_for(most);
         if (!exactly) {
-            keep(cluster, search_.near_bounds(from, bounds, input_.stride, begin) - begin);
+            keep(cluster, begin, search_.near_bounds(from, bounds, input_.stride, begin));
             return;
         }
         if (near_.size() < most) near_.resize(most);
@@ -135,31 +130,40 @@ class ClusterList<Dim>::CellSearch {
         const auto width = static_cast<std::size_t>(list_.width_);
         const auto members = static_cast<unsigned>(std::min(width, list_.size_ - cluster * width));
         std::size_t pairs = 0;
-        keep(cluster, search_.near_members(input_, cluster * width, members, near_.data(), count,
-                                           begin, pairs) -
-                          begin);
+        keep(cluster, begin,
+             search_.near_members(input_, cluster * width, members, near_.data(), count, begin,
+                                  pairs));
         if (cluster % list_.counted_each() == 0) pairs_ += pairs;
     }
 
-    void make_room(std::size_t entries) {
-        if (out_.size() < used_ + entries) out_.resize((used_ + entries) * 5 / 4);
+    std::uint32_t* room_for(std::size_t entries) {
+        constexpr std::size_t usual = 16384;
+        if (page_ < pages_.size() && pages_[page_].size() <= used_ + entries) {
+            finish();
+            ++page_;
+            used_ = 0;
+        }
+        if (page_ == pages_.size()) pages_.emplace_back();
+        if (pages_[page_].size() <= used_ + entries)
+            pages_[page_].resize(std::max(usual, used_ + entries + 1));
+        return pages_[page_].data() + used_;
     }
-    void keep(std::size_t cluster, std::ptrdiff_t count) {
-        used_ += static_cast<std::size_t>(count);
-        list_.entries_[cluster].count = static_cast<std::uint32_t>(count);
-        finished_.push_back(static_cast<std::uint32_t>(cluster));
+    void keep(std::size_t cluster, const std::uint32_t* begin, const std::uint32_t* end) {
+        const auto count = static_cast<std::size_t>(end - begin);
+        used_ += count;
+        list_.entries_[cluster] = {begin, static_cast<std::uint32_t>(count)};
     }
 
     ClusterList& list_;
     const Cells& cells_;
     Levels& levels_;
-    std::vector<std::uint32_t>& out_;
+    Pages& pages_;
     Search<Dim> search_;
     SearchInput<Dim> input_;
     Candidates<Dim> candidates_;
-    std::size_t part_ = 0, pairs_ = 0, used_ = 0;
+    std::size_t part_ = 0, pairs_ = 0, page_ = 0, used_ = 0;
     unsigned bits_ = 0;
-    std::vector<std::uint32_t> near_, finished_;
+    std::vector<std::uint32_t> near_;
 };
 
 }  // namespace spam

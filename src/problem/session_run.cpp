@@ -293,15 +293,10 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
                         limiting.empty() ? "" : "  limit " + limiting));
     };
     watchers.remark = [this](double t, const Remark& remark) {
-        if (remark.warning)
-            terminal_.say(
-                fmt::format("warning     {} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
-        else
-            terminal_.log(fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value));
+        const auto text = fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value);
+        remark.warning ? terminal_.say("warning     " + text) : terminal_.log(text);
     };
-    watchers.warning = [this](double, const std::string& text) {
-        terminal_.say(fmt::format("warning     {}", text));
-    };
+    watchers.warning = [this](double, const auto& text) { terminal_.say("warning     " + text); };
     return watchers;
 }
 

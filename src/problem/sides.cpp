@@ -10,8 +10,6 @@
 namespace spam {
 namespace {
 
-constexpr std::array names_of_sides{"left", "right", "bottom", "top", "front", "back"};
-
 std::string allowed(bool along) {
     return std::string("open, periodic, mirror, no-slip") + (along ? ", moving:V" : "") +
            " or rigid";
@@ -86,24 +84,24 @@ class Reader {
 
 }  // namespace
 
-std::string Sides::name(int a, bool upper) {
-    return names_of_sides[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
-}
+std::string Sides::name(int a, bool upper) { return name_of_side(a, upper); }
 
 Sides::Sides(Options& options, std::vector<std::string> otherwise, const std::string& more)
     : words_(std::move(otherwise)) {
     for (std::size_t k = 0; k < words_.size(); ++k)
         if (!words_[k].empty())
-            options.text(names_of_sides[k], words_[k],
+            options.text(name_of_side(static_cast<int>(k / 2), k % 2 == 1), words_[k],
                          fmt::format("{} side: {}{}; mirrors and no-slip walls may have "
                                      "@TEMPERATURE behind, else they are insulated",
-                                     names_of_sides[k], allowed(words_.size() > 2), more));
+                                     name_of_side(static_cast<int>(k / 2), k % 2 == 1),
+                                     allowed(words_.size() > 2), more));
 }
 
 std::vector<std::string> Sides::names() const {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < words_.size(); ++k)
-        if (!words_[k].empty()) names.emplace_back(names_of_sides[k]);
+        if (!words_[k].empty())
+            names.emplace_back(name_of_side(static_cast<int>(k / 2), k % 2 == 1));
     return names;
 }
 

@@ -40,16 +40,18 @@ void ParticleModel<Dim>::refuse_beyond_walls() const {
 /// Images have to mean something to the law; a rigid wall stops what moves with its own velocity.
 template <int Dim>
 void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
-    if (this->box().has_images())
-        if (auto why = term.no_walls(); !why.empty())
-            throw InputError(fmt::format("wall: {} ({})", why, term.describe()));
-    for_each_wall([&](int, bool, const Wall<Dim>& wall) {
+    const auto why = term.no_walls();
+    std::string sides;  // with images
+    for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         if (wall.kind == WallKind::rigid && !term.moves_with_velocity())
             throw InputError(fmt::format(
-                "wall: a rigid one turns the velocity of a particle back, and particles that are moved by "
-                "another one go on through it; use mirror, or --transport plain ({})",
-                term.describe()));
+                "wall, {}: a rigid one turns the velocity of a particle back, and particles that are "
+                "moved by another one go on through it; use mirror, or --transport plain ({})",
+                name_of_side(a, upper), term.describe()));
+        if (wall.has_images()) sides.append(", ").append(name_of_side(a, upper));
     });
+    if (this->box().has_images() && !why.empty())
+        throw InputError(fmt::format("wall{}: {} ({})", sides, why, term.describe()));
 }
 
 template <int Dim>

@@ -208,8 +208,6 @@ BOOST_AUTO_TEST_CASE(combinations_that_make_no_sense) {
         {{"--formulation", "material_vectors", "--kernel", "w5"}, {"kernel", "material_vectors"}},
         {{"--formulation", "material_vectors", "--torques"}, {"torques", "material_vectors"}},
         {{"--formulation", "material_vectors", "--penalty", "-1"}, {"penalty", "-1"}},
-        {{"--formulation", "material_vectors", "--integrator", "cvode:adams"},
-         {"cvode:adams", "one-step"}},
     });
 }
 

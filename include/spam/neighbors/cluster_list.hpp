@@ -118,9 +118,9 @@ class ClusterList {
     std::vector<std::int32_t> periods_;       ///< Dim x N, taken off there
     Home<Dim> home_;
     Ghosts<Dim> ghosts_;
-    std::vector<ClusterView::Entries> entries_;        ///< by cluster
-    std::vector<std::vector<NearLevel<Dim>>> levels_;  ///< of the searches through cells
-    std::vector<std::vector<std::uint32_t>> parts_;    ///< where they are
+    std::vector<ClusterView::Entries> entries_;                   ///< by cluster
+    std::vector<std::vector<NearLevel<Dim>>> levels_;             ///< of the searches through cells
+    std::vector<std::vector<std::vector<std::uint32_t>>> parts_;  ///< pages of entries
     struct BehindWall {
         std::size_t build = 0;  ///< of which list
         std::vector<ClusterView::Entries> entries;

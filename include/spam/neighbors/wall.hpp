@@ -9,6 +9,12 @@
 
 namespace spam {
 
+/// "left", "right", "bottom", "top", "front", "back": the lower and the upper side across x, y, z.
+constexpr const char* name_of_side(int a, bool upper) {
+    constexpr const char* names[]{"left", "right", "bottom", "top", "front", "back"};
+    return names[2 * a + (upper ? 1 : 0)];
+}
+
 /// What one side of a box is.
 enum class WallKind {
     open,
