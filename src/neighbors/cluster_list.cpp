@@ -168,16 +168,23 @@ std::size_t ClusterList<Dim>::search() {
     cells_.build({boxes_, ghosts_, place(), order_, slot_of_, x_, static_cast<std::size_t>(width_),
                   strips_.volume(), reach(), 2.0 * boxes_.typical_volume(reach())});
     unsigned bits = 0;  // some parts for each thread
-    if (const int threads = set_threads(0); threads > 1 && size_ >= parallel_threshold)
-        while (bits < 10 && 1 << bits < 4 * threads) ++bits;
+    std::size_t threads = 1;
+    if (set_threads(0) > 1 && size_ >= parallel_threshold) {
+        threads = static_cast<std::size_t>(set_threads(0));
+        while (bits < 10 && std::size_t{1} << bits < 4 * threads) ++bits;
+    }
     parts_.resize(std::size_t{1} << bits);
-    levels_.resize(parts_.size());
+    levels_.resize(threads);
     return parallel_count(
-        parts_.size(),
-        [&](std::size_t part) {
-            CellSearch search(*this, parts_[part], levels_[part]);
-            const std::size_t pairs = search.run(part, bits);
-            search.finish();
+        threads,
+        [&](std::size_t thread) {
+            std::size_t pairs = 0;
+            for (std::size_t part = thread * parts_.size() / threads;
+                 part < (thread + 1) * parts_.size() / threads; ++part) {
+                CellSearch search(*this, parts_[part], levels_[thread]);
+                pairs += search.run(part, bits);
+                search.finish();
+            }
             return pairs;
         },
         bits > 0 ? parallel_threshold : 0);

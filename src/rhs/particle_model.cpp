@@ -41,17 +41,18 @@ void ParticleModel<Dim>::refuse_beyond_walls() const {
 template <int Dim>
 void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
     const auto why = term.no_walls();
-    std::string sides;  // with images
+    std::string with_images, rigid;  // sides
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
-        if (wall.kind == WallKind::rigid && !term.moves_with_velocity())
-            throw InputError(fmt::format(
-                "wall, {}: a rigid one turns the velocity of a particle back, and particles that are "
-                "moved by another one go on through it; use mirror, or --transport plain ({})",
-                name_of_side(a, upper), term.describe()));
-        if (wall.has_images()) sides.append(", ").append(name_of_side(a, upper));
+        std::string& sides = wall.has_images() ? with_images : rigid;
+        sides.append(sides.empty() ? "" : ", ").append(name_of_side(a, upper));
     });
-    if (this->box().has_images() && !why.empty())
-        throw InputError(fmt::format("wall{}: {} ({})", sides, why, term.describe()));
+    if (!rigid.empty() && !term.moves_with_velocity())
+        throw InputError(fmt::format(
+            "wall: a rigid one turns the velocity of a particle back, and particles that are moved by "
+            "another one go on through it; use mirror, or --transport plain ({}: {})",
+            rigid, term.describe()));
+    if (!with_images.empty() && !why.empty())
+        throw InputError(fmt::format("wall: {} ({}: {})", why, with_images, term.describe()));
 }
 
 template <int Dim>
