@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a projectile goes through a bar that flows and breaks; p, L and E are kept, pieces turn on; 20 s
+// spam-list: a projectile goes through a bar that flows and breaks; p, L and E are kept, pieces turn on; 10 s
 //
 // The projectile and the bar of [HHM04] IX (problem fragmenting_bar), of a solid that yields and tears, with
 // material vectors (rhs/material_vectors.hpp).
