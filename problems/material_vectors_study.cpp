@@ -184,7 +184,10 @@ void report(Session& session, const std::vector<Row>& rows) {
         if (std::isfinite(value)) session.measure(name, value, source);
     };
     session.measure("tension_borne", cell(own, "tension_borne"), "by the shear modulus");
-    session.measure("lowest_frequency", cell(own, "lowest_frequency"), "omega/(c_T k)");
+    session.check(
+        {"lowest_frequency", cell(own, "lowest_frequency"), 0.319, 2e-3,
+         "omega/(c_T k) over all waves free of stress, tests/diagnostics/bonded_lattice.cpp: "
+         "no mode without energy but translations"});
     for (const char* name : {"beam_error_coarse", "beam_error", "beam_error_fine", "disorder_error",
                              "hexagon_closest_pair", "hexagon_shape_error", "hexagon_energy_drift",
                              "shot_closest_pair", "shot_energy_drift", "shot_heat", "shot_pieces"})

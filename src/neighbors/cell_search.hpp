@@ -137,7 +137,7 @@ class ClusterList<Dim>::CellSearch {
     }
 
     std::uint32_t* room_for(std::size_t entries) {
-        constexpr std::size_t usual = 16384;
+        constexpr std::size_t usual = 2048;
         if (page_ < pages_.size() && pages_[page_].size() <= used_ + entries) {
             finish();
             ++page_;
