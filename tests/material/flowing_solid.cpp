@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A polynomial solid that flows: the stress is the derivative of the energy with what is spent, that energy is the
 // least there is, and a return that is carried out changes neither.
+#include "support/random_gradient.hpp"
 #include "support/refusal.hpp"
 #include <spam/material/flowing_solid.hpp>
 #include <spam/material/hyperelastic_material.hpp>
@@ -12,6 +13,7 @@
 #include <vector>
 
 using namespace spam;
+using namespace spam::test;
 using spam::test::refusal;
 
 namespace {
@@ -20,16 +22,6 @@ constexpr PolynomialSolid elastic{0.43, 0.43};
 constexpr double Y = 0.05, p_c = 0.03;
 const FlowingSolid yields{elastic, Y}, tears{elastic, FlowingSolid::never, p_c},
     does_both{elastic, Y, p_c};
-
-template <int Dim>
-Mat<Dim> random_gradient(unsigned seed, double size) {
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> g;
-    Mat<Dim> F;
-    for (double& f : F.c) f = size * g(random);
-    for (int a = 0; a < Dim; ++a) F(a, a) += 1.0;
-    return F;
-}
 
 template <int Dim>
 Mat<Dim> product(const Mat<Dim>& A, const Mat<Dim>& B, bool transpose = false) {

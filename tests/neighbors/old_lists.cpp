@@ -16,13 +16,10 @@ using spam::test::renumbered;
 
 namespace {
 
-/// Pairs in range, images among them, that the list built before and its images as they are now do not hold
-/// exactly once from each end, or not with exactly opposite separations.
+/// By slot, images among them, as sweeps see them.
 template <int Dim>
-std::size_t wrong_pairs(ClusterList<Dim>& list, const Points<Dim>& now, double range,
-                        const Box<Dim>& box) {
+std::vector<double> coordinates(const ClusterList<Dim>& list, const Points<Dim>& now) {
     const auto order = list.order();
-    const auto width = static_cast<std::size_t>(list.width());
     std::vector<double> x(list.slots() * Dim);
     for (std::size_t slot = 0; slot < order.size(); ++slot)
         for (std::size_t a = 0; a < Dim; ++a)
@@ -30,6 +27,17 @@ std::size_t wrong_pairs(ClusterList<Dim>& list, const Points<Dim>& now, double r
     std::array<NumberKind, Dim> kinds;
     for (unsigned char a = 0; a < Dim; ++a) kinds[a] = {Quantity::position, a, a};
     list.refresh(x.data(), kinds);
+    return x;
+}
+
+/// Pairs in range, images among them, that the list built before and its images as they are now do not hold
+/// exactly once from each end, or not with exactly opposite separations.
+template <int Dim>
+std::size_t wrong_pairs(ClusterList<Dim>& list, const Points<Dim>& now, double range,
+                        const Box<Dim>& box) {
+    const auto width = static_cast<std::size_t>(list.width());
+    const auto order = list.order();
+    const std::vector<double> x = coordinates(list, now);
     using Vector = std::array<double, Dim>;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Vector>> found;
     for (std::size_t slot = 0; slot < list.size(); ++slot)
@@ -125,14 +133,7 @@ namespace {
 /// before.
 template <int Dim>
 std::size_t disordered(const ClusterList<Dim>& list, const Points<Dim>& now, bool by_slot) {
-    const auto order = list.order();
-    std::vector<double> x(list.slots() * Dim);
-    for (std::size_t slot = 0; slot < order.size(); ++slot)
-        for (std::size_t a = 0; a < Dim; ++a)
-            x[slot * Dim + a] = list.home()(order[slot], a, now.data()[order[slot] * Dim + a]);
-    std::array<NumberKind, Dim> kinds;
-    for (unsigned char a = 0; a < Dim; ++a) kinds[a] = {Quantity::position, a, a};
-    list.refresh(x.data(), kinds);
+    const std::vector<double> x = coordinates(list, now);
     std::size_t wrong = 0;
     for (std::size_t c = 0; c < list.clusters(); ++c) {
         std::vector<std::uint32_t> entries(list.entries(c).begin(), list.entries(c).end());

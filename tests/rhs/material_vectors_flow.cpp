@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A solid with material vectors that yields: the return to the yield surface, what it leaves as it is, and a
 // block that flows while energy with heat, p and L are kept.
+#include "support/random_gradient.hpp"
 #include "support/random_state.hpp"
 #include "support/refusal.hpp"
 #include "support/turned_body.hpp"
@@ -25,16 +26,6 @@ namespace {
 
 constexpr PolynomialSolid elastic{0.43, 0.43};
 constexpr MaterialVectorScheme usual{1.2, 2.6, 1.0};
-
-template <int Dim>
-Mat<Dim> random_gradient(unsigned seed, double size) {
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> g;
-    Mat<Dim> F;
-    for (double& f : F.c) f = size * g(random);
-    for (int a = 0; a < Dim; ++a) F(a, a) += 1.0;
-    return F;
-}
 
 /// Kirchhoff's tau = P F^t: von Mises' q and the mean.
 template <int Dim>
