@@ -118,14 +118,6 @@ void BondRows<Dim>::enter(std::vector<Newcomer>& newcomers) {
 }
 
 template <int Dim>
-void BondRows<Dim>::leave(std::size_t k, std::size_t m) {
-    partner_[slot(k, m)] = static_cast<std::uint32_t>(k);
-    reverse_[slot(k, m)] = place(k, m);
-    set(k, m, {}, 0.0);
-    --bonds_;
-}
-
-template <int Dim>
 void BondRows<Dim>::find_way_back(std::size_t k, std::size_t m) {
     const std::size_t j = partner(k, m);
     reverse_[slot(k, m)] = place(j, place_of(j, k));

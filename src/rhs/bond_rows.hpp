@@ -57,8 +57,6 @@ class BondRows {
     /// Takes them in, where vacancies are first, and says which row of k each has; with X = g = 0 until set().
     /// `newcomers`: ascending by k, then j; both directions of every pair.
     void enter(std::vector<Newcomer>& newcomers);
-    /// Leaves a vacancy in row k only.
-    void leave(std::size_t k, std::size_t m);
     /// What bonds are left after so many have gone, where loops have written vacancies.
     void discount(std::size_t gone) { bonds_ -= gone; }
     /// Rows without vacancies, partners ascending, where these have become many.
