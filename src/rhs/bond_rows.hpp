@@ -39,11 +39,6 @@ class BondRows {
         while (partner(k, m) != j) --m;
         return m;
     }
-    /// Where k stands in the row of the partner of its bond m.
-    std::size_t way_back(std::size_t k, std::size_t m) const {
-        const std::uint32_t j = partner(k, m);
-        return (reverse_[slot(k, m)] - place(j, 0)) / lanes_;
-    }
     Vec<Dim> X(std::size_t k, std::size_t m) const;
     double g(std::size_t k, std::size_t m) const { return vectors_[number(k, m, Dim)]; }
     void set(std::size_t k, std::size_t m, const Vec<Dim>& X, double g);

@@ -52,8 +52,6 @@ class BondTable {
     std::uint32_t partner(std::size_t k, std::size_t m) const { return rows_.partner(k, m); }
     /// Where j stands in the row of k, which has it.
     std::size_t place_of(std::size_t k, std::size_t j) const { return rows_.place_of(k, j); }
-    /// Where k stands in the row of the partner of its bond m.
-    std::size_t way_back(std::size_t k, std::size_t m) const { return rows_.way_back(k, m); }
     Vec<Dim> X(std::size_t k, std::size_t m) const { return rows_.X(k, m); }
     double g(std::size_t k, std::size_t m) const { return rows_.g(k, m); }
     /// The partner sees no change: its vector to k is another one. g is that of X.
