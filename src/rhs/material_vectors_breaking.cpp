@@ -136,9 +136,14 @@ void MaterialVectors<Dim>::tell_breaks(std::vector<Remark>& remarks) {
     std::size_t& told = parts_->told;
     if (breaks.pairs == 0 || breaks.pairs < 2 * told) return;
     told = breaks.pairs;
-    remarks.push_back({"pairs of particles whose bond has broken", static_cast<double>(told)});
-    if (breaks.gains > 0)
-        remarks.push_back({"energy that breaking bonds have taken from heat", breaks.gained});
+    // Filled in place: GCC 12 wrongly warns of a string that is moved out of a temporary.
+    const auto tell = [&](const char* what, double value) {
+        Remark& remark = remarks.emplace_back();
+        remark.what = what;
+        remark.value = value;
+    };
+    tell("pairs of particles whose bond has broken", static_cast<double>(told));
+    if (breaks.gains > 0) tell("energy that breaking bonds have taken from heat", breaks.gained);
 }
 
 template <int Dim>
