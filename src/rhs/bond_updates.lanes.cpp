@@ -63,7 +63,7 @@ SPAM_INLINE void replace_beyond(double* numbers, const T& r2, double limit2, con
 /// MaterialWeight, in lanes.
 SPAM_INLINE T weight_of(const MaterialWeight& weight, const T& length, double range) {
     const T z = positive_part(T(1.0) - length / T(weight.reach * range));
-    if (weight.power == 2.0) return z * z;
+    if (weight.power == 4.0) return (z * z) * (z * z);
     T g;
     for (int l = 0; l < W; ++l)
         set_lane(g, l, lane(z, l) > 0.0 ? __builtin_pow(lane(z, l), weight.power) : 0.0);
