@@ -10,6 +10,9 @@
 
 namespace spam {
 
+template <int Dim>
+struct BondView;
+
 /// How a solid with material vectors is summed.
 struct MaterialVectorScheme {
     double density;  ///< rho_0 at the start, free of stress; sqrt(4/3) m in the triangular lattice
@@ -140,8 +143,8 @@ class MaterialVectors final : public Term<Dim> {
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;
     std::vector<double> energies(const ConstState<Dim>& state) const;
-    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, double* records,
-               bool& whole);
+    bool close(const BondView<Dim>& view, std::size_t first, std::size_t count,
+               const ConstState<Dim>& state, double* records, bool& whole);
     bool flow(const ConstState<Dim>& state);
     bool flow_of_particle(std::size_t k, const ConstState<Dim>& state);
     bool flow_of_bonds(std::size_t k, const Mat<Dim>& F, const ConstState<Dim>& state);
