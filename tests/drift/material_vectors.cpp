@@ -82,7 +82,7 @@ Points<3> ball() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_hexagon_turns_and_nothing_but_its_breathing_changes) {
-    auto model = hexagon(1.0);
+    auto model = hexagon(MaterialVectorScheme::default_penalty);
     const double end = effort(10.0, 0.5) * turn;
     const History h =
         run<2>(model, rigid_rotation(0.1 / 8), {.method = "leapfrog", .dt = 0.3}, end);
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(too_small_a_penalty_for_the_speed) {
 }
 
 BOOST_AUTO_TEST_CASE(to_the_error_of_rk4) {
-    auto model = hexagon(1.0);
+    auto model = hexagon(MaterialVectorScheme::default_penalty);
     const History h = run<2>(model, rigid_rotation(0.1 / 8), {.method = "rk4", .dt = 0.1},
                              effort(1.0, 0.1) * turn);
     BOOST_TEST(h.largest("shape_error") < 0.0216);
