@@ -50,6 +50,7 @@ BOOST_AUTO_TEST_CASE(material_vectors_that_fly_apart_neck_twice) {
                          "--disorder", "0", "--end-speed", "0.4", "--yield-stress", "0.03",
                          "--tension-limit", "0.06", "--penalty", "1"},
                         "pieces");
+    BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("pieces") == 3.0);
     BOOST_TEST(found.value.at("difference_of_ends") == 0.0);
     BOOST_TEST(found.value.at("closest_pair") > 0.65);
