@@ -26,7 +26,7 @@ Known known_of(MatterKind kind) {
         case MatterKind::embedded_atom:
             return {2.5e-5, 0.1, 0.05, 0.025, 0.01725, 0.00225};
         case MatterKind::material_vectors:
-            return {7e-6, 0.2, 0.25, 0.0135, 0.0104, 0.0012};
+            return {7e-6, 0.2, 0.125, 0.0135, 0.0116, 0.0012};
         case MatterKind::spam:
         case MatterKind::elements:
         case MatterKind::all:
