@@ -116,7 +116,7 @@ void add_options(Options& options, Parameters& p) {
     options
         .number("penalty", p.penalty,
                 "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-                "material_vectors (default 1)",
+                "material_vectors (default 2)",
                 non_negative())
         .only_when(
             {"formulation"}, [&p] { return p.remembers(); },

@@ -46,7 +46,9 @@ struct Parameters {
     ContactScheme contact{};
 
     double kappa() const {
-        return penalty.value_or(formulation == Formulation::material_vectors ? 1.0 : 0.1);
+        return penalty.value_or(formulation == Formulation::material_vectors
+                                    ? MaterialVectorScheme::default_penalty
+                                    : 0.1);
     }
 };
 
@@ -207,7 +209,7 @@ void add_options(Options& options, Parameters& p) {
     options
         .number("penalty", p.penalty,
                 "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-                "material_vectors (default 1)",
+                "material_vectors (default 2)",
                 non_negative())
         .only_when(
             {"formulation"}, [&p] { return p.formulation != Formulation::updated; },

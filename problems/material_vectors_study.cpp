@@ -12,8 +12,8 @@
 //     projectile   91 particles through a bar that yields and tears at 0.05, speed 1
 //
 // Beginning with the library's own choice, one number is changed at a time, then penalty and power together.
-// One scheme beats another where it bears no less tension, bends as right and knows no more of disorder (by 2
-// percent). Of the library's own choice a beam of 6, 12 and 24 rows: the order at which the period converges.
+// One scheme beats another of no shorter range, which costs more, where it bears no less tension, bends as right
+// and knows no more of disorder (by 2 percent). Of the library's own choice a beam of 6, 12 and 24 rows: the order at which the period converges.
 // Numbers of the projectile scatter: what breaks where is decided by the last digits.
 #include "material_vectors_study/trials.hpp"
 #include <spam/picture/draw.hpp>
@@ -142,8 +142,8 @@ bool beats(const Row& a, const Row& b) {
     const double tension = cell(a, "tension_borne") - cell(b, "tension_borne");
     const double error = std::abs(cell(b, "beam_error")) - std::abs(cell(a, "beam_error"));
     const double order = std::abs(cell(b, "disorder_error")) - std::abs(cell(a, "disorder_error"));
-    return tension > -0.01 && error > -1e-3 && order > -0.02 &&
-           (tension > 0.03 || error > 3e-3 || order > 0.02);
+    return cell(a, "range") <= cell(b, "range") && tension > -0.01 && error > -1e-3 &&
+           order > -0.02 && (tension > 0.03 || error > 3e-3 || order > 0.02);
 }
 
 /// Tension that it bears by the error of the beam, of those that beat the first; the first where none does.
@@ -185,7 +185,7 @@ void report(Session& session, const std::vector<Row>& rows) {
     };
     session.measure("tension_borne", cell(own, "tension_borne"), "by the shear modulus");
     session.check(
-        {"lowest_frequency", cell(own, "lowest_frequency"), 0.319, 2e-3,
+        {"lowest_frequency", cell(own, "lowest_frequency"), 0.551, 2e-3,
          "omega/(c_T k) over all waves free of stress, tests/diagnostics/bonded_lattice.cpp: "
          "no mode without energy but translations"});
     for (const char* name : {"beam_error_coarse", "beam_error", "beam_error_fine", "disorder_error",

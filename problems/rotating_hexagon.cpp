@@ -250,7 +250,7 @@ int main(int argc, char** argv) {
     options.number(
         "penalty", p.penalty,
         "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-        "material_vectors (default 1, stable up to a tension of 0.2; the run's first lines "
+        "material_vectors (default 2, stable up to a tension of 0.43; the run's first lines "
         "say it of other values)",
         non_negative());
 

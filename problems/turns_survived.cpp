@@ -99,7 +99,7 @@ std::unique_ptr<Model<2>> model_of(const Parameters& p, const Contestant& one) {
     if (one.kind == Contestant::vectors)
         return std::make_unique<MaterialVectorModel<2>>(
             std::move(particles), PolynomialSolid::like(solid),
-            MaterialVectorScheme{std::sqrt(4.0 / 3.0), 3.0, 1.0});
+            MaterialVectorScheme{.density = std::sqrt(4.0 / 3.0)});
     return std::make_unique<SmoothParticleModel<2>>(std::move(particles), solid, one.scheme);
 }
 

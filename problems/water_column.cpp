@@ -149,7 +149,7 @@ void add_options(Options& options, Parameters& p) {
 
 int main(int argc, char** argv) {
     spam::Problem problem("water_column",
-                          "a column of water comes to rest and collapses, [HH07] 11", 0.05);
+                          "a column of water comes to rest and collapses, [HH07] 11", 0.04);
     water_column::Parameters p;
     water_column::add_options(problem.options(), p);
     const spam::Sides sides(problem.options(), {"mirror", "mirror", "mirror", ""});

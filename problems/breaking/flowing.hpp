@@ -15,11 +15,11 @@ using namespace spam;
 
 /// Of the triangular lattice of spacing and masses 1.
 struct FlowingMatter {
-    double yield_stress = 0.05;   ///< Y, of von Mises' q
-    double tension_limit = 0.05;  ///< p_c, of the mean tension
-    double penalty = 1.0;         ///< kappa
-    double range = 3.0;           ///< h
-    double bond_yield = 0.0;      ///< of misfits, by the yield strain; 0: they do not flow
+    double yield_stress = 0.05;                              ///< Y, of von Mises' q
+    double tension_limit = 0.05;                             ///< p_c, of the mean tension
+    double penalty = MaterialVectorScheme::default_penalty;  ///< kappa
+    double range = 3.0;                                      ///< h
+    double bond_yield = 0.0;  ///< of misfits, by the yield strain; 0: they do not flow
     std::optional<double> stretch_limit{}, stress_limit{};  ///< beyond which bonds break
     double core = 0.0;                                      ///< e_c
     double core_range = 0.8;

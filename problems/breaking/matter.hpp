@@ -4,6 +4,7 @@
 #pragma once
 
 #include <spam/rhs/contact.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/spam.hpp>
 
 #include <optional>
@@ -34,11 +35,11 @@ struct Matter {
     std::optional<double> yield_stress{};  ///< Y of solids
     double hardening = 0.0;                ///< H
     std::optional<double> failure_strain{};
-    std::optional<double> tension_limit{};  ///< p_c of material vectors
-    double penalty = 1.0;                   ///< kappa of material vectors
-    double strength = 0.2;                  ///< s_c of embedded atoms
-    double surface_tension = 0.1;           ///< s_g of embedded atoms
-    double core = 1.0;                      ///< e_c
+    std::optional<double> tension_limit{};                   ///< p_c of material vectors
+    double penalty = MaterialVectorScheme::default_penalty;  ///< kappa of material vectors
+    double strength = 0.2;                                   ///< s_c of embedded atoms
+    double surface_tension = 0.1;                            ///< s_g of embedded atoms
+    double core = 1.0;                                       ///< e_c
     double core_range = 0.8;
     double disorder = 0.01;  ///< largest random displacement at the start
     int seed = 1;

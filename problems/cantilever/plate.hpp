@@ -4,6 +4,7 @@
 #include "../formulation.hpp"
 #include "beam.hpp"
 #include <spam/problem/nearest_state.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/spam.hpp>
 
 namespace cantilever {
@@ -26,7 +27,9 @@ struct Parameters {
     bool remembers() const { return lagrangian() || vectors(); }
     /// In spacings. Shorter sums over present neighbours lose the order of the particles.
     double range() const { return given_range.value_or(remembers() ? 2.0 : 2.6); }
-    double kappa() const { return penalty.value_or(lagrangian() ? 0.1 : 1.0); }
+    double kappa() const {
+        return penalty.value_or(lagrangian() ? 0.1 : MaterialVectorScheme::default_penalty);
+    }
     double spacing(int n) const { return beam.thickness / n; }
 };
 

@@ -4,6 +4,7 @@
 
 #include "../formulation.hpp"
 #include <spam/problem/nearest_state.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/spam.hpp>
 
 #include <numbers>
@@ -35,7 +36,9 @@ struct Parameters {
     bool lagrangian() const { return !md() && formulation == Formulation::total_lagrangian; }
     bool material_vectors() const { return !md() && formulation == Formulation::material_vectors; }
     bool remembers() const { return lagrangian() || material_vectors(); }
-    double kappa() const { return penalty.value_or(lagrangian() ? 0.1 : 1.0); }
+    double kappa() const {
+        return penalty.value_or(lagrangian() ? 0.1 : MaterialVectorScheme::default_penalty);
+    }
 };
 
 struct Hexagon {

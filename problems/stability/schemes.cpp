@@ -96,7 +96,7 @@ std::vector<Analysed> material_vectors(const Parameters& p, double range, bool s
     if (p.memoryless) return {vectors(p, range, 0.0, BondMemory::renewed, "")};
     if (single) return {vectors(p, range, *p.penalty, BondMemory::kept, "")};
     std::vector<Analysed> all{vectors(p, range, 0.0, BondMemory::renewed, "no_memory")};
-    for (const double penalty : {0.0, 0.1, 0.3, 1.0, 3.0})
+    for (const double penalty : {0.0, 0.1, 0.3, 1.0, 2.0})
         all.push_back(
             vectors(p, range, penalty, BondMemory::kept, fmt::format("penalty_{:g}", penalty)));
     return all;

@@ -41,7 +41,7 @@ void set_pressure(const Model<2>& model, std::vector<double>& y,
 
 double step_of(const Parameters& p, double nu) {
     return std::min(
-        {0.125 * p.scheme.range, 0.4 / nu, 0.5 * p.scheme.range / (4.0 * p.scheme.shifting)});
+        {0.1 * p.scheme.range, 0.4 / nu, 0.5 * p.scheme.range / (4.0 * p.scheme.shifting)});
 }
 
 void add_options(Options& options, Parameters& p, const std::string& speed_of_what) {

@@ -101,16 +101,15 @@ class ClusterList<Dim>::CellSearch {
         Candidates<Dim> near = from;
         float low[Dim], high[Dim];
         float* x[Dim];
-        if (level.slots.size() < most) level.slots.resize(most);
+        level.provide(most);
         for (std::size_t a = 0; a < Dim; ++a) {
-            if (level.x[a].size() < most) level.x[a].resize(most);
-            near.x[a] = x[a] = level.x[a].data();
+            near.x[a] = x[a] = level.x[a].get();
             const auto unit = [&](double c) { return (c - cells_.middle[a]) * cells_.scale; };
             low[a] = static_cast<float>(unit(corners.low[a]) - Cells::rounding);
             high[a] = static_cast<float>(unit(corners.high[a]) + Cells::rounding);
         }
-        near.slots = level.slots.data();
-        near.count = search_.narrow(from, low, high, x, level.slots.data());
+        near.slots = level.slots.get();
+        near.count = search_.narrow(from, low, high, x, level.slots.get());
         return near;
     }
 

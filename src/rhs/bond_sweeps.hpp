@@ -104,6 +104,9 @@ struct BondUpdates {
     /// |r|^2 > stretch2 |X|^2; `found` begins with that of the first group.
     void (*beyond)(const BondView<Dim>&, const double* records, double misfit2, double stretch2,
                    unsigned char* found, std::size_t first, std::size_t last) = nullptr;
+    /// By F of records: sum w |e|^2, where c is.
+    void (*misfits)(const BondView<Dim>&, double* records, std::size_t first,
+                    std::size_t last) = nullptr;
 };
 
 template <int Dim, InstructionSet Level>

@@ -63,7 +63,7 @@ SPAM_INLINE void replace_beyond(double* numbers, const T& r2, double limit2, con
 /// MaterialWeight, in lanes.
 SPAM_INLINE T weight_of(const MaterialWeight& weight, const T& length, double range) {
     const T z = positive_part(T(1.0) - length / T(weight.reach * range));
-    if (weight.power == 2.0) return z * z;
+    if (weight.power == 4.0) return (z * z) * (z * z);
     T g;
     for (int l = 0; l < W; ++l)
         set_lane(g, l, lane(z, l) > 0.0 ? __builtin_pow(lane(z, l), weight.power) : 0.0);
@@ -135,13 +135,36 @@ void beyond(const BondView<Dim>& view, const double* records, double misfit2, do
     }
 }
 
+template <int Dim, bool Periodic>
+void misfits(const BondView<Dim>& view, double* records, std::size_t first, std::size_t last) {
+    using R = BondRecord<Dim>;
+    for (std::size_t group = first; group < last; ++group) {
+        double* const own = records + (group - first) * W * R::numbers;
+        Mat<Dim, T> F;
+        for (std::size_t c = 0; c < R::square; ++c)
+            F.c[c] = from_records(own, R::numbers, R::F + c);
+        const Vec<Dim, T> x_k = load_group<Dim>(view, group);
+        T misfit{};
+        for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
+            const Vec<Dim, T> r = separations<Dim, Periodic>(view, bond, x_k);
+            Vec<Dim, T> X;
+            T g;
+            load_vector(view, bond, X, g);
+            const Vec<Dim, T> e = r - F * X;
+            misfit += g * BondFade<T>(dot(r, r), view.inverse_range).s * dot(e, e);
+        }
+        to_records(own, R::numbers, R::c, misfit);
+    }
+}
+
 }  // namespace
 
 template <int Dim, InstructionSet Level>
 BondUpdates<Dim> bond_updates(bool periodic) {
     const auto all = [](auto across) {
         constexpr bool Periodic = decltype(across)::value;
-        return BondUpdates<Dim>{count<Dim>, renew<Dim, Periodic>, beyond<Dim, Periodic>};
+        return BondUpdates<Dim>{count<Dim>, renew<Dim, Periodic>, beyond<Dim, Periodic>,
+                                misfits<Dim, Periodic>};
     };
     return periodic ? all(std::true_type{}) : all(std::false_type{});
 }

@@ -13,6 +13,14 @@
 
 namespace spam {
 
+/// What the bonds of one particle say.
+template <int Dim>
+struct MaterialVectors<Dim>::Fit {
+    Mat<Dim> F;
+    SymTensor<Dim> K;  ///< N^-1
+    double misfit = 0.0;
+};
+
 template <int Dim>
 struct MaterialVectors<Dim>::Parts {
     using Record = BondRecord<Dim>;
@@ -66,6 +74,32 @@ struct MaterialVectors<Dim>::Parts {
             },
             table.block);
     }
+    /// body(k, fit) for all particles, in any order. Blocks are fitted in lanes.
+    template <class Body>
+    void each_fit(const double* x, const Body& body) {
+        table.load(x);
+        const BondView<Dim> shown = view();
+        const auto lanes = static_cast<std::size_t>(sweeps.lanes);
+        const std::size_t each = table.block / lanes;
+        parallel_for(
+            table.blocks(),
+            [&](std::size_t b) {
+                std::array<double, BondTable<Dim>::block * Record::numbers> records;
+                const std::size_t first = b * each, last = std::min(table.groups(), first + each);
+                sweeps.gradients(shown, records.data(), first, last);
+                table.loops().misfits(shown, records.data(), first, last);
+                for (std::size_t k = first * lanes; k < std::min(last * lanes, shown.particles);
+                     ++k) {
+                    const double* const record = &records[(k - first * lanes) * Record::numbers];
+                    Fit fit;
+                    std::copy_n(record + Record::F, fit.F.c.size(), fit.F.c.begin());
+                    std::copy_n(record + Record::K, fit.K.c.size(), fit.K.c.begin());
+                    fit.misfit = record[Record::c];
+                    body(k, fit);
+                }
+            },
+            table.block);
+    }
     void book(std::size_t k, double loss) { heat[k] += loss; }
     bool excludes(std::uint32_t k, std::uint32_t j) const {
         return std::binary_search(excluded.begin(), excluded.end(),
@@ -105,14 +139,6 @@ struct MaterialVectors<Dim>::Parts {
     const BondSchedule& schedule() {
         return table.schedule(static_cast<std::size_t>(set_threads(0)));
     }
-};
-
-/// What the bonds of one particle say, in plain numbers: for what is not done in every right-hand side.
-template <int Dim>
-struct MaterialVectors<Dim>::Fit {
-    Mat<Dim> F;
-    SymTensor<Dim> K;  ///< N^-1
-    double misfit = 0.0;
 };
 
 }  // namespace spam

@@ -112,12 +112,23 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
 /// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. Returns false
 /// where a stress is not finite.
 template <int Dim>
-bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const ConstState<Dim>& state,
-                                 double* records, bool& whole) {
+bool MaterialVectors<Dim>::close(const BondView<Dim>& view, std::size_t first, std::size_t count,
+                                 const ConstState<Dim>& state, double* records, bool& whole) {
     using Record = BondRecord<Dim>;
     if (!material_.stresses({&parts_->numbers[first], count}, Record::numbers, records + Record::F,
                             records + Record::G, state))
         return false;
+    const auto spans_of = [&](std::size_t i) {
+        SymTensor<Dim> K;
+        read(records + i * Record::numbers + Record::K, K);
+        return Wholeness::of(K, parts_->N0);
+    };
+    for (std::size_t i = 0; i < count && whole; ++i) whole = !(spans_of(i).slope > 0.0);
+    if (!whole) {
+        const auto lanes = static_cast<std::size_t>(parts_->sweeps.lanes);
+        parts_->table.loops().misfits(view, records, first / lanes,
+                                      (first + count + lanes - 1) / lanes);
+    }
     for (std::size_t i = 0; i < count; ++i) {
         double* const record = records + i * Record::numbers;
         SymTensor<Dim> K, H;
@@ -126,23 +137,21 @@ bool MaterialVectors<Dim>::close(std::size_t first, std::size_t count, const Con
         read(record + Record::G, P);
         const double V = parts_->volume[first + i];
         const Wholeness spans = Wholeness::of(K, parts_->N0);
-        record[Record::c] = spans.th * V * parts_->stiffness;
         const Mat<Dim> G = (V * spans.th) * (P * K);
         std::copy(G.c.begin(), G.c.end(), record + Record::G);
         if (spans.slope > 0.0) {
-            whole = false;
             Mat<Dim> F, root;
             read(record + Record::F, F);
             for (int a = 0; a < Dim; ++a)
                 for (int b = 0; b < Dim; ++b) root(a, b) = K(a, b);
             const Mat<Dim> square = root * K;
-            const double misfit = fit(state.position().data(), first + i).misfit;
-            const double by =
-                V * spans.slope *
-                (material_.energy(first + i, F, state) + 0.5 * parts_->stiffness * misfit);
+            const double by = V * spans.slope *
+                              (material_.energy(first + i, F, state) +
+                               0.5 * parts_->stiffness * record[Record::c]);
             for (int a = 0; a < Dim; ++a)
                 for (int b = a; b < Dim; ++b) H(a, b) = by * square(a, b);
         }
+        record[Record::c] = spans.th * V * parts_->stiffness;
         std::copy(H.c.begin(), H.c.end(), record + Record::H);
     }
     return true;
@@ -164,7 +173,7 @@ std::string MaterialVectors<Dim>::rates(const Now& now) {
                   records.data() + (last - first) * lanes * numbers, 0.0);
         p.sweeps.fit(view, records.data(), first, last);
         bool whole = true;
-        if (!close(k, filled, now.state, records.data(), whole)) finite = false;
+        if (!close(view, k, filled, now.state, records.data(), whole)) finite = false;
         p.sweeps.forces(view, records.data(), whole, now.v_dot, first, last);
     };
     const double* const mass = this->particles().mass.data();

@@ -42,10 +42,10 @@ double MaterialVectors<Dim>::energy_of(const Fit& fit, std::size_t k,
 
 template <int Dim>
 std::vector<double> MaterialVectors<Dim>::energies(const ConstState<Dim>& state) const {
-    const double* const x = state.position().data();
     std::vector<double> energies(parts_->numbers.size());
-    parallel_for(energies.size(),
-                 [&](std::size_t k) { energies[k] = energy_of(fit(x, k), k, state); });
+    parts_->each_fit(state.position().data(), [&](std::size_t k, const Fit& fit) {
+        energies[k] = energy_of(fit, k, state);
+    });
     return energies;
 }
 
@@ -118,9 +118,9 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
 
 template <int Dim>
 std::vector<Mat<Dim>> MaterialVectors<Dim>::deformation_gradients(std::span<const double> y) const {
-    const double* const x = this->state_of(y).position().data();
     std::vector<Mat<Dim>> F(parts_->numbers.size());
-    parallel_for(F.size(), [&](std::size_t k) { F[k] = fit(x, k).F; });
+    parts_->each_fit(this->state_of(y).position().data(),
+                     [&](std::size_t k, const Fit& fit) { F[k] = fit.F; });
     return F;
 }
 

@@ -12,10 +12,8 @@ namespace spam {
 template <int Dim>
 double MaterialVectors<Dim>::largest_tension(std::span<const double> y) const {
     const ConstState<Dim> state = this->state_of(y);
-    const double* const x = state.position().data();
     std::vector<double> largest(parts_->numbers.size());
-    parallel_for(largest.size(), [&](std::size_t k) {
-        const Fit now = fit(x, k);
+    parts_->each_fit(state.position().data(), [&](std::size_t k, const Fit& now) {
         const double J = determinant(now.F);
         Mat<Dim> P;
         largest[k] = -HUGE_VAL;

@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(hermitian_with_memory) {
 BOOST_AUTO_TEST_CASE(no_zero_energy_modes_but_translations) {
     // smallest omega/(c_T k) at rest, rising with the root of kappa
     const std::pair<double, double> known[] = {
-        {0.1, 0.101}, {0.3, 0.175}, {1.0, 0.319}, {3.0, 0.553}};
+        {0.1, 0.123}, {0.3, 0.213}, {1.0, 0.389}, {2.0, 0.551}, {3.0, 0.674}};
     for (const auto& [penalty, lowest] : known) {
         const Extremes found = extremes(stress(0.0, 0.0, 0.0), penalty);
         BOOST_TEST(found.growth == 0.0);
@@ -188,13 +188,13 @@ BOOST_AUTO_TEST_CASE(nothing_grows_under_tension) {
          {stress(0.02, 0.02, 0.0), stress(0.2, 0.2, 0.0), stress(0.3, 0.3, 0.0),
           stress(0.1, 0.1, 0.05), stress(0.05, -0.05, 0.0), stress(-0.2, -0.2, 0.0)})
         BOOST_TEST(extremes(cauchy, 1.0).growth < 1e-8);
-    BOOST_TEST(std::abs(extremes(stress(0.02, 0.02, 0.0), 1.0).lowest - 0.314) < 1e-3);
+    BOOST_TEST(std::abs(extremes(stress(0.02, 0.02, 0.0), 1.0).lowest - 0.3916) < 1e-3);
     // too small a penalty, none, and no memory
-    BOOST_TEST(extremes(stress(0.2, 0.2, 0.0), 0.3).growth > 0.2);
+    BOOST_TEST(extremes(stress(0.4, 0.4, 0.0), 0.3).growth > 0.1);
     BOOST_TEST(extremes(stress(0.02, 0.02, 0.0), 0.0).growth > 0.1);
     const double forgetful =
         extremes(stress(0.02, 0.02, 0.0), 0.0, 3.0, 60, BondMemory::renewed).growth;
-    BOOST_TEST(std::abs(forgetful - 0.0863) < 5e-4);
+    BOOST_TEST(std::abs(forgetful - 0.1010) < 5e-4);
     BOOST_TEST(extremes(stress(0.0, 0.0, 0.0), 0.0, 3.0, 24, BondMemory::renewed).growth < 1e-7);
 }
 

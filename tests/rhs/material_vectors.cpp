@@ -79,8 +79,8 @@ double slope_error(const std::vector<double>& y, const std::vector<double>& forc
         return (energy(forward) - energy(backward)) / (2.0 * h);
     };
     double worst = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < force.size(); k += 1 + force.size() / 40) {
-        const double slope = (4.0 * difference(k, 2e-4) - difference(k, 4e-4)) / 3.0;
+    for (std::size_t k = 0; k < force.size(); k += 1) {
+        const double slope = (4.0 * difference(k, 4e-5) - difference(k, 8e-5)) / 3.0;
         worst = std::max(worst, std::abs(force[k] + slope));
         size = std::max(size, std::abs(force[k]));
     }
@@ -122,7 +122,7 @@ void check_properties() {
             BOOST_TEST_CONTEXT(Dim << " dimensions, penalty " << penalty
                                    << (new_neighbours ? ", new neighbours" : "")) {
                 auto model = model_of<Dim>(penalty);
-                constexpr unsigned seed = Dim == 2 ? 94 : 96;
+                constexpr unsigned seed = Dim == 2 ? 93 : 96;
                 auto y = torn_state<Dim>(model, seed);
                 if (new_neighbours) {
                     settle<Dim>(model, y);
@@ -144,7 +144,7 @@ void check_properties() {
 template <int Dim>
 void check_that_they_can_fail() {
     auto model = model_of<Dim>(1.0);
-    const auto y = torn_state<Dim>(model, Dim == 2 ? 94 : 96);
+    const auto y = torn_state<Dim>(model, Dim == 2 ? 93 : 96);
     const auto wrong = [&](BondMutation mutation) {
         return MaterialVectorOracle<Dim>(model, 0.7, 0.4, y, mutation);
     };

@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(states_that_are_not_accepted_leave_no_trace) {
     BOOST_TEST((rates_of(model, y) == one));
 }
 
-/// Once, in a run that goes on from a checkpoint as well; 0.143 = 0.43 * 0.6/1.8 (safe_tension).
+/// Once, in a run that goes on from a checkpoint as well; 0.313 = 0.43 * 1.6/2.2 (safe_tension).
 BOOST_AUTO_TEST_CASE(tension_above_what_the_penalty_keeps_stable) {
     const auto stretched = [](MaterialVectorModel<2>& model, double by) {
         std::vector<double> y = initial_state<2>(model, 1.2, 0.43, at_rest<2>());
@@ -98,10 +98,10 @@ BOOST_AUTO_TEST_CASE(tension_above_what_the_penalty_keeps_stable) {
             MaterialVectorScheme{1.2, 2.6, penalty});
     };
     const auto model = make(1.0);
-    const auto gently = stretched(*model, 1.07), strongly = stretched(*model, 1.09),
+    const auto gently = stretched(*model, 1.15), strongly = stretched(*model, 1.18),
                compressed = stretched(*model, 0.9);
     // hydrostatic: (lambda + eta) (f^2 - 1)
-    BOOST_TEST(std::abs(model->law.largest_tension(gently) - 0.86 * (1.07 * 1.07 - 1.0)) < 1e-12);
+    BOOST_TEST(std::abs(model->law.largest_tension(gently) - 0.86 * (1.15 * 1.15 - 1.0)) < 1e-12);
     BOOST_TEST(std::abs(model->law.largest_tension(compressed) - 0.86 * (0.81 - 1.0)) < 1e-12);
     for (int step = 0; step < 100; ++step) {
         BOOST_TEST(model->watch(0.1 * step, gently).empty());
@@ -112,11 +112,11 @@ BOOST_AUTO_TEST_CASE(tension_above_what_the_penalty_keeps_stable) {
     for (int step = 0; step < 100; ++step)
         for (const Remark& remark : model->watch(0.1 * step, strongly)) all.push_back(remark);
     BOOST_REQUIRE(all.size() == 1);
-    BOOST_TEST(all[0].what == "tension above the 0.143 that penalty kappa = 1 keeps stable");
-    BOOST_TEST(std::abs(all[0].value - 0.86 * (1.09 * 1.09 - 1.0)) < 1e-12);
+    BOOST_TEST(all[0].what == "tension above the 0.313 that penalty kappa = 1 keeps stable");
+    BOOST_TEST(std::abs(all[0].value - 0.86 * (1.18 * 1.18 - 1.0)) < 1e-12);
     BOOST_TEST(!all[0].stop);
     BOOST_TEST((rates_of(*model, strongly) == before));
-    BOOST_TEST(model->describe().find("stable up to a tension of 0.143") != std::string::npos);
+    BOOST_TEST(model->describe().find("stable up to a tension of 0.313") != std::string::npos);
 
     Archive written;
     model->remember(written);
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(energy_is_kept_while_neighbours_change) {
                                  << sheared.model.list_builds());
     }
     BOOST_TEST(error[2] < 1e-5);
-    BOOST_TEST(error[2] < 0.2 * error[1]);
+    BOOST_TEST(error[2] < 0.2 * 0.2 * error[0]);
 }
 
 BOOST_AUTO_TEST_CASE(bodies_do_not_see_each_other) {

@@ -65,7 +65,7 @@ const std::vector<Law> laws{
          m.template add_term<MaterialVectors<2>>(PolynomialSolid{0.43, 0.43},
                                                  MaterialVectorScheme{site_density});
      },
-     0.2},
+     0.1},
     {"springs", [](auto& m) { m.template add_term<Springs<2>>(HarmonicSpring{}); }, 0.1},
     {"Lucy's potential", [](auto& m) { m.template add_term<LucyPairPotential<2>>(2.6); }, 0.05},
     {"molecules", [](auto& m) { m.template add_term<Cohesion<2>>(); }, 0.005}};

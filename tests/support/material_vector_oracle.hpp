@@ -99,7 +99,7 @@ class MaterialVectorOracle {
     }
     double g(const Vector& X) const {
         if (mutation_ == BondMutation::fixed_weight) return 1.0;
-        return std::pow(std::max(0.0, 1.0 - X.norm() / (1.25 * range_)), 2);
+        return std::pow(std::max(0.0, 1.0 - X.norm() / (1.25 * range_)), 4);
     }
     double reference_trace(std::size_t k) const {
         double trace = 0.0;
@@ -108,7 +108,7 @@ class MaterialVectorOracle {
         for (std::size_t j = 0; j < rows_.size(); ++j) {
             if (j == k) continue;
             const Vector r = separation(start, k, j);
-            const double w = std::pow(std::max(0.0, 1.0 - r.norm() / (1.25 * range_)), 2);
+            const double w = std::pow(std::max(0.0, 1.0 - r.norm() / (1.25 * range_)), 4);
             trace += w * s(r.norm()) * r.squaredNorm();
         }
         return trace;

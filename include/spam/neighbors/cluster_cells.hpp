@@ -4,6 +4,10 @@
 #include <spam/neighbors/cluster_boxes.hpp>
 #include <spam/neighbors/ghosts.hpp>
 
+#include <array>
+#include <cstdint>
+#include <memory>
+
 namespace spam {
 
 /// A coordinate far from all of ClusterCells.
@@ -73,11 +77,21 @@ class ClusterCells {
     std::vector<std::size_t> first_;  ///< of clusters_, by cell
 };
 
-/// Those of all slots that are near a region of cells.
+/// Those of all slots that are near a region of cells. Memory with nothing in it: there is room for as many as
+/// there could be, and what few need of it is all that is touched.
 template <int Dim>
 struct NearLevel {
-    std::array<std::vector<float>, Dim> x;
-    std::vector<std::uint32_t> slots;
+    std::array<std::unique_ptr<float[]>, Dim> x;
+    std::unique_ptr<std::uint32_t[]> slots;
+    std::size_t room = 0;
+
+    /// What was there is lost.
+    void provide(std::size_t most) {
+        if (room >= most) return;
+        for (auto& along : x) along = std::make_unique_for_overwrite<float[]>(most);
+        slots = std::make_unique_for_overwrite<std::uint32_t[]>(most);
+        room = most;
+    }
 };
 
 extern template class ClusterCells<1>;

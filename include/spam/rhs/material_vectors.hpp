@@ -10,13 +10,17 @@
 
 namespace spam {
 
+template <int Dim>
+struct BondView;
+
 /// How a solid with material vectors is summed.
 struct MaterialVectorScheme {
     double density;  ///< rho_0 at the start, free of stress; sqrt(4/3) m in the triangular lattice
     double range = 3.0;  ///< h, beyond which bonds weigh nothing
+    static constexpr double default_penalty = 2.0;
     /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness; above 3 short
     /// waves become stiff.
-    double penalty = 1.0;
+    double penalty = default_penalty;
     /// Where the law yields: no misfit e_kj is longer than this times the yield strain Y/(2 eta) times
     /// |F_k X_kj|; 0: misfits do not flow. Without, plastic flow leaves misfits that harden the body; 2 or less
     /// lets particles clump.
@@ -28,15 +32,16 @@ struct MaterialVectorScheme {
     MaterialWeight weight{};  ///< of bonds, by their material vectors
 
     /// The largest tension (principal Cauchy stress) under which no wave grows: with tau = tension/stiffness
-    ///     kappa >= tau/(0.75 - 0.6 tau) where h is 3 spacings or more, tau/(0.6 - 0.8 tau) below that.
-    /// Under 15 stresses of as many directions, from hydrostatic to shear, growth begins 1.0 to 2.4 times as high
-    /// in triangular lattices, and up to a sixth lower in square ones (kappa > 1, h from 3 spacings). Greater kappa
-    /// helps less and less: a lattice so much strained that shells of neighbours leave the range grows
-    /// unstable anyhow. From the growth rates of BondedLattice (analysis/bonded_lattice.hpp, with its test).
+    ///     kappa >= tau/(2.4 - 1.9 tau) where h is 3 spacings or more, tau/(1.6 - 1.2 tau) below that.
+    /// Of the default weight: a less steep one bears less. Under 15 stresses of as many directions, from hydrostatic
+    /// to shear, growth begins 1.0 to 2.4 times as high in triangular lattices, and up to a sixth lower in square
+    /// ones. Greater kappa helps less and less: a lattice so much strained that shells of neighbours leave the
+    /// range grows unstable anyhow. From the growth rates of BondedLattice (analysis/bonded_lattice.hpp, with its
+    /// test).
     double safe_tension(double stiffness, double spacing) const {
         const bool many = range >= 3.0 * spacing * (1.0 - 1e-9);
         return penalty * stiffness *
-               (many ? 0.75 / (1.0 + 0.6 * penalty) : 0.6 / (1.0 + 0.8 * penalty));
+               (many ? 2.4 / (1.0 + 1.9 * penalty) : 1.6 / (1.0 + 1.2 * penalty));
     }
 };
 
@@ -138,8 +143,8 @@ class MaterialVectors final : public Term<Dim> {
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;
     std::vector<double> energies(const ConstState<Dim>& state) const;
-    bool close(std::size_t first, std::size_t count, const ConstState<Dim>& state, double* records,
-               bool& whole);
+    bool close(const BondView<Dim>& view, std::size_t first, std::size_t count,
+               const ConstState<Dim>& state, double* records, bool& whole);
     bool flow(const ConstState<Dim>& state);
     bool flow_of_particle(std::size_t k, const ConstState<Dim>& state);
     bool flow_of_bonds(std::size_t k, const Mat<Dim>& F, const ConstState<Dim>& state);

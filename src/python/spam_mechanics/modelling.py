@@ -37,7 +37,7 @@ def TotalLagrangian(x, *, material=None, density=None, range=3.0, penalty=0.1, m
     return _solid("total_lagrangian", x, material, density, range, penalty, mass, spacing, box, externals)
 
 
-def MaterialVectors(x, *, material=None, density=None, range=3.0, penalty=1.0, mass=1.0, spacing=1.0,
+def MaterialVectors(x, *, material=None, density=None, range=3.0, penalty=2.0, mass=1.0, spacing=1.0,
                     box=None, externals=()):
     """A solid whose particles remember a material vector for each present neighbour: p, L and E are kept, and
     bodies meet. Arguments as of TotalLagrangian()."""
