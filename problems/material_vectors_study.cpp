@@ -13,7 +13,8 @@
 //
 // Beginning with the library's own choice, one number is changed at a time, then penalty and power together.
 // One scheme beats another of no shorter range, which costs more, where it bears no less tension, bends as right
-// and knows no more of disorder (by 2 percent). Of the library's own choice a beam of 6, 12 and 24 rows: the order at which the period converges.
+// and knows no more of disorder (by 2 percent). Of the library's own choice a beam of 6, 12 and 24 rows: the
+// order at which the period converges.
 // Numbers of the projectile scatter: what breaks where is decided by the last digits.
 #include "material_vectors_study/trials.hpp"
 #include <spam/picture/draw.hpp>

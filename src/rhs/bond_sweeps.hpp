@@ -89,7 +89,7 @@ struct BondSweeps {
                    std::size_t last) = nullptr;
 };
 
-/// After accepted steps, for the groups [first, last).
+/// What is not done in every right-hand side, for the groups [first, last).
 template <int Dim>
 struct BondUpdates {
     /// How many others are nearer than the reach, by particle, of the clusters [first, last) of a list of so many
@@ -104,7 +104,8 @@ struct BondUpdates {
     /// |r|^2 > stretch2 |X|^2; `found` begins with that of the first group.
     void (*beyond)(const BondView<Dim>&, const double* records, double misfit2, double stretch2,
                    unsigned char* found, std::size_t first, std::size_t last) = nullptr;
-    /// By F of records: sum w |e|^2, where c is.
+    /// By F of records: sum w |e|^2, in the place of c. For energies, and for right-hand sides of groups with
+    /// particles that are not whole.
     void (*misfits)(const BondView<Dim>&, double* records, std::size_t first,
                     std::size_t last) = nullptr;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops over bonds after accepted steps.
+// The loops over bonds that not every right-hand side needs.
 #include "bond_lanes.hpp"
 
 #include <type_traits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is not done in every right-hand side: in plain numbers, particle by particle.
+// What is not done in every right-hand side: of all particles in lanes, of single ones in plain numbers.
 #include "material_vector_parts.hpp"
 #include <spam/core/sums.hpp>
 
