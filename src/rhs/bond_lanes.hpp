@@ -21,6 +21,14 @@ SPAM_INLINE void to_records(double* record, std::size_t stride, std::size_t at, 
     for (std::size_t l = 0; l < W; ++l) record[l * stride + at] = lane(x, static_cast<int>(l));
 }
 
+/// W counting numbers below 2^31 that lie together.
+SPAM_INLINE T load_numbers(const std::uint32_t* from) {
+    typedef std::int32_t Integers __attribute__((vector_size(4 * W)));
+    Integers integers;
+    __builtin_memcpy(&integers, from, sizeof integers);
+    return __builtin_convertvector(integers, T::Vector);
+}
+
 /// The Dim numbers that begin at Dim times these indices.
 template <int Dim>
 SPAM_INLINE Vec<Dim, T> load_points(const double* from, const std::uint32_t* index) {

@@ -97,7 +97,16 @@ void BondRows<Dim>::make_room(std::vector<Newcomer>& newcomers) {
             grows = true;
         }
     }
-    if (grows) lay_out(capacity);
+    if (!grows) return;
+    // Where one row has become too short others will: none that is all but full is left so.
+    if (spare > 0) {
+        std::vector<std::uint32_t> longest(groups(), 0);
+        for (std::size_t k = 0; k < particles(); ++k)
+            longest[k / lanes_] = std::max(longest[k / lanes_], count_[k]);
+        for (std::size_t group = 0; group < groups(); ++group)
+            if (longest[group] + 1 >= capacity[group]) capacity[group] = longest[group] + spare;
+    }
+    lay_out(capacity);
 }
 
 template <int Dim>

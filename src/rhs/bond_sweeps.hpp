@@ -55,14 +55,21 @@ struct BondRecord {
                                  c = H + symmetric, numbers = c + 1;
 };
 
+/// What tells who of one or two particles is missing from a row, number by number: how many others there are, the
+/// sum of their numbers and that of the squares of these; exact below ten million particles.
+struct NeighbourSums {
+    static constexpr std::size_t count = 0, sum = 1, squares = 2, numbers = 3;
+};
+
 /// What an update of rows wants to know of a group, by group, and of its particles.
 template <int Dim>
 struct BondRenewal {
     double reach2;  ///< of rows, squared
     double N0;      ///< of a whole particle; 0 where there are no bonds yet
     MaterialWeight weight;
-    const double* neighbours;  ///< within the reach, by particle
-    double* anchoring;         ///< by particle: F^-1, or 1 where there is none
+    double*
+        missing;  ///< by particle: NeighbourSums within the reach; in the end those of whom rows lack
+    double* anchoring;  ///< by particle: F^-1, or 1 where there is none
     struct Lanes {
         unsigned char fewer;  ///< which lanes have fewer bonds left than neighbours
         unsigned char idle;   ///< which have bonds within the range that weigh nothing
@@ -92,8 +99,8 @@ struct BondSweeps {
 /// What is not done in every right-hand side, for the groups [first, last).
 template <int Dim>
 struct BondUpdates {
-    /// How many others are nearer than the reach, by particle, of the clusters [first, last) of a list of so many
-    /// lanes. `records`: Dim + 1 coordinates by slot.
+    /// NeighbourSums of the others that are nearer than the reach, by particle, of the clusters [first, last) of a
+    /// list of so many lanes. `records`: Dim + 1 coordinates and the particle's number by slot.
     void (*count)(const ClusterView&, const double* records, double reach2, double* neighbours,
                   std::size_t first, std::size_t last) = nullptr;
     /// What an update of rows does to the bonds that are there: those whose partners are not nearer than the reach

@@ -18,7 +18,7 @@ constexpr double list_skin = 0.25;
 
 template <int Dim>
 constexpr auto position_kinds() {
-    std::array<NumberKind, Dim + 1> kinds{};  // the last one is the body
+    std::array<NumberKind, Dim + 2> kinds{};  // the last ones are the body and the particle
     for (std::size_t a = 0; a < Dim; ++a)
         kinds[a] = {Quantity::position, static_cast<unsigned char>(a)};
     return kinds;
@@ -59,12 +59,12 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
       box_(box),
       loops_(loops),
       bodies_(std::move(bodies)),
-      list_((1.0 + skin) * range, list_skin * range, box.of_images(), lanes, Dim + 1),
+      list_((1.0 + skin) * range, list_skin * range, box.of_images(), lanes, Dim + 2),
       rows_(static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(lanes)) {
     require_one_image(box, (1.0 + skin) * range);
     const std::size_t filled = groups() * rows_.lanes();
     x_.assign(filled * Dim, 0.0);
-    neighbours_.assign(filled, 0.0);
+    missing_.assign(filled * NeighbourSums::numbers, 0.0);
     anchoring_.assign(filled * Dim * Dim, 0.0);
     renew(x, 0.0);
     admit();
@@ -95,8 +95,14 @@ Vec<Dim> BondTable<Dim>::separation(const double* x, std::size_t k, std::size_t 
 }
 
 template <int Dim>
-void BondTable<Dim>::load(const double* x) {
-    double* const to = x_.data();
+std::vector<double> BondTable<Dim>::positions(const double* x) const {
+    std::vector<double> placed(x_.size(), 0.0);
+    place(x, placed.data());
+    return placed;
+}
+
+template <int Dim>
+void BondTable<Dim>::place(const double* x, double* to) const {
     if (!box_.periodic()) {
         parallel_for(particles(), [=](std::size_t i) {
             for (std::size_t a = 0; a < Dim; ++a) to[i * Dim + a] = x[i * Dim + a];
@@ -134,10 +140,10 @@ void BondTable<Dim>::list_neighbours(const Eigen::Ref<const Points<Dim>>& x) {
     rows_.tidy();
 }
 
-/// How many of its body are nearer than range + skin, by particle.
+/// NeighbourSums of those of its body that are nearer than range + skin, by particle.
 template <int Dim>
 void BondTable<Dim>::count_neighbours(const double* x) {
-    constexpr std::size_t stride = Dim + 1;
+    constexpr std::size_t stride = Dim + 2;
     const double reach = (1.0 + skin) * range_;
     records_.resize(list_.slots() * stride);
     const Home<Dim> home = list_.home();
@@ -147,12 +153,12 @@ void BondTable<Dim>::count_neighbours(const double* x) {
         double* const record = &records_[slot * stride];
         for (std::size_t a = 0; a < Dim; ++a) record[a] = home(i, a, x[i * Dim + a]);
         record[Dim] = 2.0 * reach * bodies_[i];  // another body is far away
+        record[Dim + 1] = static_cast<double>(i);
     });
     list_.refresh(records_.data(), position_kinds<Dim>());
     const ClusterView view = list_.view();
     parallel_blocks(view.clusters, [&](std::size_t first, std::size_t count) {
-        loops_.count(view, records_.data(), reach * reach, neighbours_.data(), first,
-                     first + count);
+        loops_.count(view, records_.data(), reach * reach, missing_.data(), first, first + count);
     });
 }
 
@@ -160,14 +166,14 @@ template <int Dim>
 template <class Partners>
 void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& partners,
                                   std::vector<Newcomer>& newcomers) const {
-    constexpr std::size_t stride = Dim + 1;
+    constexpr std::size_t stride = Dim + 2;
     const double reach2 = (1.0 + skin) * (1.0 + skin) * range_ * range_;
     const std::size_t cluster = slot_of_[k] / rows_.lanes(), before = newcomers.size();
     const double* const own = &records_[slot_of_[k] * stride];
     partners.take(rows_, k);
     for (const std::uint32_t entry : list_.entries(cluster)) {
         double r2 = 0.0;
-        for (std::size_t a = 0; a < stride; ++a) {
+        for (std::size_t a = 0; a <= Dim; ++a) {
             const double r = records_[entry + a] - own[a];
             r2 += r * r;
         }
@@ -182,6 +188,41 @@ void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& part
     newcomers.erase(std::unique(begin, newcomers.end(),
                                 [](const Newcomer& a, const Newcomer& b) { return a.j == b.j; }),
                     newcomers.end());
+}
+
+/// One or two follow from how many are missing, the sum of their numbers and that of the squares. False where these
+/// say something else.
+template <int Dim>
+bool BondTable<Dim>::newcomers_by_sums(std::size_t k, const double* x,
+                                       std::vector<Newcomer>& newcomers) const {
+    using N = NeighbourSums;
+    const double* const missing = &missing_[k * N::numbers];
+    const double sum = missing[N::sum], squares = missing[N::squares];
+    std::array<double, 2> numbers{sum, sum};
+    std::size_t count = 1;
+    if (missing[N::count] == 2.0) {
+        const double apart = std::round(std::sqrt(std::max(0.0, 2.0 * squares - sum * sum)));
+        numbers = {0.5 * (sum - apart), 0.5 * (sum + apart)};
+        count = 2;
+    } else if (missing[N::count] != 1.0) {
+        return false;
+    }
+    const double own = count == 1 ? sum * sum : numbers[0] * numbers[0] + numbers[1] * numbers[1];
+    if (own != squares || (count == 2 && !(numbers[0] < numbers[1]))) return false;
+    const double reach2 = (1.0 + 1e-9) * (1.0 + skin) * (1.0 + skin) * range_ * range_;
+    std::array<Newcomer, 2> found;
+    for (std::size_t n = 0; n < count; ++n) {
+        const double number = numbers[n];
+        if (!(number >= 0.0 && number < static_cast<double>(particles())) ||
+            number != std::floor(number))
+            return false;
+        const auto j = static_cast<std::uint32_t>(number);
+        if (j == k || bodies_[j] != bodies_[k]) return false;
+        found[n] = {static_cast<std::uint32_t>(k), j, separation(x, k, j)};
+        if (!(dot(found[n].r, found[n].r) < reach2)) return false;
+    }
+    newcomers.insert(newcomers.end(), found.begin(), found.begin() + count);
+    return true;
 }
 
 template <int Dim>
@@ -203,7 +244,7 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
     count_neighbours(x.data());
     const double reach = (1.0 + skin) * range_;
     std::vector<typename BondRenewal<Dim>::Lanes> found(groups());
-    const BondRenewal<Dim> renewal{reach * reach,     N0,          weight_, neighbours_.data(),
+    const BondRenewal<Dim> renewal{reach * reach,     N0,          weight_, missing_.data(),
                                    anchoring_.data(), found.data()};
     const BondView<Dim> view = this->view(N0);
     struct Found {
@@ -222,7 +263,8 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
                 gone += found[group].gone;
                 for (std::size_t l = 0; l < lanes; ++l) {
                     const std::size_t k = group * lanes + l;
-                    if ((found[group].fewer >> l & 1) != 0)
+                    if ((found[group].fewer >> l & 1) != 0 &&
+                        !newcomers_by_sums(k, x.data(), of_block[b].newcomers))
                         newcomers_of(k, x.data(), partners, of_block[b].newcomers);
                     if ((found[group].idle >> l & 1) != 0) idle_of(k, x.data(), of_block[b].idle);
                 }

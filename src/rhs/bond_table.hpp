@@ -65,8 +65,10 @@ class BondTable {
     std::size_t blocks() const { return (particles() + block - 1) / block; }
     const BondSchedule& schedule(std::size_t threads) { return rows_.schedule(threads); }
 
-    /// Positions for the loops of right-hand sides: inside a periodic box, and some behind the last one.
-    void load(const double* x);
+    /// Positions for the loops: inside a periodic box, and some behind the last one.
+    void load(const double* x) { place(x, x_.data()); }
+    /// The same for a view of its own, so that observers leave alone what right-hand sides have loaded.
+    std::vector<double> positions(const double* x) const;
     /// For these loops, which write t.
     BondView<Dim> view(double N0);
 
@@ -74,11 +76,13 @@ class BondTable {
     void remember(Archive& archive);
 
   private:
+    void place(const double* x, double* to) const;
     void list_neighbours(const Eigen::Ref<const Points<Dim>>& x);
     void count_neighbours(const double* x);
     template <class Partners>
     void newcomers_of(std::size_t k, const double* x, Partners& partners,
                       std::vector<Newcomer>& newcomers) const;
+    bool newcomers_by_sums(std::size_t k, const double* x, std::vector<Newcomer>& newcomers) const;
     void idle_of(std::size_t k, const double* x, std::vector<Newcomer>& idle) const;
 
     double range_;
@@ -90,7 +94,8 @@ class BondTable {
     std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle
     MotionSince<Dim> motion_;             ///< since newcomers were looked for
     BondRows<Dim> rows_;
-    std::vector<double> x_, records_, neighbours_, anchoring_;
+    std::vector<double> x_, records_, anchoring_;
+    std::vector<double> missing_;  ///< NeighbourSums by particle
     std::vector<Newcomer> newcomers_, idle_;
     std::size_t updates_ = 0;
 };

@@ -12,27 +12,44 @@ SPAM_INLINE T nearer(const T& r2, double reach2) {
     return where_below(T(0.0), r2, where_below(r2, T(reach2), T(1.0)));
 }
 
+/// NeighbourSums in lanes.
+struct Sums {
+    T count{}, sum{}, squares{};
+
+    SPAM_INLINE void add(const T& one, const T& number) {
+        const T own = one * number;
+        count += one;
+        sum += own;
+        squares += own * number;
+    }
+};
+
 template <int Dim>
 void count(const ClusterView& list, const double* records, double reach2, double* neighbours,
            std::size_t first, std::size_t last) {
-    constexpr std::size_t stride = Dim + 1;
+    using N = NeighbourSums;
+    constexpr std::size_t stride = Dim + 2;
     for (std::size_t c = first; c < last; ++c) {
         Vec<Dim + 1, T> own;
-        for (std::size_t a = 0; a < stride; ++a)
+        for (std::size_t a = 0; a <= Dim; ++a)
             own.c[a] = from_records(records + c * W * stride, stride, a);
         const ClusterView::Entries entries = list.entries[c];
-        T near{};
+        Sums near;
         for (std::uint32_t n = 0; n < entries.count; ++n) {
             const double* const other = records + entries.first[n];
             T r2{};
-            for (std::size_t a = 0; a < stride; ++a) {
+            for (std::size_t a = 0; a <= Dim; ++a) {
                 const T r = T(other[a]) - own.c[a];
                 r2 += r * r;
             }
-            near += nearer(r2, reach2);
+            near.add(nearer(r2, reach2), T(other[Dim + 1]));
         }
-        for (std::size_t l = 0; l < W && c * W + l < list.particles; ++l)
-            neighbours[list.order[c * W + l]] = lane(near, static_cast<int>(l));
+        for (std::size_t l = 0; l < W && c * W + l < list.particles; ++l) {
+            double* const sums = neighbours + list.order[c * W + l] * N::numbers;
+            sums[N::count] = lane(near.count, static_cast<int>(l));
+            sums[N::sum] = lane(near.sum, static_cast<int>(l));
+            sums[N::squares] = lane(near.squares, static_cast<int>(l));
+        }
     }
 }
 
@@ -70,6 +87,19 @@ SPAM_INLINE T weight_of(const MaterialWeight& weight, const T& length, double ra
     return g;
 }
 
+/// Takes what rows hold off the sums of neighbours; the lanes that are left with somebody.
+SPAM_INLINE unsigned take_off(const Sums& held, double* missing) {
+    using N = NeighbourSums;
+    const auto left = [&](std::size_t at, const T& own) SPAM_FLAT {
+        const T rest = from_records(missing, N::numbers, at) - own;
+        to_records(missing, N::numbers, at, rest);
+        return rest;
+    };
+    left(N::sum, held.sum);
+    left(N::squares, held.squares);
+    return lanes_below(T(0.5), left(N::count, held.count));
+}
+
 template <int Dim, bool Periodic>
 void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size_t first,
            std::size_t last) {
@@ -81,13 +111,14 @@ void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size
         for (std::size_t c = 0; c < back.c.size(); ++c)
             to_records(renewal.anchoring + group * W * back.c.size(), back.c.size(), c, back.c[c]);
         const Vec<Dim, T> x_k = load_group<Dim>(view, group);
-        T left{}, idle{};
+        Sums held;
+        T idle{};
         unsigned gone = 0;
         for (std::size_t bond = view.first[group]; bond < view.first[group + 1]; bond += W) {
             const Vec<Dim, T> r = separations<Dim, Periodic>(view, bond, x_k);
             const T r2 = dot(r, r);
             double* const numbers = view.vectors + bond * BondView<Dim>::vector_numbers;
-            left += nearer(r2, reach2);
+            held.add(nearer(r2, reach2), load_numbers(view.partner + bond));
             idle += where_below(load_lanes<W>(numbers + Dim * W), T(1e-300), nearer(r2, range2));
             if (lanes_below(r2, T(range2)) == (1U << W) - 1) continue;
             const Vec<Dim, T> X = back * r;
@@ -102,7 +133,7 @@ void renew(const BondView<Dim>& view, const BondRenewal<Dim>& renewal, std::size
                 for (int a = 0; a <= Dim; ++a) numbers[static_cast<std::size_t>(a * W) + l] = 0.0;
             }
         }
-        const unsigned fewer = lanes_below(left, load_lanes<W>(renewal.neighbours + group * W));
+        const unsigned fewer = take_off(held, renewal.missing + group * W * NeighbourSums::numbers);
         renewal.found[group] = {static_cast<unsigned char>(fewer),
                                 static_cast<unsigned char>(lanes_below(T(0.5), idle)), gone};
     }

@@ -16,6 +16,12 @@ namespace spam {
 /// What the bonds of one particle say.
 template <int Dim>
 struct MaterialVectors<Dim>::Fit {
+    Fit() = default;
+    explicit Fit(const double* record) {
+        using Record = BondRecord<Dim>;
+        std::copy_n(record + Record::F, F.c.size(), F.c.begin());
+        std::copy_n(record + Record::K, K.c.size(), K.c.begin());
+    }
     Mat<Dim> F;
     SymTensor<Dim> K;  ///< N^-1
     double misfit = 0.0;
@@ -42,63 +48,63 @@ struct MaterialVectors<Dim>::Parts {
     std::size_t watched = 0;                ///< states that watch() was shown
     bool warned = false;
 
+    /// Sum of body(records, first, last) over blocks of groups, whose records are fitted in lanes.
+    template <class Body>
+    std::size_t count_blocks(const BondView<Dim>& shown, const Body& body) const {
+        const std::size_t each = table.block / static_cast<std::size_t>(sweeps.lanes);
+        return parallel_count(
+            table.blocks(),
+            [&](std::size_t b) {
+                std::array<double, BondTable<Dim>::block * Record::numbers> records;
+                const std::size_t first = b * each, last = std::min(table.groups(), first + each);
+                sweeps.gradients(shown, records.data(), first, last);
+                return body(records.data(), first, last);
+            },
+            table.block);
+    }
+    /// body(k, record) for the particles of the groups [first, last).
+    template <class Body>
+    void each_record(const double* records, std::size_t first, std::size_t last,
+                     const Body& body) const {
+        const auto lanes = static_cast<std::size_t>(sweeps.lanes);
+        for (std::size_t k = first * lanes; k < std::min(last * lanes, table.particles()); ++k)
+            body(k, records + (k - first * lanes) * Record::numbers);
+    }
     /// Sum of body(k, F, beyond) over all particles, beyond: whether a bond of k exceeds one of these limits
-    /// (BondSweeps::beyond). Blocks are fitted in lanes, and body may change the bonds of k.
+    /// (BondUpdates::beyond). body may change the bonds of k.
     template <class Body>
     std::size_t count_particles(const double* x, double misfit2, double stretch2,
                                 const Body& body) {
         table.load(x);
         const BondView<Dim> shown = view();
-        const auto lanes = static_cast<std::size_t>(sweeps.lanes);
-        const std::size_t each = table.block / lanes;
-        return parallel_count(
-            table.blocks(),
-            [&](std::size_t b) {
-                std::array<double, BondTable<Dim>::block * Record::numbers> records;
-                std::array<unsigned char, BondTable<Dim>::block> found{};
-                const std::size_t first = b * each, last = std::min(table.groups(), first + each);
-                sweeps.gradients(shown, records.data(), first, last);
-                if (std::min(misfit2, stretch2) < HUGE_VAL)
-                    table.loops().beyond(shown, records.data(), misfit2, stretch2, found.data(),
-                                         first, last);
-                std::size_t sum = 0;
-                for (std::size_t k = first * lanes; k < std::min(last * lanes, shown.particles);
-                     ++k) {
-                    const std::size_t at = k - first * lanes;
-                    Mat<Dim> F;
-                    std::copy_n(&records[at * Record::numbers + Record::F], F.c.size(),
-                                F.c.begin());
-                    sum += body(k, F, (found[at / lanes] >> at % lanes & 1U) != 0);
-                }
-                return sum;
-            },
-            table.block);
+        return count_blocks(shown, [&](const double* records, std::size_t first, std::size_t last) {
+            const auto lanes = static_cast<std::size_t>(sweeps.lanes);
+            std::array<unsigned char, BondTable<Dim>::block> found{};
+            if (std::min(misfit2, stretch2) < HUGE_VAL)
+                table.loops().beyond(shown, records, misfit2, stretch2, found.data(), first, last);
+            std::size_t sum = 0;
+            each_record(records, first, last, [&](std::size_t k, const double* record) {
+                const std::size_t at = k - first * lanes;
+                sum += body(k, Fit(record).F, (found[at / lanes] >> at % lanes & 1U) != 0);
+            });
+            return sum;
+        });
     }
-    /// body(k, fit) for all particles, in any order. Blocks are fitted in lanes.
+    /// body(k, fit) for all particles, in any order.
     template <class Body>
     void each_fit(const double* x, const Body& body) {
-        table.load(x);
-        const BondView<Dim> shown = view();
-        const auto lanes = static_cast<std::size_t>(sweeps.lanes);
-        const std::size_t each = table.block / lanes;
-        parallel_for(
-            table.blocks(),
-            [&](std::size_t b) {
-                std::array<double, BondTable<Dim>::block * Record::numbers> records;
-                const std::size_t first = b * each, last = std::min(table.groups(), first + each);
-                sweeps.gradients(shown, records.data(), first, last);
-                table.loops().misfits(shown, records.data(), first, last);
-                for (std::size_t k = first * lanes; k < std::min(last * lanes, shown.particles);
-                     ++k) {
-                    const double* const record = &records[(k - first * lanes) * Record::numbers];
-                    Fit fit;
-                    std::copy_n(record + Record::F, fit.F.c.size(), fit.F.c.begin());
-                    std::copy_n(record + Record::K, fit.K.c.size(), fit.K.c.begin());
-                    fit.misfit = record[Record::c];
-                    body(k, fit);
-                }
-            },
-            table.block);
+        const std::vector<double> placed = table.positions(x);
+        BondView<Dim> shown = view();
+        shown.x = placed.data();
+        count_blocks(shown, [&](double* records, std::size_t first, std::size_t last) {
+            table.loops().misfits(shown, records, first, last);
+            each_record(records, first, last, [&](std::size_t k, const double* record) {
+                Fit fit(record);
+                fit.misfit = record[Record::c];
+                body(k, fit);
+            });
+            return std::size_t{0};
+        });
     }
     void book(std::size_t k, double loss) { heat[k] += loss; }
     bool excludes(std::uint32_t k, std::uint32_t j) const {
