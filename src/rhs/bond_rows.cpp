@@ -4,6 +4,7 @@
 #include <spam/core/parallel.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -109,15 +110,48 @@ void BondRows<Dim>::make_room(std::vector<Newcomer>& newcomers) {
     lay_out(capacity);
 }
 
+/// Those who are there in both directions: where rounding lets only one of two meet the other, they meet next time.
+template <int Dim>
+class BondRows<Dim>::Meetings {
+  public:
+    Meetings(std::vector<Newcomer>& newcomers, std::size_t particles)
+        : newcomers_(newcomers),
+          first_(particles + 1, 0) {
+        index();
+        const auto met = [&](const Newcomer& bond) { return back(bond) != nullptr; };
+        if (std::all_of(newcomers.begin(), newcomers.end(), met)) return;
+        std::vector<Newcomer> both;
+        std::copy_if(newcomers.begin(), newcomers.end(), std::back_inserter(both), met);
+        newcomers = std::move(both);
+        index();
+    }
+    /// The other direction.
+    const Newcomer* back(const Newcomer& bond) const {
+        for (std::size_t n = first_[bond.j]; n < first_[bond.j + 1]; ++n)
+            if (newcomers_[n].j == bond.k) return &newcomers_[n];
+        return nullptr;
+    }
+
+  private:
+    void index() {
+        std::fill(first_.begin(), first_.end(), 0);
+        for (const Newcomer& bond : newcomers_) ++first_[bond.k + 1];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    }
+
+    const std::vector<Newcomer>& newcomers_;
+    std::vector<std::uint32_t> first_;  ///< by particle
+};
+
 template <int Dim>
 void BondRows<Dim>::enter(std::vector<Newcomer>& newcomers) {
+    const Meetings meetings(newcomers, particles());
     make_room(newcomers);
     parallel_for(newcomers.size(), [&](std::size_t n) {
         const Newcomer& bond = newcomers[n];
         partner_[slot(bond.k, bond.row)] = bond.j;
+        reverse_[slot(bond.k, bond.row)] = place(bond.j, meetings.back(bond)->row);
     });
-    parallel_for(newcomers.size(),
-                 [&](std::size_t n) { find_way_back(newcomers[n].k, newcomers[n].row); });
     bonds_ += newcomers.size();
     for (const Newcomer& bond : newcomers) {
         if (!scheduled_) break;

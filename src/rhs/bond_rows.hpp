@@ -50,7 +50,7 @@ class BondRows {
         std::size_t row = 0;  ///< where it stands; set by enter()
     };
     /// Takes them in, where vacancies are first, and says which row of k each has; with X = g = 0 until set().
-    /// `newcomers`: ascending by k, then j; both directions of every pair.
+    /// `newcomers`: ascending by k, then j; those that have no other direction are dropped.
     void enter(std::vector<Newcomer>& newcomers);
     /// What bonds are left after so many have gone, where loops have written vacancies.
     void discount(std::size_t gone) { bonds_ -= gone; }
@@ -81,6 +81,7 @@ class BondRows {
         return (first_[k / lanes_ + 1] - first_[k / lanes_]) / lanes_;
     }
     struct Contents;
+    class Meetings;
     void hold(const Contents& contents);
     void make_room(std::vector<Newcomer>& newcomers);
     void lay_out(const std::vector<std::uint32_t>& capacity);
