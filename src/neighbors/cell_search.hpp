@@ -48,6 +48,7 @@ class ClusterList<Dim>::CellSearch {
         for (std::size_t a = 0; a < Dim; ++a) candidates_.x[a] = cells_.x[a].data();
         candidates_.slots = cells_.slots.data();
         candidates_.count = cells_.count;
+        candidates_.chunks = cells_.chunks.data();
         descend(cells_.everywhere(), candidates_, cells_.large(), 0);
         return pairs_;
     }
@@ -59,6 +60,7 @@ class ClusterList<Dim>::CellSearch {
 
   private:
     using Region = typename Cells::Region;
+    static constexpr std::size_t in_cache = 10000;
 
     /// `large`: clusters for whose neighbours these are enough.
     void descend(const Region& region, const Candidates<Dim>& from,
@@ -88,7 +90,10 @@ class ClusterList<Dim>::CellSearch {
         for (std::size_t half = 0; half < 2; ++half) {
             if (depth < bits_ && (part_ >> depth & 1U) != half) continue;
             if (corners[half].low[0] > corners[half].high[0]) continue;
-            descend(halves[half], narrow(corners[half], from, depth), fit[half], depth + 1);
+            // More than the cache holds are not copied again and again: chunks of all lead to fewer at once.
+            const bool many = from.chunks != nullptr && from.count >> (depth + 1) > in_cache;
+            descend(halves[half], many ? from : narrow(corners[half], from, depth), fit[half],
+                    depth + 1);
         }
     }
 
@@ -109,6 +114,7 @@ class ClusterList<Dim>::CellSearch {
             high[a] = static_cast<float>(unit(corners.high[a]) + Cells::rounding);
         }
         near.slots = level.slots.get();
+        near.chunks = nullptr;
         near.count = search_.narrow(from, low, high, x, level.slots.get());
         return near;
     }

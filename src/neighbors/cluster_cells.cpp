@@ -187,10 +187,24 @@ void ClusterCells<Dim>::load(const Input& in) {
 }
 
 template <int Dim>
+void ClusterCells<Dim>::bound_chunks() {
+    chunks.resize((count + chunk - 1) / chunk);
+    for (std::size_t c = 0; c < chunks.size(); ++c)
+        for (std::size_t a = 0; a < Dim; ++a) {
+            const float* const from = x[a].data();
+            float low = nowhere, high = -nowhere;
+            for (std::size_t k = c * chunk; k < std::min(count, (c + 1) * chunk); ++k)
+                low = std::min(low, from[k]), high = std::max(high, from[k]);
+            chunks[c][2 * a] = low, chunks[c][2 * a + 1] = high;
+        }
+}
+
+template <int Dim>
 void ClusterCells<Dim>::build(const Input& in) {
     divide(in);
     assign(in);
     load(in);
+    bound_chunks();
 }
 
 template class ClusterCells<1>;

@@ -24,6 +24,8 @@ struct Candidates {
     const float* x[Dim];
     const std::uint32_t* slots;
     std::size_t count;
+    const std::array<float, 2 * Dim>*
+        chunks;  ///< of ClusterCells; none where numbers have been left out
     double middle[Dim];
     double scale, reach;
 };

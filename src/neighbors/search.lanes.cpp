@@ -158,17 +158,26 @@ std::size_t narrow(const Candidates<Dim>& in, const float* low, const float* hig
     for (int a = 0; a < Dim; ++a)
         least[a] = Row::all(low[a]), most[a] = Row::all(high[a]), out[a] = x[a];
     std::size_t found = 0;
-    for (std::size_t k = 0; k < from.count; k += Row::lanes) {
-        typename Row::Numbers own[Dim];
-        unsigned near = ~0U;
-        for (int a = 0; a < Dim; ++a) {
-            own[a] = Row::load(from.x[a] + k);
-            near &= Row::below(least[a], own[a]) & Row::below(own[a], most[a]);
+    const std::size_t chunk = from.chunks == nullptr ? from.count : ClusterCells<Dim>::chunk;
+    for (std::size_t begin = 0; begin < from.count; begin += chunk) {
+        bool outside = false;
+        for (int a = 0; a < Dim && from.chunks != nullptr; ++a) {
+            const float* const bounds = from.chunks[begin / chunk].data() + 2 * a;
+            outside |= !(low[a] < bounds[1] && bounds[0] < high[a]);
         }
-        if (near == 0) continue;  // often, where numbers follow each other in space
-        for (int a = 0; a < Dim; ++a) Row::pick(near, own[a], out[a] + found);
-        Row::pick(near, Row::load(from.slots + k), slots + found);
-        found += static_cast<unsigned>(__builtin_popcount(near));
+        if (outside) continue;
+        for (std::size_t k = begin; k < from.count && k < begin + chunk; k += Row::lanes) {
+            typename Row::Numbers own[Dim];
+            unsigned near = ~0U;
+            for (int a = 0; a < Dim; ++a) {
+                own[a] = Row::load(from.x[a] + k);
+                near &= Row::below(least[a], own[a]) & Row::below(own[a], most[a]);
+            }
+            if (near == 0) continue;  // often, where numbers follow each other in space
+            for (int a = 0; a < Dim; ++a) Row::pick(near, own[a], out[a] + found);
+            Row::pick(near, Row::load(from.slots + k), slots + found);
+            found += static_cast<unsigned>(__builtin_popcount(near));
+        }
     }
     for (int a = 0; a < Dim; ++a)
         for (std::size_t k = found; k < found + Row::lanes; ++k) out[a][k] = nowhere;

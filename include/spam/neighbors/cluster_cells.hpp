@@ -63,11 +63,16 @@ class ClusterCells {
     std::array<std::vector<float>, Dim> x;
     std::vector<std::uint32_t> slots;
     std::size_t count = 0;
+    /// Of every `chunk` of them in a row: the lowest and the highest x by axis. Numbers that follow each other are
+    /// near each other where neighbours are looked for quickly: whole chunks are passed over.
+    static constexpr std::size_t chunk = 256;
+    std::vector<std::array<float, 2 * Dim>> chunks;
 
   private:
     void divide(const Input& in);
     void assign(const Input& in);
     void load(const Input& in);
+    void bound_chunks();
     std::size_t cell(std::size_t a, double at) const;
 
     std::array<double, Dim> origin_{}, per_edge_{};
