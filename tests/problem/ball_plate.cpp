@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ball that hits a plate, as a user runs it: what is known of it and what is refused.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <cmath>
@@ -72,10 +73,7 @@ BOOST_AUTO_TEST_CASE(ends_that_are_held) {
 }
 
 BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
-    struct Bad {
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<Refused> all{
         {{"--failure-strain", "0"}, {"failure-strain", "0", "above 0"}},
         {{"--contact", "repulsive", "--contact-range", "1.2"}, {"contact-range: 1.2", "spacing"}},
         {{"--contact-range", "0.9"}, {"contact-range", "without a contact"}},
@@ -92,13 +90,5 @@ BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
         {{"--model", "elements", "--seed", "2"}, {"seed", "--model elements"}},
         {{"--model", "pair_md", "--viscosity", "1"}, {"viscosity", "--model pair_md"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, "ball_plate", bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused("ball_plate", all);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Theories of beams, and the oscillating plate as a user runs it.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <cantilever/beam.hpp>
@@ -113,10 +114,7 @@ BOOST_AUTO_TEST_CASE(other_plates) {
 }
 
 BOOST_AUTO_TEST_CASE(plates_without_meaning_are_refused) {
-    struct Bad {
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<Refused> all{
         {{"--length", "0.05"}, {"length: 0.05", "0.02", "no plate"}},
         {{"--thickness", "1e-5"}, {"length: 0.2", "thousand"}},
         {{"--layers", "2"}, {"layers", "between 3 and 200"}},
@@ -125,13 +123,5 @@ BOOST_AUTO_TEST_CASE(plates_without_meaning_are_refused) {
         {{"--viscosity", "1"}, {"viscosity", "total_lagrangian"}},
         {{"--penalty", "1", "--formulation", "updated"}, {"penalty", "updated"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, "cantilever", bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused("cantilever", all);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that touch and part, as a user runs them.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 
 #include <cmath>
 
@@ -72,10 +73,7 @@ BOOST_AUTO_TEST_CASE(a_sheet_that_does_not_yield_keeps_no_fold) {
 }
 
 BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
-    struct Bad {
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<Refused> all{
         {{"--contact-range", "1.2"}, {"contact-range: 1.2", "not above the spacing"}},
         {{"--contact-energy", "0"}, {"contact-energy", "above 0"}},
         {{"--inner-radius", "15.9"}, {"inner-radius", "no ring"}},
@@ -86,15 +84,7 @@ BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
         {{"--viscosity", "1", "--formulation", "material_vectors"},
          {"viscosity", "material_vectors"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, "colliding_rings", bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused("colliding_rings", all);
 }
 
 BOOST_AUTO_TEST_CASE(a_sheet_without_room_is_refused) {

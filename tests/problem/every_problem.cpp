@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What holds for every problem executable, whatever it computes: the contract of its options, its
 // results and its exit status, run short.
+#include "problem/refused.hpp"
 #include "problem/result_files.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -107,11 +108,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused_in_one_line) {
 }
 
 BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) {
-    struct Bad {
-        std::string name;
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<RefusedCall> all{
         {"rotating_disk", {"--shape", "hexagon", "--radius", "7.5"}, {"radius", "7.5", "whole"}},
         {"rotating_disk", {"--radius", "2"}, {"radius", "2", "between 6 and"}},
         {"rotating_disk", {"--damping", "-1"}, {"damping", "-1"}},
@@ -181,14 +178,7 @@ BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) 
         {"sheared_square", {"--shear", "0.9"}, {"shear", "0.9", "0.5"}},
         {"sheared_square", {"--shear", "0"}, {"shear", "0"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.name << " " << bad.arguments.back()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, bad.name, bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused(all);
 }
 
 BOOST_AUTO_TEST_CASE(help_and_the_list_of_problems_know_it) {

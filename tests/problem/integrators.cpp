@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studies of integrators as a user runs them: what their tables hold, what their options refuse, and
 // that one which was killed goes on.
+#include "problem/refused.hpp"
 #include "problem/result_files.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -82,11 +83,7 @@ BOOST_AUTO_TEST_CASE(killed_it_goes_on) {
 }
 
 BOOST_AUTO_TEST_CASE(options_that_make_no_sense_are_refused) {
-    struct Bad {
-        std::string name;
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<RefusedCall> all{
         {"integrator_accuracy", {"--problem", "sun"}, {"problem", "sun"}},
         {"integrator_accuracy", {"--methods", "rk5"}, {"methods", "rk5"}},
         {"integrator_accuracy", {"--methods", "rk4,rk4"}, {"methods", "twice"}},
@@ -100,13 +97,5 @@ BOOST_AUTO_TEST_CASE(options_that_make_no_sense_are_refused) {
         {"invariant_drift", {"--turns", "-1"}, {"turns", "-1"}},
         {"invariant_drift", {"--integrator", "rk4"}, {"no meaning"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.name << " " << bad.arguments.back()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, bad.name, bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused(all);
 }

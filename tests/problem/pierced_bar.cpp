@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A projectile and a bar that flows and breaks, as a user runs them: what is kept, and what is refused.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <cmath>
@@ -33,11 +34,7 @@ BOOST_AUTO_TEST_CASE(bodies_of_the_paper_s_bar_keep_their_angular_momentum) {
 }
 
 BOOST_AUTO_TEST_CASE(shots_without_meaning_are_refused) {
-    struct Bad {
-        const char* name;
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<RefusedCall> all{
         {"pierced_bar", {"--speed", "200"}, {"speed: at 200", "dt = 0.025", "--dt below"}},
         {"pierced_bar", {"--range", "0.9"}, {"range: 0.9"}},
         {"pierced_bar", {"--core", "0", "--core-range", "0.7"}, {"core-range", "without a core"}},
@@ -58,13 +55,5 @@ BOOST_AUTO_TEST_CASE(shots_without_meaning_are_refused) {
          {"--formulation", "material_vectors", "--kernel", "w5"},
          {"kernel", "material_vectors"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.name << " " << bad.arguments.back()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, bad.name, bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused(all);
 }

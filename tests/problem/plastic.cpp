@@ -2,6 +2,7 @@
 // Solids that yield as a user runs them: the errors of three ways to yield, a bar of Taylor's, and input that
 // makes no sense.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -62,32 +63,22 @@ BOOST_AUTO_TEST_CASE(a_coarse_bar_keeps_a_foot) {
 }
 
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
-    struct Bad {
-        std::string program;
-        Words arguments;
-        std::string says;
-    };
-    const std::vector<Bad> all{
-        {"plastic_block", {"--yield-stress", "-1"}, "yield-stress: '-1'"},
-        {"plastic_block", {"--hardening", "-1"}, "hardening: '-1'"},
+    const std::vector<RefusedCall> all{
+        {"plastic_block", {"--yield-stress", "-1"}, {"yield-stress: '-1'"}},
+        {"plastic_block", {"--hardening", "-1"}, {"hardening: '-1'"}},
         {"plastic_block",
          {"--yield-width", "0.2"},
-         "yield-width: has a meaning for --yield smooth"},
-        {"plastic_block", {"--yield", "smooth", "--yield-width", "2"}, "yield-width: '2'"},
-        {"plastic_block", {"--penalty", "0.2"}, "penalty: has a meaning"},
-        {"plastic_block", {"--integrator", "cvode:adams"}, "a material that yields"},
-        {"plastic_block", {"--compare", "--yield", "after"}, "yield: has no effect with --compare"},
-        {"plastic_block", {"--compare", "--dt", "0.1"}, "dt"},
-        {"taylor_bar", {"--poisson", "0.5"}, "poisson: '0.5'"},
-        {"taylor_bar", {"--compare", "--particles-per-radius", "3"}, "--compare"},
-        {"taylor_bar", {"--particles-per-radius", "1"}, "particles-per-radius: '1'"},
+         {"yield-width: has a meaning for --yield smooth"}},
+        {"plastic_block", {"--yield", "smooth", "--yield-width", "2"}, {"yield-width: '2'"}},
+        {"plastic_block", {"--penalty", "0.2"}, {"penalty: has a meaning"}},
+        {"plastic_block", {"--integrator", "cvode:adams"}, {"a material that yields"}},
+        {"plastic_block",
+         {"--compare", "--yield", "after"},
+         {"yield: has no effect with --compare"}},
+        {"plastic_block", {"--compare", "--dt", "0.1"}, {"dt"}},
+        {"taylor_bar", {"--poisson", "0.5"}, {"poisson: '0.5'"}},
+        {"taylor_bar", {"--compare", "--particles-per-radius", "3"}, {"--compare"}},
+        {"taylor_bar", {"--particles-per-radius", "1"}, {"particles-per-radius: '1'"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.program << " " << bad.arguments.back()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, bad.program, bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(outcome.err.find(bad.says) != std::string::npos, outcome.err);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused(all);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A bar under tension, as a user runs it: what is known of it and what is refused.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <cmath>
@@ -72,10 +73,7 @@ BOOST_AUTO_TEST_CASE(a_bar_that_does_not_yield_does_not_part) {
 }
 
 BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
-    struct Bad {
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<Refused> all{
         {{"--failure-strain", "-1"}, {"failure-strain", "-1", "above 0"}},
         {{"--yield-stress", "0"}, {"yield-stress", "0", "above 0"}},
         {{"--hardening", "-0.1"}, {"hardening", "-0.1"}},
@@ -101,13 +99,5 @@ BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
         {{"--damping", "1e3"}, {"dt", "damping", "smaller --dt"}},
         {{"--columns", "4"}, {"columns", "4", "between 8 and"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, "tension_test", bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused("tension_test", all);
 }

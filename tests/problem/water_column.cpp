@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A column of water at rest and on its way, as a user runs it: what is known of it and what is refused.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <cmath>
@@ -38,10 +39,7 @@ BOOST_AUTO_TEST_CASE(a_limited_tension_keeps_the_energy) {
 }
 
 BOOST_AUTO_TEST_CASE(columns_without_meaning_are_refused) {
-    struct Bad {
-        Words arguments, says;
-    };
-    const std::vector<Bad> all{
+    const std::vector<Refused> all{
         {{"--width", "4", "--range", "5"}, {"width: 4", "range 5", "larger --width"}},
         {{"--width", "2"}, {"width", "2", "between 4 and 400"}},
         {{"--width", "16.5"}, {"width", "16.5"}},
@@ -60,13 +58,5 @@ BOOST_AUTO_TEST_CASE(columns_without_meaning_are_refused) {
         {{"--core-range", "3.5"}, {"core-range", "3.5", "range 3"}},
         {{"--output-every", "1e-300"}, {"output-every"}},
     };
-    for (const Bad& bad : all) BOOST_TEST_CONTEXT(bad.arguments.front()) {
-            const Scratch folder;
-            const Outcome outcome = run_in(folder, "water_column", bad.arguments);
-            BOOST_TEST(outcome.status == 2);
-            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-            for (const auto& word : bad.says)
-                BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
-            BOOST_TEST(folder.listing().empty());
-        }
+    check_refused("water_column", all);
 }
