@@ -17,7 +17,7 @@
 // momentum, energy and every body's angular momentum through every change.
 //
 //     --formulation material_vectors   a solid that yields and tears (problem pierced_bar), in which there is
-//                                      nothing to balance
+//                                      nothing to balance; --stretch-limit and --stress-limit break its bonds
 //     --compare                        that beside plain velocities, ⟨v⟩_Monaghan, and balanced torques
 #include "breaking/pieces.hpp"
 #include "fragmenting_bar/account.hpp"
@@ -53,7 +53,7 @@ void add_options(Problem& problem, Parameters& p) {
         "has no meaning with {by}, which has a weight of its own and nothing to "
         "choose; leave it out");
     options.only_when(
-        {"yield-stress", "tension-limit", "penalty"}, {"formulation", "compare"},
+        breaking::flowing_option_names(), {"formulation", "compare"},
         [&p] { return p.vectors() || p.compare; },
         "has no meaning for an elastic solid; give --formulation material_vectors");
 }

@@ -31,14 +31,6 @@ void add_options(Options& options, Parameters& p) {
     breaking::add_flowing_options(options, p.matter);
     options.number("range", p.matter.range, "distance beyond which bonds weigh nothing",
                    positive());
-    options.number("bond-yield", p.matter.bond_yield,
-                   "largest misfit of a bond, by its length and the yield strain; 0 for any",
-                   non_negative());
-    options.number("stretch-limit", p.matter.stretch_limit,
-                   "stretch beyond which a bond breaks (default: none)",
-                   {[](double x) { return x > 1.0; }, "above 1"});
-    options.number("stress-limit", p.matter.stress_limit,
-                   "tension along a bond beyond which it breaks (default: none)", positive());
     options.number("core", p.matter.core,
                    "energy of the core that keeps two particles apart; 0 for none", non_negative());
     options

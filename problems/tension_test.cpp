@@ -16,7 +16,7 @@
 //                            parts. Every particle begins with the density of the lattice at rest
 //     --model material_vectors  the same with a vector for each neighbour (rhs/material_vectors.hpp); with
 //                            --end-speed it has no load: it flies apart, necks where its ends are left
-//                            behind, and parts into three
+//                            behind, and parts into three. --stretch-limit and --stress-limit make it brittle
 //     --model elements       finite elements of the same solid, drawn out at their ends: necks in the middle
 //     --model all            the first three, each with a step of its own
 //

@@ -15,15 +15,20 @@ void add_flowing_options(Options& options, FlowingMatter& matter) {
     options.number("penalty", matter.penalty,
                    "penalty kappa against motion that no deformation gradient sees",
                    non_negative());
+    add_bond_options(options, matter.bonds);
+}
+
+std::vector<std::string> flowing_option_names() {
+    auto names = bond_option_names();
+    names.insert(names.end(), {"yield-stress", "tension-limit", "penalty"});
+    return names;
 }
 
 MaterialVectors<2>& add_flowing_terms(ParticleModel<2>& model, const FlowingMatter& matter,
                                       const std::optional<ContactScheme>& contact) {
     const auto elastic = PolynomialSolid::like(ElasticSolid::triangular_lattice());
-    MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), matter.range, matter.penalty,
-                                matter.bond_yield};
-    if (matter.stretch_limit) scheme.stretch_limit = *matter.stretch_limit;
-    if (matter.stress_limit) scheme.stress_limit = *matter.stress_limit;
+    MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), matter.range, matter.penalty};
+    matter.bonds.apply(scheme);
     auto& law = model.add_term<MaterialVectors<2>>(
         FlowingSolid{elastic, matter.yield_stress, matter.tension_limit}, scheme);
     if (matter.core > 0.0) model.add_term<Core<2>>(CorePotential{matter.core, matter.core_range});

@@ -2,6 +2,7 @@
 // A solid with material vectors that yields and tears: the constants of the problems in which it breaks.
 #pragma once
 
+#include "bond_limits.hpp"
 #include <spam/material/flowing_solid.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/material_vectors.hpp>
@@ -19,14 +20,15 @@ struct FlowingMatter {
     double tension_limit = 0.05;                             ///< p_c, of the mean tension
     double penalty = MaterialVectorScheme::default_penalty;  ///< kappa
     double range = 3.0;                                      ///< h
-    double bond_yield = 0.0;  ///< of misfits, by the yield strain; 0: they do not flow
-    std::optional<double> stretch_limit{}, stress_limit{};  ///< beyond which bonds break
-    double core = 0.0;                                      ///< e_c
+    BondLimits bonds{};
+    double core = 0.0;  ///< e_c
     double core_range = 0.8;
 };
 
-/// `--yield-stress`, `--tension-limit` and `--penalty`.
+/// `--yield-stress`, `--tension-limit`, `--penalty` and those of BondLimits.
 void add_flowing_options(Options& options, FlowingMatter& matter);
+/// The names of these.
+std::vector<std::string> flowing_option_names();
 
 /// Material vectors and a core among all particles of the model, which meet by a contact where they are of
 /// different bodies, if there is one. Returns the first.

@@ -54,6 +54,12 @@ FlowingSolid flowing_solid(const Matter& matter) {
             matter.tension_limit.value_or(yield_stress)};
 }
 
+MaterialVectorScheme vectors_of(const Session& session, const Matter& matter) {
+    MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), session.scheme().range, matter.penalty};
+    matter.bonds.apply(scheme);
+    return scheme;
+}
+
 void add_terms_among(const Session& session, const Matter& matter, ParticleModel<2>& model,
                      std::size_t first, std::size_t count) {
     switch (matter.kind) {
@@ -65,9 +71,8 @@ void add_terms_among(const Session& session, const Matter& matter, ParticleModel
                                                           potentials_of(session, matter));
             return;
         case MatterKind::material_vectors:
-            model.add_term_among<MaterialVectors<2>>(
-                first, count, flowing_solid(matter),
-                MaterialVectorScheme{std::sqrt(4.0 / 3.0), session.scheme().range, matter.penalty});
+            model.add_term_among<MaterialVectors<2>>(first, count, flowing_solid(matter),
+                                                     vectors_of(session, matter));
             break;
         case MatterKind::spam:
         case MatterKind::elements:
@@ -147,8 +152,10 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
                        "penalty kappa of material vectors against motion that no deformation "
                        "gradient sees",
                        non_negative());
-        only_of({"tension-limit", "penalty"}, {MatterKind::material_vectors},
-                "it is of material vectors");
+        add_bond_options(options, matter.bonds);
+        auto of_vectors = bond_option_names();
+        of_vectors.insert(of_vectors.end(), {"tension-limit", "penalty"});
+        only_of(of_vectors, {MatterKind::material_vectors}, "it is of material vectors");
     }
     options.number("strength", matter.strength,
                    "strength s_c of the curvature, which makes embedded atoms a solid", positive());

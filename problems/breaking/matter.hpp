@@ -3,6 +3,7 @@
 // a plate.
 #pragma once
 
+#include "bond_limits.hpp"
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/spam.hpp>
@@ -37,6 +38,7 @@ struct Matter {
     std::optional<double> failure_strain{};
     std::optional<double> tension_limit{};                   ///< p_c of material vectors
     double penalty = MaterialVectorScheme::default_penalty;  ///< kappa of material vectors
+    BondLimits bonds{};                                      ///< of material vectors
     double strength = 0.2;                                   ///< s_c of embedded atoms
     double surface_tension = 0.1;                            ///< s_g of embedded atoms
     double core = 1.0;                                       ///< e_c

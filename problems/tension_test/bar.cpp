@@ -53,10 +53,13 @@ Particles<2> tapered_block(const Parameters& p) {
 /// Everything but the seed.
 bool is_known(const Session& session, const RunRecord& run) {
     auto options = Problem::scheme_option_names();
-    options.insert(options.end(),
-                   {"columns", "rows", "taper", "load-rate", "damping", "yield-stress", "hardening",
-                    "failure-strain", "strength", "surface-tension", "core", "core-range",
-                    "disorder", "kernel", "range", "t-end"});
+    options.insert(
+        options.end(),
+        {"columns",      "rows",          "taper",          "load-rate",  "damping",
+         "yield-stress", "hardening",     "failure-strain", "strength",   "surface-tension",
+         "core",         "core-range",    "disorder",       "kernel",     "range",
+         "t-end",        "tension-limit", "penalty",        "bond-yield", "stretch-limit",
+         "stress-limit"});
     return session.when_default(options) && run.complete;
 }
 
@@ -65,7 +68,8 @@ bool is_recorded_stretching(const Session& session, const Parameters& p, const R
     return run.complete && run.statistics.t_end >= 300.0 && p.end_speed == 0.4 && p.columns == 50 &&
            p.taper == 0.0 && p.matter.yield_stress == 0.03 && p.matter.tension_limit == 0.06 &&
            p.matter.disorder == 0.0 && p.matter.penalty == 1.0 &&
-           session.when_default({"rows", "range", "core", "core-range"});
+           session.when_default({"rows", "range", "core", "core-range", "bond-yield",
+                                 "stretch-limit", "stress-limit"});
 }
 
 ConfigurationPanel panel_of(const PulledBar& bar, double t, const Points<2>& position,
