@@ -172,6 +172,12 @@ struct BondRows<Dim>::Contents {
     std::vector<std::uint32_t> count, partners;
     std::vector<double> vectors;  ///< X and g
 
+    /// Room for so many bonds: what grows by itself takes twice as much.
+    Contents(std::size_t particles, std::size_t bonds) : count(particles, 0) {
+        partners.reserve(bonds);
+        vectors.reserve(bonds * (Dim + 1));
+    }
+
     void add(const BondRows& rows, std::size_t k, std::size_t m) {
         ++count[k];
         partners.push_back(rows.partner(k, m));
@@ -207,9 +213,8 @@ void BondRows<Dim>::hold(const Contents& contents) {
 
 template <int Dim>
 void BondRows<Dim>::tidy() {
-    const std::size_t used = std::accumulate(count_.begin(), count_.end(), std::size_t{0});
-    if (5 * used <= 6 * bonds_) return;
-    Contents contents{std::vector<std::uint32_t>(particles(), 0), {}, {}};
+    if (5 * places() <= 6 * bonds_) return;
+    Contents contents(particles(), bonds_);
     std::vector<std::uint32_t> order;
     for (std::size_t k = 0; k < particles(); ++k) {
         order.clear();
@@ -283,7 +288,7 @@ void BondRows<Dim>::show(BondView<Dim>& view) {
 
 template <int Dim>
 void BondRows<Dim>::remember(Archive& archive) {
-    Contents contents{std::vector<std::uint32_t>(particles(), 0), {}, {}};
+    Contents contents(particles(), archive.reading() ? 0 : places());
     if (!archive.reading())
         for (std::size_t k = 0; k < particles(); ++k)
             for (std::size_t m = 0; m < row(k); ++m) contents.add(*this, k, m);

@@ -7,6 +7,7 @@
 #include <spam/core/tensor.hpp>
 
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace spam {
@@ -31,6 +32,10 @@ class BondRows {
     std::size_t bonds() const { return bonds_; }
 
     std::size_t row(std::size_t k) const { return count_[k]; }  ///< with vacancies
+    /// The lengths of all rows.
+    std::size_t places() const {
+        return std::accumulate(count_.begin(), count_.end(), std::size_t{0});
+    }
     bool vacant(std::size_t k, std::size_t m) const { return partner(k, m) == k; }
     std::uint32_t partner(std::size_t k, std::size_t m) const { return partner_[slot(k, m)]; }
     /// Where j stands in the row of k, which has it; probably near the end.
