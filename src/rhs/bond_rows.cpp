@@ -67,8 +67,8 @@ void BondRows<Dim>::lay_out(const std::vector<std::uint32_t>& capacity) {
                     static_cast<std::uint32_t>(reverse[from + s] - shift_before[j / block] -
                                                first_before[j / lanes_] + first_[j / lanes_]);
             }
-            std::copy_n(&vectors[0] + from * (Dim + 1), held * (Dim + 1),
-                        &vectors_[0] + to * (Dim + 1));
+            std::copy_n(vectors.data() + from * (Dim + 1), held * (Dim + 1),
+                        vectors_.data() + to * (Dim + 1));
             vacate(to + held, first_[group + 1], group);
         },
         lanes_);
