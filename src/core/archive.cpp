@@ -18,6 +18,8 @@ void Archive::raw(void* value, std::size_t size) {
     if (size == 0) return;
     if (!reading_) {
         const std::size_t before = written_.size();
+        // Grows by an eighth, not to the double of what may be a kilobyte for every particle.
+        if (before + size > written_.capacity()) written_.reserve(before + size + before / 8);
         written_.resize(before + size);
         std::memcpy(&written_[before], value, size);
         return;

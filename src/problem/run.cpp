@@ -73,9 +73,9 @@ CaseMemory Run<Dim>::memory() {
     memory.label = one_.label;
     Archive motion, records;
     motion_.remember(motion);
+    memory.motion = motion.take();
     remember_records(records);
-    memory.motion = motion.bytes();
-    memory.records = records.bytes();
+    memory.records = records.take();
     return memory;
 }
 

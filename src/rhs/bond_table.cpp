@@ -69,6 +69,7 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
     renew(x, 0.0);
     admit();
     for (const Newcomer& bond : newcomers_) set_X(bond.k, bond.row, bond.r);
+    newcomers_ = std::vector<Newcomer>();  // as many as there are bonds: their room is not kept
 }
 
 template <int Dim>
@@ -258,6 +259,10 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
                               last = std::min(groups(), first + block / lanes);
             loops_.renew(view, renewal, first, last);
             Partners partners;
+            double missing = 0.0;
+            for (std::size_t k = first * lanes; k < last * lanes; ++k)
+                missing += missing_[k * NeighbourSums::numbers + NeighbourSums::count];
+            of_block[b].newcomers.reserve(static_cast<std::size_t>(missing));
             std::size_t gone = 0;
             for (std::size_t group = first; group < last; ++group) {
                 gone += found[group].gone;
@@ -274,9 +279,13 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
         block));
     newcomers_.clear();
     idle_.clear();
-    for (const Found& some : of_block) {
+    std::size_t count = 0;
+    for (const Found& some : of_block) count += some.newcomers.size();
+    newcomers_.reserve(count);
+    for (Found& some : of_block) {
         newcomers_.insert(newcomers_.end(), some.newcomers.begin(), some.newcomers.end());
         idle_.insert(idle_.end(), some.idle.begin(), some.idle.end());
+        some = {};
     }
 }
 

@@ -35,6 +35,8 @@ class Archive {
     }
 
     const std::vector<std::byte>& bytes() const { return written_; }
+    /// What was written, handed over: there may be a kilobyte for every particle.
+    std::vector<std::byte> take() { return std::exchange(written_, {}); }
     /// Throws InputError where bytes are left over after reading.
     void expect_end() const;
 
