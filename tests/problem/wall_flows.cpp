@@ -2,6 +2,7 @@
 // Problems with walls as a user runs them: what each wall gives is what physics says, accounts close with the
 // order of the integrator, and sides are options.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 #include "support/effort.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -28,19 +29,6 @@ double drift_of(const std::string& problem, const Words& arguments, const std::s
         if (name.ends_with(what + "_drift") && !name.ends_with("angular_" + what + "_drift"))
             largest = std::max(largest, value);
     return largest;
-}
-
-std::string refusal_of(const std::string& problem, const Words& arguments) {
-    const Scratch folder;
-    const Outcome outcome = run_in(folder, problem, joined(arguments, {"--smoke"}));
-    BOOST_TEST(outcome.status == 2, problem << ": " << outcome.err);
-    BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-    BOOST_TEST(!std::filesystem::exists(folder / "out"));
-    return outcome.err;
-}
-
-bool says(const std::string& text, const std::string& what) {
-    return text.find(what) != std::string::npos;
 }
 
 }  // namespace
@@ -139,23 +127,26 @@ BOOST_AUTO_TEST_CASE(sides_are_options_of_problems_with_walls) {
     for (const auto& [problem, words] : runs) BOOST_TEST_CONTEXT(problem << " " << words.back()) {
             BOOST_TEST(drift_of(problem, joined(words, {"--smoke"}), "energy") < 1e-5);
         }
-    BOOST_TEST(says(refusal_of("couette", {"--left", "mirror"}),
-                    "right: 'periodic' but --left is not; make both of them periodic, or neither"));
-    BOOST_TEST(says(refusal_of("couette", {"--top", "moving:fast"}), "give a number"));
-    BOOST_TEST(says(refusal_of("couette", {"--top", "no-slip@-1"}), "not above 0"));
-    BOOST_TEST(says(refusal_of("poiseuille", {"--top", "rigid@2"}), "nothing behind it"));
-    BOOST_TEST(says(refusal_of("cavity", {"--top", "open"}), "shifting drives particles out"));
-    BOOST_TEST(says(refusal_of("cavity", {"--left", "rigid"}), "go on through it"));
-    BOOST_TEST(says(refusal_of("cavity", {"--cells", "8", "--range", "6", "--left", "mirror",
-                                          "--transport", "plain", "--bottom", "wall"}),
-                    "bottom: 'wall' is none of open, periodic, mirror, no-slip, moving:V or rigid, "
-                    "moving"));
-    BOOST_TEST(says(refusal_of("shock_tube", {"--left", "periodic", "--right", "periodic"}),
-                    "without a diaphragm"));
-    BOOST_TEST(says(refusal_of("shock_tube", {"--left", "moving:1"}), "is none of"));
-    BOOST_TEST(says(refusal_of("water_column", {"--bottom", "no-slip"}), "use mirrors"));
-    BOOST_TEST(says(refusal_of("water_column", {"--left", "open"}), "before it has come to rest"));
-    BOOST_TEST(says(refusal_of("free_expansion", {"--left", "mirror"}), "--left is not"));
-    BOOST_TEST(says(refusal_of("free_expansion", {"--dimension", "1", "--top", "mirror"}),
-                    "a line has a left and a right end"));
+    check_refused(std::vector<RefusedCall>{
+        {"couette",
+         {"--left", "mirror"},
+         {"right: 'periodic' but --left is not; make both of them periodic, or neither"}},
+        {"couette", {"--top", "moving:fast"}, {"give a number"}},
+        {"couette", {"--top", "no-slip@-1"}, {"not above 0"}},
+        {"poiseuille", {"--top", "rigid@2"}, {"nothing behind it"}},
+        {"cavity", {"--top", "open"}, {"shifting drives particles out"}},
+        {"cavity", {"--left", "rigid"}, {"go on through it"}},
+        {"cavity",
+         {"--cells", "8", "--range", "6", "--left", "mirror", "--transport", "plain", "--bottom",
+          "wall"},
+         {"bottom: 'wall' is none of open, periodic, mirror, no-slip, moving:V or rigid, moving"}},
+        {"shock_tube", {"--left", "periodic", "--right", "periodic"}, {"without a diaphragm"}},
+        {"shock_tube", {"--left", "moving:1"}, {"is none of"}},
+        {"water_column", {"--bottom", "no-slip"}, {"use mirrors"}},
+        {"water_column", {"--left", "open"}, {"before it has come to rest"}},
+        {"free_expansion", {"--left", "mirror"}, {"--left is not"}},
+        {"free_expansion",
+         {"--dimension", "1", "--top", "mirror"},
+         {"a line has a left and a right end"}},
+    });
 }
