@@ -106,7 +106,6 @@ struct MaterialVectors<Dim>::Parts {
             return std::size_t{0};
         });
     }
-    void book(std::size_t k, double loss) { heat[k] += loss; }
     bool excludes(std::uint32_t k, std::uint32_t j) const {
         return std::binary_search(excluded.begin(), excluded.end(),
                                   std::array{std::min(k, j), std::max(k, j)});

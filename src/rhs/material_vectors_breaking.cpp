@@ -81,16 +81,7 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
     parallel_for(ends.size(), [&](std::size_t e) {
         const std::size_t k = ends[e];
         const double energy = energy_of(before[e], k, state);
-        loss[e] = energy - energy_of(fit(x, k), k, state);
-        // Another fit of F may store more. The old one stays where what is left has no misfit to it; what has
-        // too few bonds for that, or weighs more so, forgets its strain.
-        if (loss[e] < 0.0 && anchor(k, before[e], x))
-            loss[e] = energy - energy_of(fit(x, k), k, state);
-        if (loss[e] < 0.0) {
-            anchor(k, {}, x);
-            loss[e] = energy - energy_of(fit(x, k), k, state);
-        }
-        p.book(k, loss[e]);
+        loss[e] = book_loss(k, energy, before[e], state);
     });
     for (const double one : loss)
         if (one < 0.0) {
@@ -101,6 +92,25 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
     p.excluded.insert(p.excluded.end(), pairs.begin(), pairs.end());
     std::sort(p.excluded.begin(), p.excluded.end());
     return true;
+}
+
+/// Books what a change of its bonds has taken off the energy of a particle, and returns it. Another fit of F may
+/// store more, and heat would fall: F then stays as it was, by vectors without misfit to it; and what has too few
+/// bonds for that, or weighs more so, forgets its strain.
+template <int Dim>
+double MaterialVectors<Dim>::book_loss(std::size_t k, double energy, const Fit& kept,
+                                       const ConstState<Dim>& state) {
+    const double* const x = state.position().data();
+    const double rounding = 1e-12 * parts_->volume[k] * material_.stiffness();
+    const auto loss = [&] { return energy - energy_of(fit(x, k), k, state); };
+    double lost = loss();
+    if (lost < -rounding && anchor(k, kept, x)) lost = loss();
+    if (lost < -rounding) {
+        anchor(k, {}, x);
+        lost = loss();
+    }
+    parts_->heat[k] += lost;
+    return lost;
 }
 
 /// X = F^-1 r for all bonds, which leaves them their weights; X = r where there is no F^-1. Returns whether there is.
@@ -155,6 +165,8 @@ const BondBreaks& MaterialVectors<Dim>::breaks() const {
     template SymTensor<D> MaterialVectors<D>::kirchhoff_stress(std::size_t, const ConstState<D>&) \
         const;                                                                                    \
     template bool MaterialVectors<D>::break_bonds(const ConstState<D>&);                          \
+    template double MaterialVectors<D>::book_loss(std::size_t, double, const Fit&,                \
+                                                  const ConstState<D>&);                          \
     template bool MaterialVectors<D>::anchor(std::size_t, const Fit&, const double*);             \
     template void MaterialVectors<D>::exclude(const double*);                                     \
     template void MaterialVectors<D>::tell_breaks(std::vector<Remark>&);                          \

@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace spam {
+namespace {
+
+// By V and the stiffness: what new weights may add to the energy of a particle.
+constexpr double stored_by_weights = 1e-3;
+
+}  // namespace
 
 /// Particles are looked at by the loops in lanes, and one by one only where they flow.
 template <int Dim>
@@ -33,7 +39,7 @@ bool MaterialVectors<Dim>::flow_of_particle(std::size_t k, const ConstState<Dim>
     const Mat<Dim> back = inverse(*G);
     for (std::size_t m = 0; m < p.table.row(k); ++m)
         p.table.set_bond(k, m, back * p.table.X(k, m), p.table.g(k, m));
-    p.book(k, energy_of(before, k, state) - energy_of(fit(x, k), k, state));
+    book_loss(k, energy_of(before, k, state), fit(x, k), state);
     return true;
 }
 
@@ -69,11 +75,15 @@ bool MaterialVectors<Dim>::flow_of_bonds(std::size_t k, const Mat<Dim>& F,
             p.table.set_X(k, m, p.table.X(k, m) + back * (part * e));
             flowed = true;
         }
-    if (flowed) p.book(k, energy_of(before, k, state) - energy_of(fit(x, k), k, state));
+    if (flowed) book_loss(k, energy_of(before, k, state), before, state);
     return flowed;
 }
 
-/// g by the vectors, where these have changed by flow.
+/// g by the vectors, where these have changed by flow. The fit F then changes by as much as there is misfit, and the
+/// energy by little and in both directions. Not where vectors are far from what they were when rows were made:
+/// there F may jump, particles may even be turned inside out, and heat would pay for that. Weights stay as they are
+/// where they would store more than a little. (To refuse any gain, however small, would leave it to rounding whose
+/// weights follow, and motion would not converge with the step.)
 template <int Dim>
 bool MaterialVectors<Dim>::weigh(const ConstState<Dim>& state) {
     Parts& p = *parts_;
@@ -89,9 +99,17 @@ bool MaterialVectors<Dim>::weigh(const ConstState<Dim>& state) {
                while (m < p.table.row(k) && !changed(m)) ++m;
                if (m == p.table.row(k)) return 0;
                const double before = energy_of(fit(x, k), k, state);
+               std::vector<double> weights;
+               for (std::size_t n = 0; n < p.table.row(k); ++n) weights.push_back(p.table.g(k, n));
                for (; m < p.table.row(k); ++m)
                    if (changed(m)) p.table.set_X(k, m, p.table.X(k, m));
-               p.book(k, before - energy_of(fit(x, k), k, state));
+               const double loss = before - energy_of(fit(x, k), k, state);
+               if (loss < -stored_by_weights * p.volume[k] * material_.stiffness()) {
+                   for (std::size_t n = 0; n < p.table.row(k); ++n)
+                       p.table.set_bond(k, n, p.table.X(k, n), weights[n]);
+                   return 0;
+               }
+               p.heat[k] += loss;
                return 1;
            }) > 0;
 }

@@ -99,12 +99,8 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
             if (weighs(bond) && !p.excludes(bond.k, bond.j)) changed.push_back(bond.k);
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    const auto book = [&](double sign) {
-        parallel_for(changed.size(), [&](std::size_t n) {
-            p.heat[changed[n]] += sign * energy_of(fit(x, changed[n]), changed[n], state);
-        });
-    };
-    book(1.0);
+    std::vector<Fit> before(changed.size());
+    parallel_for(changed.size(), [&](std::size_t n) { before[n] = fit(x, changed[n]); });
     p.table.admit();
     for (const auto* bonds : {&p.table.newcomers(), &p.table.idle()})
         parallel_for(bonds->size(), [&](std::size_t n) {
@@ -112,7 +108,9 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
             p.table.set_X(bond.k, bond.row, anchored(bond));
         });
     exclude(x);
-    book(-1.0);
+    parallel_for(changed.size(), [&](std::size_t n) {
+        book_loss(changed[n], energy_of(before[n], changed[n], state), before[n], state);
+    });
     return !changed.empty();
 }
 

@@ -64,13 +64,16 @@ struct BondBreaks {
 ///     leave   beyond that, with weight 0
 ///     yield   of a law that flows (FlowingLaw): F_k <- F_k G, X_kj <- G^-1 X_kj, so that F X stays. Rates are those
 ///             of the returned stress within steps as well, and stay as they are: weights g(|X|) follow when
-///             rows are made anew. What flow and new weights take off the energy is heat()
-///
+///             rows are made anew, where they do not add more than a thousandth of V eta to what a particle
+///             stores. What flow and new weights take off the energy is heat()
 ///     bonds   of a law that yields, with bond_yield: where a misfit is beyond its limit, X_kj takes up the rest
 ///     break   beyond a stretch or a stress: both bonds of the pair weigh nothing, and none is made before
 ///             the particles have been seen farther apart than h (a Core keeps them from passing through each
 ///             other). Where the new fit F would store more, what is left at the particle is given vectors
-///             X = F^-1 r of the old one: heat() does not fall
+///             X = F^-1 r of the old one
+///
+/// Heat does not fall: what would store more after one of these changes keeps its F by vectors without misfit to it,
+/// or, with too few neighbours for that, forgets its strain. New weights alone may take back the little above.
 ///
 /// Between such changes the motion is Hamiltonian, at the first two the energy stays as it is: p is kept exactly, L
 /// and E to integrator error, and there is no tensile instability. Where a step is so long that somebody enters
@@ -151,6 +154,7 @@ class MaterialVectors final : public Term<Dim> {
     bool weigh(const ConstState<Dim>& state);
     SymTensor<Dim> kirchhoff_stress(std::size_t k, const ConstState<Dim>& state) const;
     bool break_bonds(const ConstState<Dim>& state);
+    double book_loss(std::size_t k, double energy, const Fit& kept, const ConstState<Dim>& state);
     bool anchor(std::size_t k, const Fit& fit, const double* x);
     void exclude(const double* x);
     void tell_breaks(std::vector<Remark>& remarks);
