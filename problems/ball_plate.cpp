@@ -113,7 +113,8 @@ void add_options(Problem& problem, Parameters& p) {
 }  // namespace ball_plate
 
 int main(int argc, char** argv) {
-    spam::Problem problem("ball_plate", "a ball that hits a plate, [HH07] 13", 0.1);
+    spam::Problem problem("ball_plate", "a ball that hits a plate, [HH07] 13", 0.1,
+                          "0.05, of molecules 0.0025, of embedded atoms 0.0125");
     ball_plate::Parameters p;
     ball_plate::add_options(problem, p);
     return problem.main(argc, argv, [&](spam::Session& session) {

@@ -117,7 +117,7 @@ void add_options(Options& options, Parameters& p) {
         .number("penalty", p.penalty,
                 "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
                 "material_vectors (default 2)",
-                non_negative())
+                between(0.0, 100.0))
         .only_when(
             {"formulation"}, [&p] { return p.remembers(); },
             "has no meaning for --formulation updated; leave it out");
@@ -151,7 +151,8 @@ void refuse_impossible(const Parameters& p) {
 }  // namespace cantilever
 
 int main(int argc, char** argv) {
-    spam::Problem problem("cantilever", "an oscillating plate against the theory of beams");
+    spam::Problem problem("cantilever", "an oscillating plate against the theory of beams", 0.1,
+                          "0.4 spacings by the speed of waves");
     cantilever::Parameters p;
     cantilever::add_options(problem.options(), p);
     return problem.main(argc, argv, [&](spam::Session& session) {

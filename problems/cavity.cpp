@@ -200,14 +200,18 @@ void run(Session& session, const Parameters& p) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Problem problem("cavity", "flow in a square under a moving lid, against Ghia, Ghia and Shin");
+    Problem problem("cavity", "flow in a square under a moving lid, against Ghia, Ghia and Shin",
+                    0.4, stirred::step_words);
     Parameters p;
     p.cells = 40;
     // Images move with 2 V - v but stand where mirrors put them: by continuity densities drift there.
     p.scheme.density = Density::summed;
     stirred::add_options(problem.options(), p, "speed of the lid");
     const Sides sides(problem.options(), {"no-slip", "no-slip", "no-slip", "moving"},
-                      ", moving (with --speed)");
+                      {.temperatures = false,
+                       .own = "moving",
+                       .stands_for = "V is --speed",
+                       .remark = stirred::sides_remark});
     p.sides = &sides;
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("cells")) p.cells = 12;

@@ -210,7 +210,7 @@ void add_options(Options& options, Parameters& p) {
         .number("penalty", p.penalty,
                 "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
                 "material_vectors (default 2)",
-                non_negative())
+                between(0.0, 100.0))
         .only_when(
             {"formulation"}, [&p] { return p.formulation != Formulation::updated; },
             "has no meaning for --formulation updated; leave it out");

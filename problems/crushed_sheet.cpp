@@ -201,7 +201,8 @@ void add_options(Options& options, Parameters& p) {
     options.number("amplitude", p.amplitude, "speed across the sheet at the start", non_negative());
     options.number("range", p.range, "distance at which Lucy's weight function vanishes",
                    between(1.2, 6.0));
-    options.number("penalty", p.penalty, "penalty kappa against zero-energy modes", non_negative());
+    options.number("penalty", p.penalty, "penalty kappa against zero-energy modes",
+                   between(0.0, 100.0));
     options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive());
     options.number("contact-range", p.contact.range,
                    "distance at which folds of the sheet touch, at most a spacing", positive());

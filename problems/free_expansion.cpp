@@ -132,7 +132,8 @@ void run(Session& session, const Parameters& p) {
 
 int main(int argc, char** argv) {
     using namespace free_expansion;
-    Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25);
+    Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25,
+                    "0.25, on a line 0.125, or shorter where the range is short");
     Parameters p;
     auto& options = problem.options();
     options.integer("dimension", p.dimension,
@@ -141,11 +142,12 @@ int main(int argc, char** argv) {
     options.integer("cells", p.cells, "particles along an edge of the gas, at spacing 1",
                     between(2, 4000));
     options.integer("particles", p.particles,
-                    "number of particles, a square number; instead of --cells",
+                    "number of particles, in the plane a square number; instead of --cells",
                     between(4, 16000000));
     options.choice<Walls>("walls", p.walls, {Walls::periodic, Walls::mirror},
                           "boundary of the box");
-    const Sides sides(options, {"walls", "walls", "walls", "walls"}, ", walls (as with --walls)");
+    const Sides sides(options, {"walls", "walls", "walls", "walls"},
+                      {.temperatures = false, .own = "walls", .stands_for = "what --walls says"});
     p.sides = &sides;
     options.only_when(
         {"bottom", "top"}, {"dimension"}, [&p] { return p.dimension == 2; },

@@ -35,7 +35,7 @@ void add_options(Options& options, Parameters& p) {
                    "energy of the core that keeps two particles apart; 0 for none", non_negative());
     options
         .number("core-range", p.matter.core_range, "distance at which cores touch",
-                between(0.01, 100.0))
+                between(0.01, 1.0))
         .only_when(
             {"core"}, [&p] { return p.matter.core > 0.0; },
             "has no meaning without a core; give --core 1, or leave it out");

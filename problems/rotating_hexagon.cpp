@@ -252,7 +252,7 @@ int main(int argc, char** argv) {
         "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
         "material_vectors (default 2, stable up to a tension of 0.43; the run's first lines "
         "say it of other values)",
-        non_negative());
+        between(0.0, 100.0));
 
     options.flag("torques", p.torques,
                  "add columns with the distribution of pair and particle torques, [HHM04] VIII");

@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
                                 "smooth particles, or a solid with material vectors");
     options.number("penalty", p.penalty,
                    "penalty kappa of material_vectors (several are compared without it)",
-                   non_negative());
+                   between(0.0, 100.0));
     options.number("shear-stress", p.shear_stress,
                    "shear stress besides the hydrostatic one (material_vectors)",
                    between(-1.0, 1.0));

@@ -134,7 +134,8 @@ void compute(Session& session, const Parameters& p) {
 
 int main(int argc, char** argv) {
     using namespace taylor_bar;
-    Problem problem("taylor_bar", "a copper cylinder against a rigid wall", 0.05);
+    Problem problem("taylor_bar", "a copper cylinder against a rigid wall", 0.05,
+                    "0.4 spacings of the flattened bar by the speed of waves");
     Parameters p;
     auto& options = problem.options();
     options.integer("particles-per-radius", p.particles_per_radius,

@@ -98,15 +98,18 @@ void run(Session& session, const Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("taylor_green",
-                    "four vortices decay in a periodic square, against the exact solution");
+                    "four vortices decay in a periodic square, against the exact solution", 0.4,
+                    stirred::step_words);
     Parameters p;
     auto& options = problem.options();
     stirred::add_options(options, p, "largest speed at the start");
-    const Sides sides(options, {"periodic", "periodic", "periodic", "periodic"});
+    const Sides sides(options, {"periodic", "periodic", "periodic", "periodic"},
+                      {.temperatures = false, .remark = stirred::sides_remark});
     p.sides = &sides;
-    options.number("disorder", p.disorder,
-                   "particles start off the square lattice by up to so many spacings",
-                   between(0.0, 0.4));
+    options.number(
+        "disorder", p.disorder,
+        "largest random displacement of the particles from the square lattice, in spacings",
+        between(0.0, 0.4));
     options.integer("seed", p.seed, "seed of the random displacements", between(0, 1000000000));
     options.only_when(
         {"seed"}, {"disorder"}, [&p] { return p.disorder > 0.0; },

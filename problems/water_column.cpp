@@ -115,6 +115,9 @@ void refuse_impossible(const Parameters& p) {
             p.core_range));
 }
 
+constexpr const char* no_friction =
+    "rubs, and forces from a potential feel nothing of the velocity of a wall";
+
 void add_options(Options& options, Parameters& p) {
     options.integer("width", p.width, "W, particles from wall to wall", between(4, 400));
     options.number("aspect", p.aspect, "height of the column by its width", between(0.1, 10.0));
@@ -139,7 +142,9 @@ void add_options(Options& options, Parameters& p) {
                    "with --compare of the first column",
                    positive());
     options.number("relaxation-time", p.relaxation_time,
-                   "how long it comes to rest (default: 12.5 W); likewise", positive());
+                   "time in which it comes to rest (default: 12.5 W); with --compare of the first "
+                   "column",
+                   positive());
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 }
@@ -152,7 +157,12 @@ int main(int argc, char** argv) {
                           "a column of water comes to rest and collapses, [HH07] 11", 0.025);
     water_column::Parameters p;
     water_column::add_options(problem.options(), p);
-    const spam::Sides sides(problem.options(), {"mirror", "mirror", "mirror", ""});
+    const spam::SideOption wall(
+        "mirror", {{spam::SideKind::open, "lets the fluid out before it has come to rest"},
+                   {spam::SideKind::periodic, "leaves nothing that could collapse"},
+                   {spam::SideKind::no_slip, water_column::no_friction},
+                   {spam::SideKind::moving, water_column::no_friction}});
+    const spam::Sides sides(problem.options(), {wall, wall, wall, ""}, {.temperatures = false});
     p.sides = &sides;
     return problem.main(argc, argv, [&](spam::Session& session) {
         if (session.common().smoke && !session.given("width")) p.width = 8;

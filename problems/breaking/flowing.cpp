@@ -14,7 +14,7 @@ void add_flowing_options(Options& options, FlowingMatter& matter) {
                    "largest mean tension, beyond which the solid tears", positive());
     options.number("penalty", matter.penalty,
                    "penalty kappa against motion that no deformation gradient sees",
-                   non_negative());
+                   between(0.0, 100.0));
     add_bond_options(options, matter.bonds);
 }
 

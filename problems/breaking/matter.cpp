@@ -90,6 +90,11 @@ void refuse_impossible(const Matter& matter) {
             "core-range: {:g} is below a hundredth of the spacing, 1: no step resolves such "
             "a core; give 0.01 or more, or --core 0",
             matter.core_range));
+    if (matter.kind != MatterKind::pair_md && matter.core > 0.0 && matter.core_range > 1.0)
+        throw InputError(fmt::format(
+            "core-range: {:g} is above the spacing, 1, so that neighbours would push each other away from the "
+            "start; give 1 or less",
+            matter.core_range));
 }
 
 }  // namespace
@@ -151,7 +156,7 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         options.number("penalty", matter.penalty,
                        "penalty kappa of material vectors against motion that no deformation "
                        "gradient sees",
-                       non_negative());
+                       between(0.0, 100.0));
         add_bond_options(options, matter.bonds);
         auto of_vectors = bond_option_names();
         of_vectors.insert(of_vectors.end(), {"tension-limit", "penalty"});

@@ -71,9 +71,9 @@ void report(Session& session, const Flow& flow, const RunRecord& run) {
                     "particles that crossed a plate");
     session.check_promises(run, prefix);
     if (!flow.known) return;
-    const bool known = session.when_default({"speed", "reynolds", "kernel", "range", "friction"}) &&
-                       run.complete && run.statistics.t_end >= 0.99 * flow.exact.time() &&
-                       flow.exact.H >= 20.0;
+    const bool known =
+        session.when_default({"speed", "reynolds", "density", "kernel", "range", "friction"}) &&
+        run.complete && run.statistics.t_end >= 0.99 * flow.exact.time() && flow.exact.H >= 20.0;
     for (const bool upper : {false, true})
         if (run.complete)
             session.claim({prefix + (upper ? "stress_top" : "stress_bottom"),
@@ -178,13 +178,17 @@ bool between_plates(const Box<2>& box, double speed) {
     return box.periodic(0) && sticks(false, 0.0) && sticks(true, speed);
 }
 
+Box<2> box_of(const Parameters& p, int cells) {
+    return p.sides->box<2>(Point<2>::Zero(), Point<2>(cells, cells),
+                           {{"moving", fmt::format("moving:{}", p.speed)}});
+}
+
 }  // namespace
 
 Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described) {
     const double H = cells, nu = p.speed * H / p.reynolds;
     const bool plate = drive == Drive::plate;
-    const auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(H, H),
-                                     {{"moving", fmt::format("moving:{}", p.speed)}});
+    const auto box = box_of(p, cells);
     Points<2> x = square_lattice<2>({cells, cells});
     x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
     auto model = std::make_unique<FluidModel<2>>(make_particles<2>(x, 1.0, 1.0, box),
@@ -205,14 +209,15 @@ Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described)
 
 int main_of(int argc, char** argv, const std::string& name, const std::string& summary,
             Drive drive) {
-    Problem problem(name, summary);
+    Problem problem(name, summary, 0.25, "0.25, or shorter where friction is strong");
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "particles from plate to plate, and as many along them",
                     between(8, 400));
     options.number("speed", p.speed,
-                   drive == Drive::plate ? "speed of the upper plate; that of sound is 1"
-                                         : "speed of the finished flow in the middle; sound has 1",
+                   drive == Drive::plate
+                       ? "speed of the upper plate; that of sound is 1"
+                       : "speed of the finished flow in the middle; that of sound is 1",
                    between(1e-6, 0.5));
     options.number("reynolds", p.reynolds,
                    "Reynolds number: speed times distance of the plates by "
@@ -220,8 +225,12 @@ int main_of(int argc, char** argv, const std::string& name, const std::string& s
                    between(0.01, 1e4));
     const bool plate = drive == Drive::plate;
     const Sides sides(options, {"periodic", "periodic", "no-slip", plate ? "moving" : "no-slip"},
-                      ", moving (with --speed)");
+                      {.temperatures = false, .own = "moving", .stands_for = "V is --speed"});
     p.sides = &sides;
+    options.choice<Density>(
+        "density", p.scheme.density, {Density::continuity, Density::summed},
+        "by the continuity equation, or as a sum over neighbours; where it is not given, "
+        "summed if the left and right sides are not periodic");
     add_friction_option(options, p.friction);
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
     options.number("range", p.scheme.range, "range h of the weight function", between(1.2, 6.0));
@@ -229,6 +238,9 @@ int main_of(int argc, char** argv, const std::string& name, const std::string& s
                  "compute half as many and twice as many particles across as well");
     return problem.main(argc, argv, [&](Session& session) {
         if (session.common().smoke && !session.given("cells")) p.cells = 10;
+        // Stirred between walls on all sides particles lose the densities that continuity gives them.
+        if (!session.given("density") && !box_of(p, p.cells).periodic(0))
+            p.scheme.density = Density::summed;
         run(session, p, drive);
     });
 }

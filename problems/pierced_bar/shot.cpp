@@ -86,7 +86,7 @@ void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces
     }
     session.claim({"spin_change_of_pieces", spin_change, 0.0, 1e-9,
                    "since they parted, by the momentum of the projectile and a spacing"},
-                  known);
+                  known && run.statistics.t_end >= 200.0);
     session.claim({"pieces", h.last("pieces"), 7.0, 3.0,
                    "connected within the range, five particles or more; recorded"},
                   known && run.statistics.t_end >= 200.0);

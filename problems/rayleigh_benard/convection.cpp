@@ -20,7 +20,7 @@ namespace {
 
 void refuse_without_plates(const Box<2>& box) {
     for (const bool upper : {false, true})
-        if (box.wall(1, upper).open() || !box.wall(1, upper).temperature)
+        if (!box.wall(1, upper).temperature)
             throw InputError(fmt::format(
                 "{}: heat must come from below and leave above; give a wall with a temperature, as "
                 "no-slip@{}",
@@ -31,11 +31,6 @@ void refuse_without_plates(const Box<2>& box) {
             "bottom: its temperature {:g} must be above that of --top, {:g}; nothing else drives the "
             "gas",
             hot, cold));
-    for (const bool upper : {false, true})
-        if (!box.periodic(0) && box.wall(0, upper).open())
-            throw InputError(
-                fmt::format("{}: 'open' would let the gas out; use periodic, mirror or no-slip",
-                            Sides::name(0, upper)));
 }
 
 }  // namespace

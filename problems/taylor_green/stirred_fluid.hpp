@@ -44,6 +44,10 @@ double step_of(const Parameters& p, double nu);
 /// --cells, --speed, --reynolds, --transport, --shifting, --density, --friction, --kernel, --range, --compare.
 void add_options(Options& options, Parameters& p, const std::string& speed_of_what);
 
+/// Of --help: step_of() in words, and what sides need.
+constexpr const char* step_words = "0.1 h, or shorter where friction or shifting are strong";
+constexpr const char* sides_remark = "open and rigid sides need --transport plain";
+
 /// Where these are the defaults, something is known.
 const std::vector<std::string>& decisive_options();
 

@@ -17,16 +17,6 @@ namespace {
 /// The wall on the right can be taken away.
 Box<2> room(const Parameters& p, const FluidColumn& column, bool right_wall) {
     auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(column.width, column.rows));
-    for (int a = 0; a < 2; ++a)
-        if (box.periodic(a))
-            throw InputError(
-                fmt::format("{}: 'periodic' leaves nothing that could collapse; give a wall",
-                            Sides::name(a, false)));
-    for (int a = 0; a < 2; ++a)
-        if (box.wall(a, false).open())
-            throw InputError(
-                fmt::format("{}: 'open' lets the fluid out before it has come to rest; give a wall",
-                            Sides::name(a, false)));
     if (!right_wall) box.set_wall(0, true, {});
     return box;
 }

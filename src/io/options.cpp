@@ -31,6 +31,9 @@ namespace {
 template <class Number>
 Number accepted(const std::string& name, const std::string& text, std::optional<Number> value,
                 const Allowed& allowed) {
+    if (std::is_floating_point_v<Number> && !value)
+        throw InputError(fmt::format("{}: '{}' is not a finite number; it must be {}", name, text,
+                                     allowed.words));
     if (!value || !allowed.holds(*value))
         throw InputError(fmt::format("{}: '{}' must be {}", name, text, allowed.words));
     return *value;
@@ -145,6 +148,11 @@ std::vector<std::string> Options::names() const {
 }
 
 /// A flag that a file sets to false was left out on the command line that wrote it.
+bool Options::has(std::string_view name) const {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [name](const auto& e) { return e->name == name; });
+}
+
 bool Options::given(std::string_view name) const {
     return std::any_of(entries_.begin(), entries_.end(), [name](const auto& e) {
         return e->name == name && (e->in_file || e->on_command) &&

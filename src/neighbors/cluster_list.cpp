@@ -30,9 +30,9 @@ ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, in
         const auto &lower = box.wall(a, false), &upper = box.wall(a, true);
         if (!lower.open() && !upper.open() && !(upper.at - lower.at > range))
             throw InputError(fmt::format(
-                "wall: the two across direction {} are {} apart, not more than the range {}, and would "
-                "see images of images without end; move them apart or shorten --range",
-                "xyz"[a], upper.at - lower.at, range));
+                "{}: the wall is {:g} from the {} one, not more than the range {:g}, and images of images "
+                "would have no end; move the walls apart, or shorten --range",
+                name_of_side(a, true), upper.at - lower.at, name_of_side(a, false), range));
     }
 }
 

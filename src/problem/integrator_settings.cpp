@@ -45,8 +45,11 @@ void IntegratorSettings::add_to(Options& options) {
     options.text("integrator", method_,
                  "method: rk4, leapfrog, arkode:<SUNDIALS table>, cvode:adams or gsl:<stepper>; "
                  "steps are adaptive where the method allows it, and fixed with --dt");
-    options.number("dt", dt_, fmt::format("fixed time step (default of rk4: {})", default_dt_),
-                   positive());
+    options.number(
+        "dt", dt_,
+        fmt::format("fixed time step (default of rk4: {})",
+                    default_words_.empty() ? fmt::format("{}", default_dt_) : default_words_),
+        positive());
     options.number("rtol", rtol_, "relative tolerance of adaptive steps (default 1e-8)",
                    positive());
     options.number(

@@ -34,10 +34,10 @@ InputError too_large() {
 
 }  // namespace
 
-Problem::Problem(std::string name, std::string summary, double default_dt)
+Problem::Problem(std::string name, std::string summary, double default_dt, std::string default_step)
     : name_(std::move(name)),
       summary_(std::move(summary)),
-      integrator_(default_dt),
+      integrator_(default_dt, std::move(default_step)),
       options_(name_, summary_) {
     common_.out = name_ + "-out";
     options_.version(fmt::format("{}: spam {}, SUNDIALS {}", name_, version(), sundials_version()));

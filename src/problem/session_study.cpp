@@ -97,10 +97,10 @@ StudyTable Session::begin_study(const std::string& table, const std::vector<std:
         throw InputError(
             "restart: a study goes on from its table when it is started again with the same "
             "options; leave --restart out");
-    if (problem_.options_.given("threads"))
+    if (common().threads)
         throw InputError(fmt::format(
-            "threads: {} computes many small runs at a time, each in one thread; use --jobs",
-            problem_.name_));
+            "threads: {} computes many small runs at a time, each in one thread; {}",
+            problem_.name_, problem_.options_.has("jobs") ? "use --jobs" : "leave it out"));
     if (const auto name = problem_.options_.first_given(of_one_run); !name.empty())
         throw InputError(fmt::format("{}: has no meaning for the many runs of {}; leave it out",
                                      name, problem_.name_));

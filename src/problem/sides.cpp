@@ -6,13 +6,24 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace spam {
 namespace {
 
-std::string allowed(bool along) {
-    return std::string("open, periodic, mirror, no-slip") + (along ? ", moving:V" : "") +
-           " or rigid";
+constexpr std::pair<SideKind, const char*> kinds[]{
+    {SideKind::open, "open"},       {SideKind::periodic, "periodic"}, {SideKind::mirror, "mirror"},
+    {SideKind::no_slip, "no-slip"}, {SideKind::moving, "moving:V"},   {SideKind::rigid, "rigid"}};
+
+// What runs can be expected to survive, in their units: numbers beyond are slips of the pen.
+constexpr double fastest = 1e3, coldest = 1e-6, hottest = 1e6;
+
+/// "a, b or c"
+std::string either(const std::vector<std::string>& words) {
+    std::string list;
+    for (std::size_t k = 0; k < words.size(); ++k)
+        list += (k == 0 ? "" : k + 1 == words.size() ? " or " : ", ") + words[k];
+    return list;
 }
 
 /// A side before it has a place.
@@ -22,45 +33,41 @@ struct Side {
     Wall<Dim> wall;
 };
 
+/// Of the words of one option.
 template <int Dim>
 class Reader {
   public:
-    Reader(std::string option, const std::string& words, int axis, const Sides::Meanings& meanings)
+    Reader(std::string option, std::string words, int axis, const SideOption& side,
+           const Sides::Meanings& meanings, std::string allowed, bool temperatures)
         : option_(std::move(option)),
-          words_(words),
-          axis_(axis) {
-        if (const auto other = meanings.find(words_); other != meanings.end())
-            words_ = other->second;
-        for (const auto& [word, meaning] : meanings) more_ += ", " + word;
+          words_(std::move(words)),
+          axis_(axis),
+          side_(side),
+          allowed_(std::move(allowed)),
+          temperatures_(temperatures) {
+        const auto at = std::min(words_.find('@'), words_.size());
+        kind_ = words_.substr(0, at);
+        if (at < words_.size()) temperature_ = words_.substr(at + 1);
+        if (const auto other = meanings.find(kind_); other != meanings.end()) {
+            kind_ = other->second;
+            words_ = temperature_ ? kind_ + "@" + *temperature_ : kind_;
+        }
     }
 
     Side<Dim> side() const {
-        const auto at = words_.find('@');
-        const std::string kind = words_.substr(0, at);
         Side<Dim> side;
-        if (kind == "periodic")
-            side.periodic = true;
-        else if (kind == "mirror")
-            side.wall.kind = WallKind::mirror;
-        else if (kind == "no-slip")
-            side.wall.kind = WallKind::no_slip;
-        else if (kind == "rigid")
-            side.wall.kind = WallKind::rigid;
-        else if (Dim > 1 && kind.starts_with("moving:")) {
-            side.wall.kind = WallKind::no_slip;
-            side.wall.velocity[axis_ == 0 ? 1 : 0] = number(kind.substr(7), "velocity");
-        } else if (kind != "open")
-            refuse("is none of " + allowed(Dim > 1) + more_ +
-                   "; mirrors and no-slip walls may have @TEMPERATURE behind");
-        if (at == std::string::npos) return side;
-        if (side.periodic || side.wall.open())
-            refuse("is no wall and has no temperature; leave it out");
-        if (side.wall.kind == WallKind::rigid)
-            refuse(
-                "has nothing behind it that could be warm; use mirror or no-slip, or leave the "
-                "temperature out");
-        side.wall.temperature = number(words_.substr(at + 1), "temperature");
-        if (!(*side.wall.temperature > 0.0)) refuse("has a temperature that is not above 0");
+        const SideKind kind = kind_of_words();
+        if (const auto why = side_.excluded.find(kind); why != side_.excluded.end())
+            refuse(fmt::format("{}; use {}", why->second, allowed_));
+        side.periodic = kind == SideKind::periodic;
+        side.wall.kind = kind == SideKind::mirror                                ? WallKind::mirror
+                         : kind == SideKind::rigid                               ? WallKind::rigid
+                         : kind == SideKind::no_slip || kind == SideKind::moving ? WallKind::no_slip
+                                                                                 : WallKind::open;
+        if (kind == SideKind::moving)
+            side.wall.velocity[axis_ == 0 ? 1 : 0] =
+                number(kind_.substr(7), "velocity", -fastest, fastest, "as in moving:0.1");
+        if (temperature_) side.wall.temperature = temperature_of(side);
         return side;
     }
 
@@ -69,38 +76,90 @@ class Reader {
     }
 
   private:
-    double number(const std::string& text, const char* what) const {
+    SideKind kind_of_words() const {
+        if (kind_.starts_with("moving:")) {
+            if (Dim == 1)
+                refuse("moves along itself, and on a line there is no such motion; use no-slip");
+            return SideKind::moving;
+        }
+        for (const auto& [kind, name] : kinds)
+            if (kind != SideKind::moving && kind_ == name) return kind;
+        refuse(fmt::format("is none of {}; give one of these", allowed_));
+    }
+
+    double temperature_of(const Side<Dim>& side) const {
+        if (side.periodic || side.wall.open())
+            refuse("is no wall and has no temperature; leave it out");
+        if (side.wall.kind == WallKind::rigid)
+            refuse(
+                "has nothing behind it that could be warm; use mirror or no-slip, or leave the "
+                "temperature out");
+        if (!temperatures_)
+            refuse(fmt::format("has a temperature, and nothing here conducts heat; leave '@{}' out",
+                               *temperature_));
+        return number(*temperature_, "temperature", coldest, hottest, "as in mirror@1.5");
+    }
+
+    double number(const std::string& text, const char* what, double least, double most,
+                  const char* example) const {
         double value = 0.0;
-        const char* const last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, value);
-        if (error != std::errc{} || end != last || !std::isfinite(value))
-            refuse(fmt::format("has '{}' for a {}; give a number", text, what));
+        const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+        const char *const first = text.data() + (plus ? 1 : 0), *const last =
+                                                                    text.data() + text.size();
+        const auto [end, error] = std::from_chars(first, last, value);
+        if (error != std::errc{} || end != last || !(value >= least && value <= most))
+            refuse(fmt::format("has '{}' for a {}; give a number between {:g} and {:g}, {}", text,
+                               what, least, most, example));
         return value;
     }
 
-    std::string option_, words_, more_;
+    std::string option_, words_, kind_;
+    std::optional<std::string> temperature_;
     int axis_;
+    const SideOption& side_;
+    std::string allowed_;
+    bool temperatures_;
 };
 
 }  // namespace
 
 std::string Sides::name(int a, bool upper) { return name_of_side(a, upper); }
 
-Sides::Sides(Options& options, std::vector<std::string> otherwise, const std::string& more)
-    : words_(std::move(otherwise)) {
-    for (std::size_t k = 0; k < words_.size(); ++k)
-        if (!words_[k].empty())
-            options.text(name_of_side(static_cast<int>(k / 2), k % 2 == 1), words_[k],
-                         fmt::format("{} side: {}{}; mirrors and no-slip walls may have "
-                                     "@TEMPERATURE behind, else they are insulated",
-                                     name_of_side(static_cast<int>(k / 2), k % 2 == 1),
-                                     allowed(words_.size() > 2), more));
+Sides::Sides(Options& options, std::vector<SideOption> sides, Words words)
+    : sides_(std::move(sides)),
+      words_(std::move(words)) {
+    given_.reserve(sides_.size());  // options hold on to them
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+        given_.push_back(sides_[k].otherwise);
+        if (given_[k].empty()) continue;
+        const int a = static_cast<int>(k / 2);
+        const std::string allowed = this->allowed(k);
+        std::string help = fmt::format("{} side: {}", name_of_side(a, k % 2 == 1), allowed);
+        if (!words_.own.empty()) help += fmt::format(" ({}: {})", words_.own, words_.stands_for);
+        if (allowed.find("moving:V") != std::string::npos)
+            help += fmt::format("; V is the velocity of the wall along {}", a == 0 ? 'y' : 'x');
+        if (words_.temperatures)
+            help +=
+                "; a mirror or a no-slip wall is insulated, or has the temperature that is "
+                "appended, as in mirror@1.5";
+        if (!words_.remark.empty()) help += "; " + words_.remark;
+        options.text(name_of_side(a, k % 2 == 1), given_[k], help);
+    }
+}
+
+std::string Sides::allowed(std::size_t k) const {
+    std::vector<std::string> words;
+    for (const auto& [kind, name] : kinds)
+        if (!sides_[k].excluded.contains(kind) && (kind != SideKind::moving || sides_.size() > 2))
+            words.emplace_back(name);
+    if (!words_.own.empty()) words.push_back(words_.own);
+    return either(words);
 }
 
 std::vector<std::string> Sides::names() const {
     std::vector<std::string> names;
-    for (std::size_t k = 0; k < words_.size(); ++k)
-        if (!words_[k].empty())
+    for (std::size_t k = 0; k < sides_.size(); ++k)
+        if (!sides_[k].otherwise.empty())
             names.emplace_back(name_of_side(static_cast<int>(k / 2), k % 2 == 1));
     return names;
 }
@@ -108,8 +167,9 @@ std::vector<std::string> Sides::names() const {
 template <int Dim>
 Box<Dim> Sides::box(const Point<Dim>& low, const Point<Dim>& high, const Meanings& meanings) const {
     const auto reader = [&](int a, bool upper) {
-        const std::string& words = words_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
-        return Reader<Dim>(name(a, upper), words.empty() ? "open" : words, a, meanings);
+        const auto k = static_cast<std::size_t>(2 * a + (upper ? 1 : 0));
+        return Reader<Dim>(name(a, upper), given_[k].empty() ? "open" : given_[k], a, sides_[k],
+                           meanings, allowed(k), words_.temperatures);
     };
     std::array<double, Dim> lengths{};
     for (int a = 0; a < Dim; ++a) {

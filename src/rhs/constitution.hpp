@@ -62,6 +62,8 @@ class Constitution {
     virtual double sound_speed_of(std::size_t) const { return 0.0; }
     /// Term::fastest_damping() of friction and conduction.
     virtual double damping(const GeneralWeight<Dim>&, const RestingBody&) const { return 0.0; }
+    /// Whether heat passes from particle to particle, and from what is behind a wall.
+    virtual bool conducts() const { return false; }
     /// Term::neighbour_forces() of the stress, by the spacing.
     virtual double stress_forces(const ConstState<Dim>& state,
                                  std::span<const double> rho) const = 0;
@@ -99,6 +101,7 @@ class FluidConstitution final : public Constitution<Dim> {
     std::optional<double> sound_speed(double density) const override;
     double sound_speed_of(std::size_t i) const override;
     double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest) const override;
+    bool conducts() const override;
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 
     const Fluid& of(std::size_t i) const;

@@ -23,12 +23,12 @@ MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particl
             "density: {} at the start must be positive; sqrt(4/3) m is that of the triangular lattice",
             scheme.density));
     if (!(scheme.penalty >= 0.0) || !std::isfinite(scheme.penalty))
-        throw InputError(fmt::format("penalty: {} must be a number not below 0; try --penalty 1",
+        throw InputError(fmt::format("penalty: {} must be a number not below 0; try --penalty 2",
                                      scheme.penalty));
     if (!(scheme.weight.reach > 0.0) || !(scheme.weight.power >= 0.0) ||
         !std::isfinite(scheme.weight.reach) || !std::isfinite(scheme.weight.power))
         throw InputError(fmt::format(
-            "weight: a reach of {} ranges must be positive, a power of {} not below 0; 1.25 and 2 are usual",
+            "weight: a reach of {} ranges must be positive, a power of {} not below 0; 1.25 and 4 are usual",
             scheme.weight.reach, scheme.weight.power));
     if (scheme.penalty > 0.0 && !(material.stiffness() > 0.0))
         throw InputError(fmt::format(

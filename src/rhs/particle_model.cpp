@@ -30,29 +30,25 @@ void ParticleModel<Dim>::refuse_beyond_walls() const {
         for (Eigen::Index i = 0; i < x.cols(); ++i)
             if (upper ? x(a, i) > wall.at : x(a, i) < wall.at)
                 throw InputError(fmt::format(
-                    "wall: particle {} at {} = {:g} is beyond the {} wall at {:g}; move the body "
+                    "{}: particle {} at {} = {:g} is beyond the {} wall at {:g}; move the body "
                     "or the wall",
-                    this->particles().id[static_cast<std::size_t>(i)], "xyz"[a], x(a, i),
-                    wall.describe(), wall.at));
+                    name_of_side(a, upper), this->particles().id[static_cast<std::size_t>(i)],
+                    "xyz"[a], x(a, i), wall.describe(), wall.at));
     });
 }
 
 /// Images have to mean something to the law; a rigid wall stops what moves with its own velocity.
 template <int Dim>
 void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
-    const auto why = term.no_walls();
-    std::string with_images, rigid;  // sides
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
-        std::string& sides = wall.has_images() ? with_images : rigid;
-        sides.append(sides.empty() ? "" : ", ").append(name_of_side(a, upper));
+        const std::string why = wall.has_images() ? term.no_images(wall)
+                                : !term.moves_with_velocity()
+                                    ? "a rigid wall turns the velocity of a particle back, and "
+                                      "particles that move with another velocity go on through "
+                                      "it; use a mirror, or --transport plain"
+                                    : "";
+        if (!why.empty()) throw InputError(fmt::format("{}: {}", name_of_side(a, upper), why));
     });
-    if (!rigid.empty() && !term.moves_with_velocity())
-        throw InputError(fmt::format(
-            "wall: a rigid one turns the velocity of a particle back, and particles that are moved by "
-            "another one go on through it; use mirror, or --transport plain ({}: {})",
-            rigid, term.describe()));
-    if (!with_images.empty() && !why.empty())
-        throw InputError(fmt::format("wall: {} ({}: {})", why, with_images, term.describe()));
 }
 
 template <int Dim>

@@ -52,7 +52,8 @@ BOOST_AUTO_TEST_CASE(sides_move_along_themselves) {
 /// A word of the problem's own, for what other options say.
 BOOST_AUTO_TEST_CASE(words_may_stand_for_others) {
     Options options("test", "a test");
-    const Sides sides(options, {"", "", "no-slip", "moving"}, ", moving (with --speed)");
+    const Sides sides(options, {"", "", "no-slip", "moving"},
+                      {.own = "moving", .stands_for = "V is --speed"});
     const char* const program = "test";
     options.parse(1, &program);
     const Sides::Meanings meanings{{"moving", "moving:0.5"}};
@@ -65,13 +66,44 @@ BOOST_AUTO_TEST_CASE(words_may_stand_for_others) {
                }).find("top: 'moving' is none of") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(words_of_a_problem_may_have_a_temperature) {
+    Options options("test", "a test");
+    const Sides lid(options, {"", "", "no-slip", "moving@2"}, {.own = "moving", .stands_for = ""});
+    const Box<2> box =
+        lid.box<2>(Point<2>::Zero(), Point<2>(4.0, 3.0), {{"moving", "moving:+0.5"}});
+    BOOST_TEST(box.wall(1, true).velocity.x() == 0.5);
+    BOOST_TEST(*box.wall(1, true).temperature == 2.0);
+}
+
+/// What a problem excludes is refused with its reason, and --help does not offer it.
+BOOST_AUTO_TEST_CASE(problems_exclude_kinds_of_sides) {
+    const SideOption closed(
+        "mirror", {{SideKind::open, "would let the gas out"}, {SideKind::periodic, "has no end"}});
+    Options options("test", "a test");
+    const Sides sides(options, {closed, closed}, {.temperatures = false});
+    const char* const words[]{"test", "--left", "open", "--right", "mirror@1"};
+    options.parse(5, words);
+    const auto box = [&] { sides.box<1>(Point<1>(0.0), Point<1>(1.0)); };
+    BOOST_TEST(refusal(box) == "left: 'open' would let the gas out; use mirror, no-slip or rigid");
+    Options others("test", "a test");
+    const Sides warm(others, {closed, closed}, {.temperatures = false});
+    const char* const temperature[]{"test", "--right", "mirror@1"};
+    others.parse(3, temperature);
+    BOOST_TEST(refusal([&] {
+                   warm.box<1>(Point<1>(0.0), Point<1>(1.0));
+               }).starts_with("right: 'mirror@1' has a temperature, and nothing"));
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     BOOST_TEST(refused({"--left", "mirror"}, "right: 'periodic' but --left is not"));
     BOOST_TEST(refused({"--right", "open"}, "but --right is not"));
     BOOST_TEST(refused({"--top", "wall"}, "top: 'wall' is none of open, periodic, mirror"));
     BOOST_TEST(refused({"--top", "mirror@"}, "has '' for a temperature"));
-    BOOST_TEST(refused({"--top", "mirror@0"}, "not above 0"));
-    BOOST_TEST(refused({"--top", "no-slip@-1"}, "not above 0"));
+    BOOST_TEST(refused({"--top", "mirror@0"}, "give a number between 1e-06 and 1e+06"));
+    BOOST_TEST(refused({"--top", "no-slip@-1"}, "has '-1' for a temperature"));
+    BOOST_TEST(refused({"--top", "no-slip@1e300"}, "has '1e300' for a temperature"));
+    BOOST_TEST(refused({"--top", "moving:1e300"}, "give a number between -1000 and 1000"));
+    BOOST_TEST(refused({"--top", "moving:+-1"}, "has '+-1' for a velocity"));
     BOOST_TEST(refused({"--top", "no-slip@inf"}, "has 'inf' for a temperature"));
     BOOST_TEST(refused({"--top", "open@1"}, "is no wall"));
     BOOST_TEST(refused({"--top", "rigid@1"}, "nothing behind it that could be warm"));
@@ -80,6 +112,6 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     BOOST_TEST(refused({"--bottom", "moving"}, "is none of"));
     Options options("test", "a test");
     const Sides line(options, {"moving:1", "open"});
-    BOOST_TEST(refusal([&] { line.box<1>(Point<1>(0.0), Point<1>(1.0)); }).find("is none of") !=
+    BOOST_TEST(refusal([&] { line.box<1>(Point<1>(0.0), Point<1>(1.0)); }).find("on a line") !=
                std::string::npos);
 }

@@ -224,7 +224,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
                             SmoothParticleModel<2>(particles, ElasticSolid{0.7, 0.4}, averaged,
                                                    rigid_room<2>(-10.0, 10.0));
                         }),
-                        "go on through it; use mirror, or --transport plain"));
+                        "go on through it; use a mirror, or --transport plain"));
     }
     // Closer to each other than the range: without images there is nothing without end.
     Points<2> x = square_lattice<2>({2, 12});

@@ -266,7 +266,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto particles = jittered<2>(cells, 1);
     const Scheme far{.density = Density::continuity, .range = 6.5};
     BOOST_TEST(says(refused([&] { FluidModel<2>(particles, gas, far, mirrors<2>(cells)); }),
-                    "images of images without end"));
+                    "images of images would have no end"));
     Box<2> narrow;
     narrow.set_wall(1, true, {WallKind::mirror, 3.0});
     BOOST_TEST(says(refused([&] { FluidModel<2>(particles, gas, {.range = 2.5}, narrow); }),
@@ -290,4 +290,10 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     BOOST_TEST(
         says(refused([&] { BondedModel<2>(particles, HarmonicSpring{}, mirrors<2>(cells)); }),
              "reference configuration"));
+    BOOST_TEST(says(refused([&] {
+                        Box<2> warm = mirrors<2>(cells);
+                        warm.set_wall(1, true, {WallKind::mirror, double(cells), {0, 0}, 1.5});
+                        FluidModel<2>(particles, gas, {.range = 2.5}, warm);
+                    }),
+                    "top: nothing here conducts heat"));
 }

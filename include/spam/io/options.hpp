@@ -135,6 +135,8 @@ class Options {
     /// Whether every one of `names` has the value that it has when nothing is given. After settle().
     bool at_default(const std::vector<std::string>& names) const;
 
+    /// Whether there is an option of this name.
+    bool has(std::string_view name) const;
     /// Whether the user set the option (command line or file).
     bool given(std::string_view name) const;
     /// The first of `names` that the user set; empty if none.

@@ -13,8 +13,11 @@ namespace spam {
 /// refused.
 class IntegratorSettings {
   public:
-    /// `default_dt`: the step of rk4 when none is given.
-    explicit IntegratorSettings(double default_dt) : default_dt_(default_dt) {}
+    /// `default_dt`: the step of rk4 when none is given; `words`: the same for --help, where it depends on other
+    /// options.
+    IntegratorSettings(double default_dt, std::string words)
+        : default_dt_(default_dt),
+          default_words_(std::move(words)) {}
 
     void add_to(Options& options);
     /// What the options, once parsed, mean; throws InputError where they mean nothing.
@@ -30,6 +33,7 @@ class IntegratorSettings {
     void fill(IntegratorOptions& integrator);
 
     double default_dt_;
+    std::string default_words_;
     std::string method_ = "rk4", controller_;
     std::optional<double> dt_, rtol_, atol_, safety_, min_step_, max_step_, initial_step_;
     std::optional<int> max_steps_;

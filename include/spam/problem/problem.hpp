@@ -42,8 +42,10 @@ struct CommonOptions {
 ///     4 output failed        128 + signal (130, 143) interrupted
 class Problem {
   public:
-    /// `default_dt`: the step of rk4 when none is given.
-    Problem(std::string name, std::string summary, double default_dt = 0.1);
+    /// `default_dt`: the step of rk4 when none is given; `default_step`: what --help says of it where it depends
+    /// on other options (Session::prefer_step), as "0.1 spacings by the speed of sound".
+    Problem(std::string name, std::string summary, double default_dt = 0.1,
+            std::string default_step = "");
 
     ~Problem();
 

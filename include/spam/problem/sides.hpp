@@ -10,21 +10,46 @@
 
 namespace spam {
 
-/// What the sides of a box are, as options say it: --left and --right, in the plane --bottom and --top, in space
-/// --front and --back. Each is
+/// What an option can make of one side of a box. `moving` is a no-slip wall with a velocity along itself.
+enum class SideKind { open, periodic, mirror, no_slip, moving, rigid };
+
+/// One side of a problem's box, as it is where its option is not given, and what it cannot be.
+struct SideOption {
+    /// Why sides of these kinds make no sense: {{SideKind::open, "would let the gas out"}}.
+    using Excluded = std::map<SideKind, std::string>;
+
+    SideOption(const char* words, Excluded without = {})
+        : otherwise(words),
+          excluded(std::move(without)) {}
+
+    std::string otherwise;  ///< empty: it is open and has no option
+    Excluded excluded;
+};
+
+/// What the sides are, as options say it: --left and --right, in the plane --bottom and --top, in space --front and
+/// --back. Each is
 ///     open, periodic, mirror, no-slip, moving:V or rigid
-/// and a wall has its temperature behind it, as in no-slip@1.5, or is insulated; a rigid one has none. V is the
-/// velocity of a no-slip wall along itself: along x, of those across x along y.
+/// and a mirror or a no-slip wall has the temperature behind it that is appended, as in no-slip@1.5, or is
+/// insulated. V is the velocity of a no-slip wall along itself: along x, of those across x along y.
 class Sides {
   public:
     /// Further words, each for one of those above that is only known once all options are: {"moving",
     /// "moving:0.1"}.
     using Meanings = std::map<std::string, std::string>;
 
-    /// The options, with what the sides are where they are not given, in the order above: two for each
-    /// direction. A side without words is open and has no option. `more`: further words in --help, as
-    /// ", moving (with --speed)". Must live as long as these are read.
-    Sides(Options& options, std::vector<std::string> otherwise, const std::string& more = {});
+    /// What --help says of the sides of one problem.
+    struct Words {
+        /// Whether heat passes walls, so that a temperature has an effect. Else it is refused.
+        bool temperatures = true;
+        /// A word of the problem's own, and what it stands for: {"moving", "with the speed of --speed"}.
+        std::string own = {}, stands_for = {};
+        /// A further remark, as "open and rigid need --transport plain".
+        std::string remark = {};
+    };
+
+    /// The options, in the order above: two for each direction. Must live as long as these are read.
+    Sides(Options& options, std::vector<SideOption> sides, Words words);
+    Sides(Options& options, std::vector<SideOption> sides) : Sides(options, std::move(sides), {}) {}
     Sides(const Sides&) = delete;
     Sides& operator=(const Sides&) = delete;
 
@@ -41,7 +66,12 @@ class Sides {
     std::vector<std::string> names() const;
 
   private:
-    std::vector<std::string> words_;
+    /// "open, mirror or rigid", of side k.
+    std::string allowed(std::size_t k) const;
+
+    std::vector<SideOption> sides_;
+    std::vector<std::string> given_;  ///< what options say
+    Words words_;
 };
 
 extern template Box<1> Sides::box(const Point<1>&, const Point<1>&, const Meanings&) const;

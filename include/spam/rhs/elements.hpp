@@ -54,8 +54,8 @@ class Elements final : public Term<2> {
     double energy(std::span<const double> y) const override;
     double neighbour_forces(std::span<const double> y) const override;
     bool settle(double t, const State<2>& state) override;
-    std::string no_walls() const override {
-        return "elements do not meet the images of their nodes";
+    std::string no_images(const Wall<2>&) const override {
+        return "elements do not meet the images of their nodes; use rigid sides";
     }
     std::string describe() const override;
     double fastest_damping() const override { return damping_; }

@@ -103,8 +103,8 @@ class MaterialVectors final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.
     std::vector<double> density(std::span<const double> y) const override;
-    std::string no_walls() const override {
-        return "particles have no bonds with images behind walls";
+    std::string no_images(const Wall<Dim>&) const override {
+        return "particles have no bonds with their images behind a wall; use rigid sides";
     }
     std::string describe() const override;
     std::size_t pairs() const override;

@@ -64,16 +64,9 @@ class SmoothParticles final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
     double neighbour_forces(std::span<const double> y) const override;
-    /// Torques are balanced among particles, and reflections are of pairs of them, without images.
-    std::string no_walls() const override {
-        if (scheme_.angular_momentum != AngularMomentum::free)
-            return "walls give angular momentum, which the scheme would take back; use "
-                   "--angular-momentum free";
-        if (scheme_.closest_approach > 0.0)
-            return "the closest approach is of pairs of particles and lets them come nearer to a "
-                   "wall; leave --closest-approach out";
-        return Term<Dim>::no_walls();
-    }
+    /// Torques are balanced among particles, and reflections are of pairs of them, without images; a temperature
+    /// acts by conduction alone.
+    std::string no_images(const Wall<Dim>& wall) const override;
     const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     /// The restriction of the distance of closest approach, where the scheme has one.
     std::vector<Event> events() const override;

@@ -21,8 +21,8 @@ class Springs final : public Term<Dim> {
 
     std::string rates(const Now& now) override;
     double energy(std::span<const double> y) const override;
-    std::string no_walls() const override {
-        return "its neighbours are those of the reference configuration, where nobody meets a wall";
+    std::string no_images(const Wall<Dim>&) const override {
+        return "the neighbours of a particle are those of the reference configuration, without images; use rigid sides";
     }
     std::string describe() const override;
 

@@ -60,10 +60,11 @@ class Term {
         return std::abs(energy(y)) / particles().spacing;
     }
 
-    /// Why images behind the walls of the box mean nothing to the term; empty where it takes them.
-    virtual std::string no_walls() const {
-        if (potential() && box().passes_energy())
-            return "a potential feels neither the velocity nor the temperature of a wall; use mirrors";
+    /// Why the images behind a wall mean nothing to the term, and what would; empty where it takes them.
+    virtual std::string no_images(const Wall<Dim>& wall) const {
+        if (potential() && wall.passes_energy())
+            return "forces from a potential feel neither the velocity nor the temperature of a wall; use a "
+                   "mirror";
         return {};
     }
 

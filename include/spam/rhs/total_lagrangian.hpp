@@ -48,8 +48,8 @@ class TotalLagrangian final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.
     std::vector<double> density(std::span<const double> y) const override;
-    std::string no_walls() const override {
-        return "its neighbours are those of the reference configuration, where nobody meets a wall";
+    std::string no_images(const Wall<Dim>&) const override {
+        return "the neighbours of a particle are those of the reference configuration, without images; use rigid sides";
     }
     std::string describe() const override;
     Promises promises() const override {
