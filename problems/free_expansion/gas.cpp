@@ -87,7 +87,7 @@ template <int Dim>
 Gas<Dim> make_gas(int cells, const Parameters& p) {
     if (!(cells > p.range))
         throw InputError(
-            fmt::format("cells: the periodic box of {0} (twice --cells {1}) is not wider than "
+            fmt::format("cells: the box of {0} (twice --cells {1}) is not wider than "
                         "twice --range {2:g}; "
                         "use at least --cells {3}, or a shorter range",
                         2 * cells, cells, p.range, static_cast<int>(std::floor(p.range)) + 1));

@@ -132,7 +132,7 @@ CurvePanel energies_of(const History& h) {
             "energy",
             false,
             {{"kinetic", t, h.column("kinetic")},
-             {"elastic, core, contact", t, elastic},
+             {"potential", t, elastic},
              {"plastic heat", t, heat},
              {"sum", t, h.column("energy")}}};
 }

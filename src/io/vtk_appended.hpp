@@ -49,15 +49,20 @@ class VtkAppended {
         array<std::int64_t>("Int64", name, 1, tuples, get);
     }
     /// What a reader must know beside the numbers: FieldData TimeValue (ParaView's name for it), box_low,
-    /// box_high and periodic (3 each). Where space is free the box is from `low` to `high`.
+    /// box_high and periodic (3 each). The box is between walls, and where a side is open from `low` or to `high`.
     template <int Dim>
     static std::string field_data(double t, const Box<Dim>& box, const Point<Dim>& low,
                                   const Point<Dim>& high) {
         std::string lows, highs, periodic;
         for (int a = 0; a < 3; ++a) {
             const bool closed = a < Dim && box.periodic(a), free = a < Dim && !closed;
-            lows += fmt::format(" {:.17g}", free ? low[a] : 0.0);
-            highs += fmt::format(" {:.17g}", free ? high[a] : closed ? box.length(a) : 0.0);
+            const auto end = [&](bool upper) {
+                if (!free) return upper && closed ? box.length(a) : 0.0;
+                const Wall<Dim>& wall = box.wall(a, upper);
+                return !wall.open() ? wall.at : upper ? high[a] : low[a];
+            };
+            lows += fmt::format(" {:.17g}", end(false));
+            highs += fmt::format(" {:.17g}", end(true));
             periodic += closed ? " 1" : " 0";
         }
         return "    <FieldData>\n" + words("Float64", "TimeValue", 1, fmt::format(" {:.17g}", t)) +

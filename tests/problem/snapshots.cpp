@@ -237,6 +237,26 @@ BOOST_AUTO_TEST_CASE(time_and_extent_in_free_space) {
     }
 }
 
+/// Gas between walls that it has not reached yet: they are where the box ends, not the particles. Without the upper
+/// one the last particle is.
+BOOST_AUTO_TEST_CASE(a_box_ends_at_its_walls) {
+    const Scratch folder;
+    const Outcome outcome =
+        run(problem("free_expansion", {"--cells", "8", "--range", "3", "--walls", "mirror", "--top",
+                                       "open", "--t-end", "1", "--no-plots", "--out", "out"}),
+            {folder.path()});
+    BOOST_REQUIRE_MESSAGE(outcome.status <= 1, outcome.out << outcome.err);
+    const Vtp vtp(folder / "out/snapshot_0000.vtp");
+    BOOST_TEST(vtp.about.at("box_low") == "0 0 0");
+    const auto high = numbers_of(vtp.about.at("box_high"));
+    BOOST_TEST(high.at(0) == 16.0);
+    double top = 0.0;
+    const auto& x = vtp.arrays.at("Points");
+    for (std::size_t i = 1; i < x.size(); i += 3) top = std::max(top, x[i]);
+    BOOST_TEST(high.at(1) == top);
+    BOOST_TEST(top < 15.0);
+}
+
 /// Gas that leaves its box on all sides.
 BOOST_AUTO_TEST_CASE(inside_the_box_where_it_is_periodic) {
     const Scratch folder;
