@@ -40,6 +40,7 @@ void ParticleModel<Dim>::refuse_beyond_walls() const {
 /// Images have to mean something to the law; a rigid wall stops what moves with its own velocity.
 template <int Dim>
 void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
+    std::string reason, first, others;  // the same of other sides
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         const std::string why = wall.has_images() ? term.no_images(wall)
                                 : !term.moves_with_velocity()
@@ -47,8 +48,17 @@ void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
                                       "particles that move with another velocity go on through "
                                       "it; use a mirror, or --transport plain"
                                     : "";
-        if (!why.empty()) throw InputError(fmt::format("{}: {}", name_of_side(a, upper), why));
+        if (why.empty()) return;
+        if (reason.empty()) {
+            reason = why;
+            first = name_of_side(a, upper);
+        } else if (why == reason) {
+            others.append(others.empty() ? "" : ", ").append(name_of_side(a, upper));
+        }
     });
+    if (!reason.empty())
+        throw InputError(fmt::format("{}: {}{}", first, reason,
+                                     others.empty() ? "" : fmt::format(" (likewise {})", others)));
 }
 
 template <int Dim>
