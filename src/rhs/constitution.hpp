@@ -9,6 +9,7 @@
 #include <spam/material/material.hpp>
 #include <spam/rhs/term.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -101,7 +102,10 @@ class FluidConstitution final : public Constitution<Dim> {
     std::optional<double> sound_speed(double density) const override;
     double sound_speed_of(std::size_t i) const override;
     double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest) const override;
-    bool conducts() const override;
+    bool conducts() const override {
+        const auto does = [](const Fluid& f) { return f.conduction && f.conduction->kappa > 0.0; };
+        return std::any_of(fluids_.begin(), fluids_.end(), does);
+    }
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 
     const Fluid& of(std::size_t i) const;

@@ -72,23 +72,14 @@ FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,
       pressure_(particles.size()),
       temperature_(particles.size()) {
     if (fluids_.empty()) throw InputError("material: none is given; give one at least");
-    for (const Fluid& fluid : fluids_) thermal_ = thermal_ && fluid.state.thermal;
-    const bool conducting = std::any_of(fluids_.begin(), fluids_.end(),
-                                        [](const Fluid& fluid) { return fluid.conduction; });
-    if (conducting && !thermal_)
-        for (const Fluid& fluid : fluids_)
-            if (!fluid.state.thermal)
-                throw InputError(fmt::format(
-                    "conduction: needs a temperature, and the law ({}) has none; use an ideal "
-                    "gas or van der Waals, or leave the conductivity out",
-                    fluid.state.describe()));
-}
-
-template <int Dim>
-bool FluidConstitution<Dim>::conducts() const {
-    return std::any_of(fluids_.begin(), fluids_.end(), [](const Fluid& fluid) {
-        return fluid.conduction && fluid.conduction->kappa > 0.0;
-    });
+    for (const Fluid& fluid : fluids_) {
+        thermal_ = thermal_ && fluid.state.thermal;
+        if (conducts() && !fluid.state.thermal)
+            throw InputError(fmt::format(
+                "conduction: needs a temperature, and the law ({}) has none; use an ideal gas or van der "
+                "Waals, or leave the conductivity out",
+                fluid.state.describe()));
+    }
 }
 
 template <int Dim>
