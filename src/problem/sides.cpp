@@ -128,10 +128,8 @@ std::string Sides::name(int a, bool upper) { return name_of_side(a, upper); }
 Sides::Sides(Options& options, std::vector<SideOption> sides, Words words)
     : sides_(std::move(sides)),
       words_(std::move(words)) {
-    given_.reserve(sides_.size());  // options hold on to them
     for (std::size_t k = 0; k < sides_.size(); ++k) {
-        given_.push_back(sides_[k].otherwise);
-        if (given_[k].empty()) continue;
+        if (sides_[k].words.empty()) continue;
         const int a = static_cast<int>(k / 2);
         const std::string allowed = this->allowed(k);
         std::string help = fmt::format("{} side: {}", name_of_side(a, k % 2 == 1), allowed);
@@ -143,7 +141,7 @@ Sides::Sides(Options& options, std::vector<SideOption> sides, Words words)
                 "; a mirror or a no-slip wall is insulated, or has the temperature that is "
                 "appended, as in mirror@1.5";
         if (!words_.remark.empty()) help += "; " + words_.remark;
-        options.text(name_of_side(a, k % 2 == 1), given_[k], help);
+        options.text(name_of_side(a, k % 2 == 1), sides_[k].words, help);
     }
 }
 
@@ -159,7 +157,7 @@ std::string Sides::allowed(std::size_t k) const {
 std::vector<std::string> Sides::names() const {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < sides_.size(); ++k)
-        if (!sides_[k].otherwise.empty())
+        if (!sides_[k].words.empty())
             names.emplace_back(name_of_side(static_cast<int>(k / 2), k % 2 == 1));
     return names;
 }
@@ -168,8 +166,8 @@ template <int Dim>
 Box<Dim> Sides::box(const Point<Dim>& low, const Point<Dim>& high, const Meanings& meanings) const {
     const auto reader = [&](int a, bool upper) {
         const auto k = static_cast<std::size_t>(2 * a + (upper ? 1 : 0));
-        return Reader<Dim>(name(a, upper), given_[k].empty() ? "open" : given_[k], a, sides_[k],
-                           meanings, allowed(k), words_.temperatures);
+        return Reader<Dim>(name(a, upper), sides_[k].words.empty() ? "open" : sides_[k].words, a,
+                           sides_[k], meanings, allowed(k), words_.temperatures);
     };
     std::array<double, Dim> lengths{};
     for (int a = 0; a < Dim; ++a) {

@@ -63,7 +63,7 @@ class Constitution {
     virtual double sound_speed_of(std::size_t) const { return 0.0; }
     /// Term::fastest_damping() of friction and conduction.
     virtual double damping(const GeneralWeight<Dim>&, const RestingBody&) const { return 0.0; }
-    /// Whether heat passes from particle to particle, and from what is behind a wall.
+    /// Term::conducts()
     virtual bool conducts() const { return false; }
     /// Term::neighbour_forces() of the stress, by the spacing.
     virtual double stress_forces(const ConstState<Dim>& state,

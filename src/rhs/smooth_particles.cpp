@@ -322,6 +322,11 @@ std::size_t SmoothParticles<Dim>::list_builds() const {
 }
 
 template <int Dim>
+bool SmoothParticles<Dim>::conducts() const {
+    return constitution_->conducts();
+}
+
+template <int Dim>
 std::string SmoothParticles<Dim>::no_images(const Wall<Dim>& wall) const {
     if (scheme_.angular_momentum != AngularMomentum::free)
         return "walls give angular momentum, which the scheme would take back; use "
@@ -329,9 +334,6 @@ std::string SmoothParticles<Dim>::no_images(const Wall<Dim>& wall) const {
     if (scheme_.closest_approach > 0.0)
         return "the closest approach is of pairs of particles and lets them come nearer to a "
                "wall; leave --closest-approach out";
-    if (wall.temperature && !constitution_->conducts())
-        return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "
-               "out";
     return Term<Dim>::no_images(wall);
 }
 

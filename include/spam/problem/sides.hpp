@@ -18,11 +18,12 @@ struct SideOption {
     /// Why sides of these kinds make no sense: {{SideKind::open, "would let the gas out"}}.
     using Excluded = std::map<SideKind, std::string>;
 
-    SideOption(const char* words, Excluded without = {})
-        : otherwise(words),
+    SideOption(const char* otherwise, Excluded without = {})
+        : words(otherwise),
           excluded(std::move(without)) {}
 
-    std::string otherwise;  ///< empty: it is open and has no option
+    std::string
+        words;  ///< empty: it is open and has no option; else what the option says in the end
     Excluded excluded;
 };
 
@@ -70,7 +71,6 @@ class Sides {
     std::string allowed(std::size_t k) const;
 
     std::vector<SideOption> sides_;
-    std::vector<std::string> given_;  ///< what options say
     Words words_;
 };
 

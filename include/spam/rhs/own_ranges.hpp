@@ -42,12 +42,6 @@ class OwnRanges final : public Term<Dim> {
     /// A range that has grown to half of a periodic length ends the run.
     std::string rates(const Now& now) override;
     bool potential() const override { return false; }
-    std::string no_images(const Wall<Dim>& wall) const override {
-        if (wall.temperature)
-            return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "
-                   "out";
-        return Term<Dim>::no_images(wall);
-    }
     double energy(std::span<const double> y) const override;
     double neighbour_forces(std::span<const double> y) const override;
     std::string describe() const override;

@@ -64,9 +64,9 @@ class SmoothParticles final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
     double neighbour_forces(std::span<const double> y) const override;
-    /// Torques are balanced among particles, and reflections are of pairs of them, without images; a temperature
-    /// acts by conduction alone.
+    /// Torques are balanced among particles, and reflections are of pairs of them, without images.
     std::string no_images(const Wall<Dim>& wall) const override;
+    bool conducts() const override;
     const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     /// The restriction of the distance of closest approach, where the scheme has one.
     std::vector<Event> events() const override;

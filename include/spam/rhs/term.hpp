@@ -65,8 +65,13 @@ class Term {
         if (potential() && wall.passes_energy())
             return "forces from a potential feel neither the velocity nor the temperature of a wall; use a "
                    "mirror";
+        if (wall.temperature && !conducts())
+            return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "
+                   "out";
         return {};
     }
+    /// Whether heat passes from particle to particle, and from what is behind a wall.
+    virtual bool conducts() const { return false; }
 
     /// Of the latest rates() the part that is due to the images behind one wall; null where there are none.
     virtual const WallRates<Dim>* wall_rates(int /*a*/, bool /*upper*/) const { return nullptr; }
