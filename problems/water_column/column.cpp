@@ -50,7 +50,7 @@ AnyEquationOfState law_of(const Parameters& p) {
     return water;
 }
 
-FluidColumn make_column(const Parameters& p, int refinement, bool only_described) {
+FluidColumn make_column(const Parameters& p, int refinement, int sample, bool only_described) {
     FluidColumn column{};
     column.width = refinement * p.width;
     column.rows = std::max(1, static_cast<int>(std::lround(p.aspect * column.width)));
@@ -60,6 +60,9 @@ FluidColumn make_column(const Parameters& p, int refinement, bool only_described
     column.damping = p.damping ? *p.damping / refinement : 0.1 * figure_width / column.width;
     column.relaxation_time =
         p.relaxation_time ? *p.relaxation_time * refinement : 12.5 * column.width;
+    column.sample = sample;
+    const double apart = 0.05 * ((sample + 1) / 2);
+    column.relaxation_time *= sample % 2 == 1 ? 1.0 - apart : 1.0 + apart;
     Points<2> x = square_lattice<2>({column.width, column.rows});
     x.colwise() += Point<2>(0.5, 0.5);
     auto particles = make_particles<2>(x, 1.0);

@@ -20,6 +20,7 @@ struct Parameters {
     double aspect = 2.5;
     double gravity = figure_gravity;
     bool compare = false;
+    std::optional<int> samples;
     std::optional<double> cavitation;
     double surface_tension = 0.1;
     double core = 1.0;
@@ -39,14 +40,16 @@ struct FluidColumn {
     std::shared_ptr<ParticleModel<2>> between_walls, released;
     std::vector<double> y0{};              ///< square lattice at rest
     std::vector<NearestState<2>> drawn{};  ///< of the collapse
-    std::string prefix{};                  ///< of results where there are several columns
+    int sample = 0;        ///< beyond 0: one that rests a little shorter or longer than the first
+    std::string prefix{};  ///< of results where there are several columns
 
     int particles() const { return width * rows; }
 };
 
 /// `refinement`: 1, or 2 and 4 for columns twice and four times as wide, with everything else scaled so that
-/// the flow is the same at t/width. `only_described`: without a state.
-FluidColumn make_column(const Parameters& p, int refinement, bool only_described);
+/// the flow is the same at t/width. `sample`: 0, or one that rests a little shorter (1, 3, ...) or longer than
+/// the first. `only_described`: without a state.
+FluidColumn make_column(const Parameters& p, int refinement, int sample, bool only_described);
 
 /// Of the fluid: pressure and energy by the density.
 AnyEquationOfState law_of(const Parameters& p);
@@ -90,10 +93,15 @@ bool is_martin_and_moyce(const FluidColumn& column);
 
 // ---- what was found ----
 
-/// Two runs a column, one after the other; fewer where they were stopped.
-void report(Session& session, const Parameters& p, const std::vector<FluidColumn>& columns,
-            const std::vector<RunRecord>& runs);
-void draw(Session& session, const Parameters& p, const std::vector<FluidColumn>& columns,
-          const std::vector<RunRecord>& runs);
+/// What became of a column, so far as it has come.
+struct Computed {
+    const FluidColumn* column;
+    const RunRecord* rest;
+    const RunRecord* collapse;  ///< null where it has not been released
+};
+
+void report(Session& session, const Parameters& p, const std::vector<Computed>& columns);
+/// Columns that are no further samples.
+void draw(Session& session, const Parameters& p, const std::vector<Computed>& columns);
 
 }  // namespace water_column

@@ -22,43 +22,42 @@ Curve scaled(const FluidColumn& column, const RunRecord& run, const char* name, 
     return curve;
 }
 
-void draw_motion(Session& session, const std::vector<FluidColumn>& columns,
-                 const std::vector<RunRecord>& runs) {
+void draw_motion(Session& session, const std::vector<Computed>& columns) {
     std::vector<CurvePanel> panels{{"front", "t / W", "x / W", false, {}},
                                    {"height at the wall", "t / W", "y / W", false, {}}};
-    double until = runs[1].history.last("t") / columns[0].width;
-    for (std::size_t k = 1; 2 * k + 1 < runs.size(); ++k)
-        until = std::min(until, runs[2 * k + 1].history.last("t") / columns[k].width);
-    for (std::size_t k = 0; 2 * k + 1 < runs.size(); ++k) {
-        panels[0].curves.push_back(scaled(columns[k], runs[2 * k + 1], "front", until));
-        panels[1].curves.push_back(scaled(columns[k], runs[2 * k + 1], "height", until));
+    const FluidColumn& first = *columns[0].column;
+    double until = columns[0].collapse->history.last("t") / first.width;
+    for (const auto& [column, rest, collapse] : columns)
+        if (collapse) until = std::min(until, collapse->history.last("t") / column->width);
+    for (const auto& [column, rest, collapse] : columns) {
+        if (!collapse) continue;
+        panels[0].curves.push_back(scaled(*column, *collapse, "front", until));
+        panels[1].curves.push_back(scaled(*column, *collapse, "height", until));
     }
-    if (is_martin_and_moyce(columns[0])) {
+    if (is_martin_and_moyce(first)) {
         Curve water{.title = "water, Martin and Moyce 1952",
                     .x = {},
                     .y = {},
                     .mark = Mark::points,
                     .style = 5};
         for (const Measured& one : martin_and_moyce()) {
-            if (scaled_time(columns[0], one.T) > until) continue;
-            water.x.push_back(scaled_time(columns[0], one.T));
+            if (scaled_time(first, one.T) > until) continue;
+            water.x.push_back(scaled_time(first, one.T));
             water.y.push_back(one.Z);
         }
         panels[0].curves.push_back(water);
     }
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "motion",
-                    fmt::format("Collapse of a column, {} times as high as wide",
-                                static_cast<double>(columns[0].rows) / columns[0].width),
-                    panels));
+    session.note_drawn(draw_curves(session.plots_folder(), "motion",
+                                   fmt::format("Collapse of a column, {} times as high as wide",
+                                               static_cast<double>(first.rows) / first.width),
+                                   panels));
 }
 
 /// Densities of the columns at rest, against the depth below the surface that their mass has by the formula.
-void draw_profiles(Session& session, const std::vector<FluidColumn>& columns,
-                   const std::vector<RunRecord>& runs) {
+void draw_profiles(Session& session, const std::vector<Computed>& columns) {
     CurvePanel densities{"", "depth / W", "density", false, {}},
         differences{"", "depth / W", "difference, %", false, {}};
-    const FluidColumn& first = columns.front();
+    const FluidColumn& first = *columns[0].column;
     const double deepest = hydrostatic_depth(first.g, first.rows);
     Curve formula{.title = "(2 + √(1 + 6 g d)) / 3", .x = {}, .y = {}}, zero = formula;
     for (int k = 0; k <= 200; ++k) {
@@ -69,22 +68,22 @@ void draw_profiles(Session& session, const std::vector<FluidColumn>& columns,
     zero.y.assign(formula.x.size(), 0.0);
     densities.curves.push_back(formula);
     differences.curves.push_back(zero);
-    for (std::size_t k = 0; 2 * k < runs.size(); ++k) {
-        Curve density{.title = fmt::format("{} particles", columns[k].particles()),
+    for (int style = 2; const auto& [column, rest, collapse] : columns) {
+        Curve density{.title = fmt::format("{} particles", column->particles()),
                       .x = {},
                       .y = {},
                       .mark = Mark::points,
-                      .style = static_cast<int>(k) + 2},
+                      .style = style++},
             difference = density;
-        const double surface = hydrostatic_depth(columns[k].g, columns[k].rows);
-        for (const Slab& slab : slabs_of(columns[k], runs[2 * k].y)) {
+        const double surface = hydrostatic_depth(column->g, column->rows);
+        for (const Slab& slab : slabs_of(*column, rest->y)) {
             const double depth = surface - slab.y;
-            density.x.push_back(depth / columns[k].width);
+            density.x.push_back(depth / column->width);
             density.y.push_back(slab.density);
-            if (depth < columns[k].width / 6.0) continue;  // the surface would hide all others
-            difference.x.push_back(depth / columns[k].width);
+            if (depth < column->width / 6.0) continue;  // the surface would hide all others
+            difference.x.push_back(depth / column->width);
             difference.y.push_back(100.0 *
-                                   (slab.density / hydrostatic_density(columns[k].g, depth) - 1.0));
+                                   (slab.density / hydrostatic_density(column->g, depth) - 1.0));
         }
         densities.curves.push_back(density);
         differences.curves.push_back(difference);
@@ -131,13 +130,16 @@ void draw_particles(Session& session, const Parameters& p, const FluidColumn& co
 
 }  // namespace
 
-void draw(Session& session, const Parameters& p, const std::vector<FluidColumn>& columns,
-          const std::vector<RunRecord>& runs) {
-    if (runs.empty()) return;
-    draw_profiles(session, columns, runs);
-    if (runs.size() < 2) return;
-    draw_motion(session, columns, runs);
-    draw_particles(session, p, columns[runs.size() / 2 - 1]);
+void draw(Session& session, const Parameters& p, const std::vector<Computed>& all) {
+    std::vector<Computed> columns = all;
+    std::erase_if(columns, [](const Computed& one) { return one.column->sample > 0; });
+    if (columns.empty()) return;
+    draw_profiles(session, columns);
+    const auto released = std::find_if(columns.rbegin(), columns.rend(),
+                                       [](const Computed& one) { return one.collapse; });
+    if (released == columns.rend()) return;
+    draw_motion(session, columns);
+    draw_particles(session, p, *released->column);
 }
 
 }  // namespace water_column

@@ -30,6 +30,28 @@ BOOST_AUTO_TEST_CASE(a_dam_of_water_is_as_fast_in_the_end) {
                stiff.value.at("largest_difference_from_water"));
 }
 
+// Samples rest a little shorter or longer, and are otherwise what a run with that relaxation time is.
+BOOST_AUTO_TEST_CASE(fronts_of_samples_are_averaged) {
+    const Words small{"--width", "8", "--gravity", "0.4", "--t-end", "25"};
+    const auto front = [&](const char* relaxation_time) {
+        Words words = small;
+        words.insert(words.end(), {"--relaxation-time", relaxation_time});
+        return Results("water_column", words, "front_at_20").value.at("front_at_20");
+    };
+    Words words = small;
+    words.insert(words.end(), {"--relaxation-time", "20", "--samples", "3"});
+    const Results found("water_column", words, "front_at_20");
+    const double one[] = {front("20"), front("19"), front("21")};
+    BOOST_TEST(found.value.at("front_at_20") == one[0]);
+    const double mean = (one[0] + one[1] + one[2]) / 3.0;
+    double squares = 0.0;
+    for (const double each : one) squares += (each - mean) * (each - mean);
+    BOOST_TEST(squares > 0.0);
+    BOOST_TEST(std::abs(found.value.at("mean_front_at_20") - mean) < 1e-9);
+    BOOST_TEST(std::abs(found.value.at("deviation_of_front_at_20") - std::sqrt(squares / 2.0)) <
+               1e-9);
+}
+
 // What other fluids do is claimed nowhere, and what they conserve everywhere.
 BOOST_AUTO_TEST_CASE(a_limited_tension_keeps_the_energy) {
     const Results found("water_column", {"--cavitation", "0.02"}, "front_at_80");
@@ -44,6 +66,8 @@ BOOST_AUTO_TEST_CASE(columns_without_meaning_are_refused) {
         {{"--width", "2"}, {"width", "2", "between 4 and 400"}},
         {{"--width", "16.5"}, {"width", "16.5"}},
         {{"--aspect", "0.15"}, {"aspect", "2.4", "range 3", "larger --aspect"}},
+        {{"--samples", "0"}, {"samples", "0", "between 1 and 9"}},
+        {{"--samples", "2.5"}, {"samples", "2.5"}},
         {{"--aspect", "-2"}, {"aspect", "-2"}},
         {{"--gravity", "0"}, {"gravity", "0", "between 0.01 and 2"}},
         {{"--range", "1"}, {"range: 1", "above the particle spacing"}},

@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(bodies_bounce_and_keep_what_they_promise) {
                     BOOST_TEST(one.energy < 1e-4);
                     BOOST_TEST(one.walls < 1e-11);
                     BOOST_TEST(one.beyond < 0.05);
-BOOST_TEST(one.velocity.x() < 0.0);
+                    BOOST_TEST(one.velocity.x() < 0.0);
                     energy[fine] += one.energy, angular_momentum[fine] += one.angular_momentum;
                 }
             BOOST_TEST(energy[1] < energy[0] / 6.0);
