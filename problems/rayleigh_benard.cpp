@@ -78,11 +78,17 @@ void report(Session& session, const Parameters& p, const Convection& gas, const 
     session.check_promises(run);
 }
 
+/// Sound goes as the root of the temperature; slow convection means quick diffusion.
+double step_of(const Convection& gas) {
+    const Layer standard;
+    return std::min(0.2 * std::min(1.0, std::sqrt(standard.hot / gas.layer.hot)),
+                    1.5 / gas.model->fastest_damping());
+}
+
 void run_one(Session& session, const Parameters& p) {
     Convection gas = make_convection(p, p.rayleigh, session.common().dry_run);
     const double t_end = session.common().smoke ? 6.0 : 80.0 * gas.layer.L;
-    // Slow convection means quick diffusion.
-    session.prefer_step(std::min(0.2, 1.5 / gas.model->fastest_damping()));
+    session.prefer_step(step_of(gas));
     std::vector<Case<2>> cases;
     cases.push_back({gas.model, gas.y0, plan_of(session, gas, t_end), ""});
     const auto runs = session.run_all(std::move(cases));
@@ -123,10 +129,13 @@ void run_scan(Session& session, const Parameters& p) {
     for (const double part : {0.9, 1.2, 1.35, 1.5, 1.65, 1.8, 2.4})
         scan.rayleigh.push_back(std::round(part * scan.linear_onset.value_or(rigid_onset)));
     std::vector<Convection> gases;
+    double step = HUGE_VAL;
     for (const double Ra : scan.rayleigh) {
         gases.push_back(make_convection(p, Ra, session.common().dry_run));
         gases.back().label = fmt::format("ra{:g}", Ra);
+        step = std::min(step, step_of(gases.back()));
     }
+    session.prefer_step(step);
     std::vector<Case<2>> cases;
     for (auto& gas : gases)
         cases.push_back({gas.model, gas.y0,
@@ -179,7 +188,7 @@ void run_scan(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     using namespace rayleigh_benard;
     Problem problem("rayleigh_benard", "convection between a hot and a cold plate, [HH07] 12", 0.2,
-                    "0.2, or shorter where heat diffuses fast");
+                    "0.2, or shorter where heat diffuses fast or the lower plate is hotter");
     Parameters p;
     auto& options = problem.options();
     options.integer("height", p.height,

@@ -47,6 +47,15 @@ BOOST_AUTO_TEST_CASE(mirrors_act_like_periods_on_an_expanding_gas) {
     BOOST_TEST(std::abs(expanded("mirror") - expanded("periodic")) < 0.03);
 }
 
+// With the step of the standard plates the energy changes by 1.4e-4 of itself.
+BOOST_AUTO_TEST_CASE(the_step_follows_the_hotter_plate) {
+    const Results found(
+        "rayleigh_benard",
+        {"--height", "10", "--bottom", "no-slip@20", "--top", "no-slip@0.1", "--t-end", "120"},
+        "energy_drift");
+    BOOST_TEST(found.value.at("energy_drift") < 2e-5);
+}
+
 BOOST_AUTO_TEST_CASE(a_layer_heated_from_below_rolls_as_finite_differences_do) {
     const Results found("rayleigh_benard", {"--t-end", "1000"}, "nusselt_by_grid");
     BOOST_TEST(std::abs(found.value.at("nusselt_by_grid") - 1.0) < 0.1);
