@@ -61,7 +61,7 @@ FluidColumn make_column(const Parameters& p, int refinement, int sample, bool on
     column.relaxation_time =
         p.relaxation_time ? *p.relaxation_time * refinement : 12.5 * column.width;
     column.sample = sample;
-    const double apart = 0.05 * ((sample + 1) / 2);
+    const double apart = 0.01 * ((sample + 1) / 2);
     column.relaxation_time *= sample % 2 == 1 ? 1.0 - apart : 1.0 + apart;
     Points<2> x = square_lattice<2>({column.width, column.rows});
     x.colwise() += Point<2>(0.5, 0.5);
