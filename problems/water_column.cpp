@@ -20,13 +20,13 @@
 // of the number of particles in place of their summed density.
 //
 // The front is the particle farthest to the right (leading_percent: where the 1 % ahead of the others
-// begin). Motion is chaotic: in 25 runs that relax for 176 to 224 (--samples 25) it is at 33.4 +- 0.3 for
-// t = 40 and at 57.8 +- 0.5 for t = 80.
+// begin). Motion is chaotic: in 25 runs that relax for 176 to 224 (--samples 25) it is at 33.3 +- 0.2 for
+// t = 40 and at 57.9 +- 0.7 for t = 80.
 //
 //     --compare       W, 2 W and 4 W: 640, 2,560 and 10,240 particles. With g and gamma halved and times
 //                     doubled each time the flow is the same at t/W (g 2.5 W and the speed of sound are),
 //                     but for the thin front, which gets farther. Means of 25 columns of 640 and of
-//                     five of 2,560 are compared; 18 min. --t-end then ends all of them.
+//                     five of 2,560 are compared; 17 min. --t-end then ends all of them.
 //     --aspect 2      the dam of Martin and Moyce 1952, whose fronts of water are then in the picture. At the
 //                     end they are alike; before, this fluid is up to 17 % ahead: it is pushed together
 //                     by its weight, and springs apart. --gravity 0.1 makes it stiffer: 7 %, 10 s
