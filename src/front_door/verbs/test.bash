@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164  # read by ./spam, under set -e
 #|  ./spam test [--preset release|dev|tsan|coverage] [ctest options]
-#|                                    build everything and run the tests
+#|                                    build everything and run the tests; with -L hunt those that try
+#|                                    random inputs for an hour
 
 readonly test_packages=(libboost-test-dev)
 # For the tests of style and of instruction counts; benchmarks are compiled, so that they go on to compile.
@@ -27,6 +28,8 @@ verb_test() { # [--no-install] [--preset P] [ctest options...]
     dev | tsan) packages+=("${sanitizer_packages[@]}") ;;
     *) refuse "test: no preset '$preset'; there are release, dev, tsan and coverage" ;;
     esac
+    # Of a configuration of their own: no other call runs them.
+    if [[ " ${options[*]} " == *" -L hunt "* ]]; then options+=(-C hunt); fi
     if in_ci; then packages+=("${ci_packages[@]}") parts+=(SPAM_BUILD_BENCH=ON); fi
     set_up "${packages[@]}" -- "${parts[@]}" -- all
     jobs=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
