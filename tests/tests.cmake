@@ -102,7 +102,7 @@ spam_test(io/checkpoint_faults property)
 spam_test(front_door/front_door problem)
 target_compile_definitions(test.front_door.front_door PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 if(SPAM_BUILD_VIEW)
-  foreach(test reader page)
+  foreach(test reader page hostile_folders)
     spam_test(view/${test} unit spam_view)
     target_include_directories(test.view.${test} PRIVATE ${PROJECT_SOURCE_DIR}/src
                                                          ${CMAKE_CURRENT_SOURCE_DIR}/view)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_descriptor.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
 #include <spam/io/csv.hpp>
@@ -12,8 +13,9 @@
 namespace spam {
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& names)
-    : path_(path),
-      out_(path) {
+    : path_(path) {
+    begin_file(path);
+    out_.open(path);
     out_ << fmt::format("{}\n", fmt::join(names, ","));
     flush();
 }

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -24,6 +25,14 @@ auto again_if_interrupted(const Call& call) {
 FileDescriptor FileDescriptor::open_to_read(const std::filesystem::path& path) {
     return FileDescriptor(again_if_interrupted(
         [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
+}
+
+FileDescriptor FileDescriptor::open_regular(const std::filesystem::path& path) {
+    struct stat status;
+    if (::stat(path.c_str(), &status) != 0) return FileDescriptor(-1);
+    if (S_ISREG(status.st_mode)) return open_to_read(path);
+    errno = S_ISDIR(status.st_mode) ? EISDIR : ESPIPE;
+    return FileDescriptor(-1);
 }
 
 FileDescriptor FileDescriptor::create(const std::filesystem::path& path) {
@@ -66,6 +75,37 @@ bool FileDescriptor::close() {
     fd_ = -1;
     // Linux has closed it even when interrupted: a second call could close someone else's file.
     return ::close(fd) == 0 || errno == EINTR;
+}
+
+std::string contents_of_file(const std::filesystem::path& path) {
+    const FileDescriptor file = FileDescriptor::open_regular(path);
+    struct stat status;
+    if (!file.is_open() || ::fstat(file.get(), &status) != 0)
+        throw InputError(errno == EISDIR   ? "it is a folder"
+                         : errno == ESPIPE ? "it is no regular file"
+                                           : system_reason());
+    std::string text(static_cast<std::size_t>(status.st_size), '\0');
+    const std::size_t got = file.read_at(0, std::as_writable_bytes(std::span(text)));
+    if (got < text.size() && errno != 0) throw InputError(system_reason());
+    text.resize(got);
+    return text;
+}
+
+bool is_something(const std::filesystem::path& path) {
+    struct stat status;
+    return ::lstat(path.c_str(), &status) == 0;
+}
+
+void begin_file(const std::filesystem::path& path) {
+    ::unlink(path.c_str());
+    FileDescriptor::create(path);
+}
+
+void separate_file(const std::filesystem::path& path) {
+    std::error_code error;
+    if (std::filesystem::hard_link_count(path, error) < 2 || error) return;
+    const std::string text = contents_of_file(path);
+    replace_file(path, {std::as_bytes(std::span(text))});
 }
 
 void replace_file(const std::filesystem::path& target,

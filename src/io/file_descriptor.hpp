@@ -21,6 +21,9 @@ class FileDescriptor {
   public:
     /// Does not wait for the other end of a pipe.
     static FileDescriptor open_to_read(const std::filesystem::path& path);
+    /// Regular files alone, and links to them. Looked at before it is opened: a pipe would wait, a device may do
+    /// something. errno is EISDIR for a folder and ESPIPE for what is neither.
+    static FileDescriptor open_regular(const std::filesystem::path& path);
     /// A new file: fails where there is anything of that name, a dangling link included.
     static FileDescriptor create(const std::filesystem::path& path);
 
@@ -45,6 +48,20 @@ class FileDescriptor {
     explicit FileDescriptor(int fd) : fd_(fd) {}
     int fd_;
 };
+
+/// All that a regular file holds. Throws InputError with the reason alone: "it is a folder".
+std::string contents_of_file(const std::filesystem::path& path);
+
+/// Whether there is anything of that name: a link that leads nowhere, or to itself, is something.
+bool is_something(const std::filesystem::path& path);
+
+/// An empty file of that name, and no longer what had it before: what a link of that name leads to, or a second
+/// name of it, keeps its contents. Where that is impossible it does nothing: opening the file then fails as well.
+void begin_file(const std::filesystem::path& path);
+
+/// Where a file has other names (hard links), a copy takes the place of this one: what is appended then leaves
+/// the others alone.
+void separate_file(const std::filesystem::path& path);
 
 /// Puts `contents`, one after the other, in place of `target`: at once or not at all, and on the disk when this returns.
 /// Uses a temporary <target>.tmp. Throws OutputError (file and the system's reason); the earlier

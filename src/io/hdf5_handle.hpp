@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@ namespace spam::hdf5 {
 class Silence {
   public:
     Silence() : lock_(mutex()) {
+        [[maybe_unused]] static const bool once = also_at_exit();
         H5Eget_auto2(H5E_DEFAULT, &print_, &argument_);
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     }
@@ -23,6 +25,12 @@ class Silence {
     Silence& operator=(const Silence&) = delete;
 
   private:
+    /// A damaged file can keep HDF5 from closing all it has opened, which it says when the program ends. Called
+    /// before that, because registered after it.
+    static bool also_at_exit() {
+        H5open();
+        return std::atexit([] { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }) == 0;
+    }
     static std::recursive_mutex& mutex() {
         static std::recursive_mutex the_one;
         return the_one;

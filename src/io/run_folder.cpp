@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_descriptor.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
 #include <spam/io/run_folder.hpp>
 
 #include <fmt/format.h>
@@ -113,6 +115,21 @@ RunFolder RunFolder::reopen(const fs::path& path, std::chrono::milliseconds pati
     return folder;
 }
 
+void RunFolder::check_own() const {
+    std::error_code error;
+    const auto options = fs::directory_options::skip_permission_denied;
+    for (fs::recursive_directory_iterator it(path_, options, error), end; !error && it != end;
+         it.increment(error)) {
+        const fs::file_status status = it->symlink_status(error);
+        if (error || fs::is_directory(status) || fs::is_regular_file(status)) continue;
+        throw InputError(fmt::format(
+            "out: '{}' is {}, and a run that goes on writes into files and folders of its own only; "
+            "remove it, or go on in another --out",
+            one_line(it->path().string()),
+            fs::is_symlink(status) ? "a link" : "neither a file nor a folder"));
+    }
+}
+
 RunFolder RunFolder::inside(std::string_view name) const {
     std::error_code error;
     fs::create_directories(path_ / name, error);
@@ -133,6 +150,7 @@ void RunFolder::write(std::string_view name,
     const fs::path target = path_ / name;
     fs::path temporary = target;
     temporary += ".tmp";
+    begin_file(temporary);
     std::ofstream out(temporary, std::ios::binary);
     contents(out);
     out.close();

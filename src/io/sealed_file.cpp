@@ -59,13 +59,6 @@ std::uint64_t size_of(const FileDescriptor& file, const std::string& name) {
     struct stat status;
     if (::fstat(file.get(), &status) != 0)
         throw InputError(fmt::format("checkpoint '{}': {}", name, system_reason()));
-    if (S_ISDIR(status.st_mode))
-        throw InputError(fmt::format(
-            "checkpoint '{}' is a folder; name a file in it, e.g. checkpoint_0.h5", name));
-    if (!S_ISREG(status.st_mode))
-        throw InputError(fmt::format(
-            "checkpoint '{}' is not a regular file; give a result folder, or a checkpoint in it",
-            name));
     return static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -111,11 +104,14 @@ Seal seal_of(std::span<const std::byte> contents) {
 
 std::vector<std::byte> read_sealed(const std::filesystem::path& path) {
     const std::string name = path.string();
-    const FileDescriptor file = FileDescriptor::open_to_read(path);
+    const FileDescriptor file = FileDescriptor::open_regular(path);
+    if (!file.is_open() && errno == EISDIR)
+        throw InputError(fmt::format(
+            "checkpoint '{}' is a folder; name a file in it, e.g. checkpoint_0.h5", name));
     if (!file.is_open())
         throw InputError(
-            fmt::format("checkpoint '{}': {}; give a result folder, or a checkpoint in it", name,
-                        system_reason()));
+            fmt::format("checkpoint '{}'{}; give a result folder, or a checkpoint in it", name,
+                        errno == ESPIPE ? " is not a regular file" : ": " + system_reason()));
     const std::uint64_t size = size_of(file, name);
     if (size < seal_size)
         throw InputError(

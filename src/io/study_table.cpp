@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_descriptor.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/text.hpp>
+#include <spam/integrate/interrupt.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/study_table.hpp>
 
@@ -88,6 +90,7 @@ StudyTable::StudyTable(const RunFolder& folder, std::string name, std::vector<st
         folder_.write(name_ + ".part.csv", csv_line(header()));
         return;
     }
+    separate_file(part());
     std::error_code error;
     std::filesystem::resize_file(part(), static_cast<std::uintmax_t>(whole), error);
     if (error)
@@ -151,7 +154,7 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
     const auto work = [&] {
         set_threads(1);  // of OpenMP, within this thread
         bool interrupted = false;
-        while (!interrupted) {
+        while (!interrupted && InterruptWatch::received() == 0) {
             const std::size_t k = next++;
             if (k >= open_tasks.size()) break;
             try {

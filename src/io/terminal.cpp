@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_descriptor.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/terminal.hpp>
 
@@ -75,6 +76,7 @@ std::size_t Terminal::width() const {
 
 void Terminal::log_to(const std::filesystem::path& path) {
     log_path_ = path;
+    separate_file(path);
     log_.open(path, std::ios::app);  // a study that goes on has begun its log before
     log("");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
 
+#include "../io/file_descriptor.hpp"
+#include <spam/core/error.hpp>
 #include <spam/core/program.hpp>
 
 #include <fmt/format.h>
@@ -12,10 +14,17 @@ namespace {
 /// beside the script.
 bool run(const RunFolder& folder, const std::string& script) {
     const std::filesystem::path said = folder / (script + ".err");
+    begin_file(said);
     const auto status = Command{{"gnuplot", script}, folder.path(), said}.run();
     std::error_code ignored;
     if (status == 0 || !status) std::filesystem::remove(said, ignored);
     return status == 0;
+}
+
+/// Whether a picture has its last piece: gnuplot does not look at what becomes of its output.
+bool is_whole(const std::filesystem::path& picture) {
+    static constexpr std::string_view end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+    return contents_of_file(picture).ends_with(end);
 }
 
 }  // namespace
@@ -60,7 +69,14 @@ bool draw(const RunFolder& folder, std::string_view name, const std::string& scr
           const std::string& data) {
     folder.write(fmt::format("{}.dat", name), data);
     folder.write(fmt::format("{}.gp", name), script);
-    return run(folder, fmt::format("{}.gp", name));
+    const std::filesystem::path picture = folder / fmt::format("{}.png", name);
+    std::error_code ignored;
+    std::filesystem::remove(picture, ignored);  // of an earlier run, or a link
+    const bool drawn = run(folder, fmt::format("{}.gp", name)) && is_something(picture);
+    if (drawn && is_whole(picture)) return true;
+    std::filesystem::remove(picture, ignored);
+    if (drawn) throw OutputError(fmt::format("cannot write '{}' (disk full?)", picture.string()));
+    return false;
 }
 
 }  // namespace spam::gnuplot

@@ -67,10 +67,12 @@ void Problem::settle_restart() {
         throw InputError(
             "force: --restart goes on in the folder of its checkpoint; leave --force out, or "
             "choose another --out");
-    if (in_place)
+    if (in_place) {
+        restarted_->check_own();
         reopened_ = restarted_;
-    else
+    } else {
         restarted_->release();  // several may go on from it, each elsewhere
+    }
 }
 
 }  // namespace spam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/problem/plan.hpp>
@@ -17,7 +18,8 @@ namespace spam {
 template <int Dim>
 class Recorder {
   public:
-    /// `folder`: null for rows in memory only.
+    /// `folder`: null for rows in memory only. Throws InputError, and writes nothing, where two columns have one
+    /// name.
     Recorder(const Model<Dim>& model, const Plan<Dim>& plan, const RunFolder* folder)
         : model_(model),
           bodies_(model.particles().bodies()),
@@ -112,7 +114,12 @@ class Recorder {
         if (Dim == 2 && bodies_ > 1)
             for (int b = 1; b <= bodies_; ++b)
                 result.push_back(fmt::format("angular_momentum_body_{}", b));
-        for (const auto& column : columns_) result.push_back(column.name);
+        for (const auto& column : columns_) {
+            if (std::find(result.begin(), result.end(), column.name) != result.end())
+                throw InputError(fmt::format(
+                    "columns: there is a column '{}' already; choose another name", column.name));
+            result.push_back(column.name);
+        }
         return result;
     }
 

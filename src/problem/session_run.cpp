@@ -179,8 +179,9 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     integrator();  // first of all, where its options mean nothing
     for (auto& one : cases) settle_plan(one.plan, memory_->plans.size());
     refuse_idle_balance(cases);
-    for (const auto& one : cases) refuse_unstable(one);
-    for (auto& one : cases) {  // finds out about methods that cannot be before anything is written
+    for (auto& one : cases) {  // finds out about what cannot be before anything is written
+        refuse_unstable(one);
+        Recorder<Dim>(*one.model, one.plan, nullptr);  // columns of one name
         // Vectors as long as y show that there is room for them; a dry run does without.
         std::size_t unused = 0, numbers = one.model->layout().size();
         const SundialsContext context;

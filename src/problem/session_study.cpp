@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a session does besides runs: analyses, and studies of many small runs.
+#include "../io/file_descriptor.hpp"
 #include "dry_run.hpp"
 #include "duration.hpp"
 #include <spam/core/error.hpp>
@@ -7,9 +8,6 @@
 #include <spam/problem/session.hpp>
 
 #include <fmt/format.h>
-
-#include <fstream>
-#include <iterator>
 
 namespace spam {
 
@@ -24,8 +22,13 @@ void Session::end_dry_run() {
 bool Session::continues(const char* study) const {
     const std::filesystem::path folder = problem_.common_.out;
     if (problem_.common_.force || !StudyTable::unfinished(folder, study)) return false;
-    std::ifstream in(folder / "case.toml", std::ios::binary);
-    const std::string begun{std::istreambuf_iterator<char>(in), {}};
+    std::string begun;
+    try {
+        begun = contents_of_file(folder / "case.toml");
+    } catch (const InputError& refusal) {
+        throw InputError(fmt::format("out: '{}' cannot be read: {}; choose another --out",
+                                     (folder / "case.toml").string(), refusal.what()));
+    }
     if (begun != case_file())
         throw InputError(fmt::format(
             "out: '{}' holds an unfinished study of another case (its case.toml); give the same "
@@ -54,6 +57,7 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
             throw InputError(fmt::format(
                 "out: another run has just completed the study in '{}'; choose another --out",
                 problem_.common_.out));
+        folder_->check_own();
         terminal_.log_to(*folder_ / "run.log");
         describe_environment();
     } else {

@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.hpp"
 
+#include "../io/file_descriptor.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <cstdio>
+#include <span>
+#include <utility>
 
 namespace spam::view {
 namespace fs = std::filesystem;
 
 namespace {
 
-/// The folder that would hold it, and the name under which it is written first.
-fs::path part_of(const fs::path& path) {
-    fs::path part = path;
-    part += ".part";
-    return part;
+/// A new, empty file beside the page, of a name that nothing has; closed where it cannot be.
+std::pair<FileDescriptor, fs::path> new_part(const fs::path& page) {
+    for (int k = 0;; ++k) {
+        fs::path part = page;
+        part += fmt::format(".part-{}-{}", ::getpid(), k);
+        auto file = FileDescriptor::create(part);
+        if (file.is_open() || errno != EEXIST) return {std::move(file), part};
+    }
 }
 
 std::string shown(const fs::path& path) { return one_line(path.string()); }
@@ -27,16 +33,12 @@ std::string shown(const fs::path& path) { return one_line(path.string()); }
 }  // namespace
 
 std::string contents(const fs::path& path) {
-    std::error_code error;
-    const auto size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
-    std::ifstream in(path, std::ios::binary);
-    std::string text(size, '\0');
-    if (!error && in.is_open() && fs::is_regular_file(path, error)) {
-        in.read(text.data(), static_cast<std::streamsize>(size));
-        if (in.gcount() == static_cast<std::streamsize>(size)) return text;
+    try {
+        return contents_of_file(path);
+    } catch (const InputError& refusal) {
+        throw InputError(
+            fmt::format("RESULTS: {} cannot be read ({})", shown(path), refusal.what()));
     }
-    throw InputError(fmt::format("RESULTS: {} cannot be read ({})", shown(path),
-                                 error ? error.message() : "it is no file that may be read"));
 }
 
 void check_writable(const fs::path& path) {
@@ -45,36 +47,27 @@ void check_writable(const fs::path& path) {
         throw InputError(fmt::format("--out: {} is a folder; name a file", shown(path)));
     if (fs::exists(path, error)) {
         std::string begin(page_mark.size(), '\0');
-        std::ifstream in(path, std::ios::binary);
-        in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+        FileDescriptor::open_regular(path).read_at(0, std::as_writable_bytes(std::span(begin)));
         if (begin != page_mark)
             throw InputError(fmt::format(
                 "--out: {} exists and is no page of spam view; name another file", shown(path)));
     }
-    const fs::path part = part_of(path);
-    errno = 0;
-    const bool possible = std::ofstream(part, std::ios::binary).is_open();
-    const int reason = errno;
-    if (!possible)
+    const auto [file, part] = new_part(path);
+    if (!file.is_open())
         throw InputError(
             fmt::format("--out: cannot write {} ({}); name a file elsewhere: --out FILE",
-                        shown(path), std::strerror(reason)));
+                        shown(path), system_reason()));
     fs::remove(part, error);
 }
 
 void write_file(const fs::path& path, std::string_view text) {
-    const fs::path part = part_of(path);
-    std::error_code error;
-    {
-        std::ofstream out(part, std::ios::binary);
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        out.flush();
-        if (!out) error = std::make_error_code(std::errc::io_error);
-    }
-    if (!error) fs::rename(part, path, error);
-    if (!error) return;
-    const std::string why = error.message();
-    fs::remove(part, error);
+    auto [file, part] = new_part(path);
+    const bool made = file.is_open();
+    const bool written = made && file.write(std::as_bytes(std::span(text))) && file.close();
+    if (written && std::rename(part.c_str(), path.c_str()) == 0) return;
+    const std::string why = system_reason();
+    std::error_code ignored;
+    if (made) fs::remove(part, ignored);
     throw OutputError(fmt::format("cannot write {} ({})", shown(path), why));
 }
 

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -103,9 +105,18 @@ void make(const Options& options) {
     const view::Results results = view::read_results(folder);
     view::check_writable(page);
     const auto most = static_cast<std::size_t>(options.max_mb * 1e6);
-    const auto thinning =
-        view::thinned_to(results, most - std::min(most, view::bytes_of_program()));
+    const auto check_room = [most](std::size_t bytes) {
+        if (bytes > most)
+            throw InputError(
+                fmt::format("--max-mb: with the texts of these results a page takes {:.1f} MB; "
+                            "allow as much",
+                            std::ceil(static_cast<double>(bytes) / 1e5) / 10.0));
+    };
+    const std::size_t words = view::bytes_of_program() + view::bytes_of_text(results);
+    check_room(words);
+    const auto thinning = view::thinned_to(results, most - words);
     const std::string text = view::make_page(view::make_payload(results, thinning));
+    check_room(text.size());
     view::write_file(page, text);
     fmt::print("{} ({:.1f} MB; {})\n", one_line(page.string()),
                static_cast<double>(text.size()) / 1e6, thinning.in_words());
@@ -117,6 +128,7 @@ void make(const Options& options) {
 
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is a failed write, reported as such
     try {
         for (const std::string& word : words)
             if (word == "--help" || word == "-h") {

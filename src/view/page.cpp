@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
+#include <utility>
 
 namespace spam::view {
 namespace {
@@ -16,21 +18,34 @@ constexpr std::array<std::string_view, 11> scripts{
     "arrays.js", "fields.js",  "motion.js", "colours.js",  "raster.js", "space.js",
     "panels.js", "overlay.js", "curves.js", "controls.js", "player.js"};
 
-/// Between the tags of an element nothing may look like the end of it.
-std::string escaped(std::string_view text, char letter, std::string_view instead) {
+std::string as_text(std::string_view text) {
     std::string result;
     for (const char c : text)
-        if (c == letter)
-            result += instead;
+        if (c == '<')
+            result += "&lt;";
+        else if (c == '&')
+            result += "&amp;";
         else
             result += c;
     return result;
 }
 
-void replace(std::string& text, std::string_view mark, std::string_view with) {
-    const std::size_t at = text.find(mark);
-    if (at == text.npos) throw std::logic_error(fmt::format("page.html has no {}", mark));
-    text.replace(at, mark.size(), with);
+/// page.html with texts in place of its marks, given in their order. What has been put in is not looked at again:
+/// it may hold marks itself.
+std::string assembled(std::initializer_list<std::pair<std::string_view, std::string_view>> parts) {
+    const std::string_view frame = embedded("page.html");
+    std::size_t size = frame.size(), at = 0;
+    for (const auto& [mark, text] : parts) size += text.size();
+    std::string page;
+    page.reserve(size);
+    for (const auto& [mark, text] : parts) {
+        const std::size_t found = frame.find(mark, at);
+        if (found == frame.npos) throw std::logic_error(fmt::format("page.html has no {}", mark));
+        page += frame.substr(at, found - at);
+        page += text;
+        at = found + mark.size();
+    }
+    return page += frame.substr(at);
 }
 
 std::string program() {
@@ -39,25 +54,23 @@ std::string program() {
     return all;
 }
 
-std::string frame() {
-    std::string page(embedded("page.html"));
-    replace(page, "<!-- A page of spam view -->\n", page_mark.substr(page_mark.find("<!--")));
-    replace(page, "/* style */",
-            std::string(embedded("uPlot.min.css")) + std::string(embedded("page.css")));
-    replace(page, "<!-- licence of uPlot -->", escaped(embedded("LICENSE.uPlot"), '<', "&lt;"));
-    replace(page, "/* uPlot */", embedded("uPlot.iife.min.js"));
-    replace(page, "/* player */", program());
-    return page;
+std::string page_of(std::string_view title, std::string_view blocks, std::string_view description) {
+    return assembled({{"<!-- A page of spam view -->\n", page_mark.substr(page_mark.find("<!--"))},
+                      {"<!-- title -->", as_text(title)},
+                      {"/* style */",
+                       std::string(embedded("uPlot.min.css")) + std::string(embedded("page.css"))},
+                      {"<!-- licence of uPlot -->", as_text(embedded("LICENSE.uPlot"))},
+                      {"<!-- blocks -->\n", blocks},
+                      {"/* description */", description},
+                      {"/* uPlot */", embedded("uPlot.iife.min.js")},
+                      {"/* player */", program()}});
 }
 
 }  // namespace
 
-std::size_t bytes_of_program() { return frame().size(); }
+std::size_t bytes_of_program() { return page_of("", "", "").size(); }
 
 std::string make_page(const Payload& payload) {
-    std::string page = frame();
-    replace(page, "<!-- title -->",
-            escaped(escaped(payload.description.value("problem", ""), '&', "&amp;"), '<', "&lt;"));
     std::string blocks;
     std::size_t size = 0;
     for (const std::string& block : payload.blocks) size += block.size() + 60;
@@ -67,12 +80,7 @@ std::string make_page(const Payload& payload) {
         blocks += payload.blocks[k];
         blocks += "</script>\n";
     }
-    // What is not UTF-8 (the name of a folder may be anything) is replaced.
-    const std::string description =
-        payload.description.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    replace(page, "/* description */", escaped(description, '<', "\\u003c"));
-    replace(page, "<!-- blocks -->\n", blocks);
-    return page;
+    return page_of(payload.description.value("problem", ""), blocks, in_page(payload.description));
 }
 
 }  // namespace spam::view

@@ -158,6 +158,14 @@ json snapshot_of(const Snapshot& snapshot, const Thinning& thinning, Blocks& blo
     return about;
 }
 
+json text_of(const Results& results) {
+    return {{"problem", results.problem},
+            {"version", results.version},
+            {"options", results.options},
+            {"dimensions", results.dimensions},
+            {"checks", results.checks}};
+}
+
 }  // namespace
 
 std::string base64(const std::string& bytes) {
@@ -176,12 +184,29 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
+std::string in_page(const json& value) {
+    std::string text;
+    for (const char c : value.dump(-1, ' ', true, json::error_handler_t::replace))
+        if (c == '<')
+            text += "\\u003c";
+        else
+            text += c;
+    return text;
+}
+
 std::string Thinning::in_words() const {
     std::string words = bytes == 4 ? "numbers in single precision"
                                    : "positions and velocities in 16 bits between their extremes";
     if (bytes != 4) words += fmt::format(", fields in {} bits", 8 * field_bytes);
     if (every > 1) words += fmt::format("; every {}. snapshot and the last", every);
     return words;
+}
+
+std::size_t bytes_of_text(const Results& results) {
+    json text = text_of(results);
+    for (const Case& one : results.cases)
+        text["cases"].push_back({one.name, one.statistics, one.invariants.names});
+    return in_page(text).size();
 }
 
 std::size_t bytes_in_page(const Results& results, const Thinning& thinning) {
@@ -239,9 +264,8 @@ Payload make_payload(const Results& results, const Thinning& thinning) {
     Payload payload;
     payload.thinning = thinning;
     json& about = payload.description;
-    about = {{"problem", results.problem}, {"version", results.version},
-             {"options", results.options}, {"dimensions", results.dimensions},
-             {"checks", results.checks},   {"thinning", thinning.in_words()}};
+    about = text_of(results);
+    about["thinning"] = thinning.in_words();
     Blocks blocks(payload);
     for (const Case& one : results.cases) {
         json part{

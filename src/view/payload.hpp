@@ -31,11 +31,18 @@ struct Payload {
 /// counted once).
 std::size_t bytes_in_page(const Results& results, const Thinning& thinning);
 
+/// Bytes that names, checks and options take in a page.
+std::size_t bytes_of_text(const Results& results);
+
 /// The first of these that fits into `most` bytes: single precision (in small pages only), 16 bits, 8 bits
 /// for fields, every 2nd, 3rd, ... snapshot. Throws InputError where two snapshots are too much.
 Thinning thinned_to(const Results& results, std::size_t most);
 
 Payload make_payload(const Results& results, const Thinning& thinning);
+
+/// A value as it stands in a page. Between the tags of an element nothing may look like the end of it. What is
+/// not UTF-8 (the name of a folder may be anything) is replaced.
+std::string in_page(const nlohmann::json& value);
 
 std::string base64(const std::string& bytes);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results.hpp"
 
+#include "../io/file_descriptor.hpp"
 #include "files.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/text.hpp>
@@ -24,10 +25,26 @@ std::string shown(const fs::path& path) { return one_line(path.string()); }
 
 /// Null where the file does not exist.
 json read_json(const fs::path& path) {
-    if (!fs::exists(path)) return nullptr;
-    json value = json::parse(contents(path), nullptr, false);
+    if (!is_something(path)) return nullptr;
+    // What goes through a value calls itself at every level.
+    const auto is_flat = [&](int depth, json::parse_event_t, const json&) {
+        if (depth > 50) refuse(path, "is damaged, it is nested too deeply; run the problem again");
+        return true;
+    };
+    json value = json::parse(contents(path), is_flat, false);
     if (value.is_discarded()) refuse(path, "is damaged, it is no JSON; run the problem again");
     return value;
+}
+
+/// Null likewise.
+json read_statistics(const fs::path& path) {
+    json statistics = read_json(path);
+    if (!statistics.is_null() && !statistics.is_object())
+        refuse(path, "is damaged, it holds no names; run the problem again");
+    for (const char* name : {"problem", "version"})
+        if (statistics.contains(name) && !statistics[name].is_string())
+            refuse(path, fmt::format("is damaged, {} is no text; run the problem again", name));
+    return statistics;
 }
 
 /// Times and files that snapshots.pvd lists.
@@ -49,7 +66,7 @@ std::vector<std::string> listed(const fs::path& path) {
 }
 
 Case read_case(const fs::path& folder, std::string name) {
-    Case one{std::move(name), {}, {}, read_json(folder / "statistics.json")};
+    Case one{std::move(name), {}, {}, read_statistics(folder / "statistics.json")};
     for (const std::string& file : listed(folder / "snapshots.pvd")) {
         one.snapshots.push_back(read_snapshot(folder / file));
         const auto& all = one.snapshots;
@@ -57,7 +74,7 @@ Case read_case(const fs::path& folder, std::string name) {
             refuse(folder / file,
                    "is not later than the snapshot before it; run the problem again");
     }
-    if (fs::exists(folder / "invariants.csv"))
+    if (is_something(folder / "invariants.csv"))
         one.invariants = read_table(folder / "invariants.csv");
     return one;
 }
@@ -65,12 +82,12 @@ Case read_case(const fs::path& folder, std::string name) {
 /// Folders with a list of snapshots: the results themselves, or folders inside, two levels deep at most.
 std::vector<fs::path> case_folders(const fs::path& folder) {
     std::vector<fs::path> found;
-    if (fs::exists(folder / "snapshots.pvd")) found.push_back(folder);
-    std::error_code error;
+    if (is_something(folder / "snapshots.pvd")) found.push_back(folder);
+    std::error_code error, ignored;
     auto it = fs::recursive_directory_iterator(folder, error);
     for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
         if (it.depth() > 1) it.disable_recursion_pending();
-        if (it->is_directory() && fs::exists(it->path() / "snapshots.pvd"))
+        if (it->is_directory(ignored) && is_something(it->path() / "snapshots.pvd"))
             found.push_back(it->path());
     }
     if (error) refuse(folder, fmt::format("cannot be read ({})", error.message()));
@@ -115,6 +132,13 @@ void keep_components(FieldArray& field, std::size_t n, int dimensions) {
     field.components = kept.size();
 }
 
+/// Of a text that is shown as it is.
+std::string beginning(std::string text) {
+    constexpr std::size_t most = 50'000;
+    if (text.size() <= most) return text;
+    return text.substr(0, most) + fmt::format("\n... ({} bytes in all)\n", text.size());
+}
+
 bool is_check(const json& check) {
     return check.is_object() && check.contains("name") && check["name"].is_string() &&
            check.contains("value");
@@ -140,7 +164,7 @@ Results read_results(const fs::path& folder) {
     Results results;
     for (const fs::path& one : folders)
         results.cases.push_back(
-            read_case(one, one == folder ? "" : fs::relative(one, folder).generic_string()));
+            read_case(one, one == folder ? "" : one.lexically_relative(folder).generic_string()));
     std::erase_if(results.cases, [](const Case& one) { return one.snapshots.empty(); });
     if (results.cases.empty()) refuse(folder, "has lists of snapshots without any snapshot");
     results.checks = read_json(folder / "result.json");
@@ -148,12 +172,13 @@ Results read_results(const fs::path& folder) {
         !(results.checks.is_array() &&
           std::all_of(results.checks.begin(), results.checks.end(), is_check)))
         refuse(folder / "result.json", "is no list of checks; run the problem again");
-    if (fs::exists(folder / "case.toml")) results.options = contents(folder / "case.toml");
+    if (is_something(folder / "case.toml"))
+        results.options = beginning(contents(folder / "case.toml"));
 
     results.problem = folder.filename().empty() ? folder.parent_path().filename().string()
                                                 : folder.filename().string();
     for (const Case& one : results.cases) {
-        if (!one.statistics.is_object()) continue;
+        if (one.statistics.is_null()) continue;
         results.problem = one.statistics.value("problem", results.problem);
         results.version = one.statistics.value("version", results.version);
     }

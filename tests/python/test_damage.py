@@ -90,6 +90,14 @@ class Damage(unittest.TestCase):
         self.change("plain/snapshot_0001.vtp", b"TimeValue", b"Time", "no TimeValue")
         self.change("plain/snapshot_0001.vtp", b'Points="37"', b'Points="36"', "has 296 bytes")
 
+    def test_what_is_no_file_is_not_opened(self):
+        for inside in ("result.json", "case.toml", "plain/statistics.json", "plain/invariants.csv",
+                       "plain/snapshots.pvd", "plain/snapshot_0001.vtp"):
+            folder = self.copy()
+            (folder / inside).unlink()
+            os.mkfifo(folder / inside)
+            self.refuses(folder, "no regular file")
+
     @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not installed")
     def test_checkpoints(self):
         folder = self.copy()

@@ -216,7 +216,8 @@ def check_dark(browser, page, dark):
 
 
 def check_address(browser, page):
-    open_page(browser, page, "#t=3&field=speed&range=0,7&dark=1&between=0")
+    # Names that every object of JavaScript has are no settings.
+    open_page(browser, page, "#constructor=1&map=toString&t=3&field=speed&range=0,7&dark=1&between=0")
     seen = browser.script("const s = spam.state; return [s.t, s.field, ...s.range, s.dark, s.between]")
     assert seen == [3, "speed", 0, 7, True, False], seen
     ground = pixel(browser, 2, browser.script("return spam.panels.canvas.height") - 2)

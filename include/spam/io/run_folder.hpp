@@ -28,6 +28,11 @@ class RunFolder {
     static RunFolder reopen(const std::filesystem::path& path,
                             std::chrono::milliseconds patience = {});
 
+    /// Throws InputError where it holds, at any depth, anything but files and folders: what is written through a
+    /// link lands elsewhere, and a pipe keeps its writer waiting. To be asked before going on in a folder that
+    /// may have come from elsewhere.
+    void check_own() const;
+
     /// Lets other runs have it; is_there() goes on to tell.
     void release() const {
         if (lock_) lock_->release();

@@ -15,7 +15,7 @@ namespace spam {
 /// A further column of invariants.csv: its name and how to measure it.
 template <int Dim>
 struct Column {
-    /// Of the column: words joined by _; none that invariants.csv has already.
+    /// Of the column: words joined by _. One that invariants.csv has already is refused.
     std::string name;
     /// Called at every row with the state there; what it returns should be finite.
     std::function<double(const Model<Dim>& model, std::span<const double> y)> measure;

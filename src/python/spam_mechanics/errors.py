@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What can go wrong, by the same kinds as in the library and its programs."""
 import importlib
+import os
+import stat
 
 
 class InputError(ValueError):
@@ -44,6 +46,9 @@ def refuse(path, reason):
 def contents(path, what="file"):
     """All bytes of a file; InputError where there is none to be had."""
     try:
+        mode = os.stat(path).st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):  # a pipe would wait, a device may do something
+            refuse(path, f"the {what} cannot be read (it is no regular file)")
         with open(path, "rb") as file:
             return file.read()
     except OSError as error:

@@ -170,7 +170,7 @@ function describeTime(how) {
 const remembered = {
   t: [() => Number(state.t.toPrecision(8)), v => { state.t = clamp(Number(v) || 0, firstTime, lastTime); }],
   field: [() => state.field, v => { if (fieldTable.has(v)) state.field = v; }],
-  map: [() => state.map, v => { if (maps[v]) state.map = v; }],
+  map: [() => state.map, v => { if (Object.hasOwn(maps, v)) state.map = v; }],
   range: [() => state.percent === 'typed' ? state.range.join(',') : state.percent, v => {
     const ends = v.split(',').map(Number);
     if (ends.length === 2 && ends.every(Number.isFinite)) Object.assign(state, {percent: 'typed', range: ends});
@@ -200,5 +200,6 @@ function address() {
 }
 
 function readAddress() {
-  for (const [key, value] of new URLSearchParams(location.hash.slice(1))) remembered[key]?.[1](value);
+  for (const [key, value] of new URLSearchParams(location.hash.slice(1)))
+    if (Object.hasOwn(remembered, key)) remembered[key][1](value);
 }
