@@ -13,6 +13,7 @@
 // clumped (two particles nearer than 0.3 spacings), at most `turns` turns; the first turn is always
 // completed. One row of sweep.csv each. A sweep that was stopped, even by kill -9, goes on with the
 // same command.
+#include "reduced_units.hpp"
 #include <spam/diagnostics/shape.hpp>
 #include <spam/io/study_table.hpp>
 #include <spam/picture/draw.hpp>
@@ -215,6 +216,7 @@ void say_ranking(Session& session, std::vector<StudyTable::Row> rows) {
 
 int main(int argc, char** argv) {
     Problem problem("algorithm_sweep", "the 72 algorithm combinations of [HHM04] IX");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",

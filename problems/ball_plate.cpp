@@ -24,6 +24,7 @@
 //     --compare       the speeds of the lecture, one after the other
 //     --ends held     the outermost particles of the plate are held, so that it bends and is torn
 #include "ball_plate/impact.hpp"
+#include "reduced_units.hpp"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,7 @@ void add_options(Problem& problem, Parameters& p) {
 int main(int argc, char** argv) {
     spam::Problem problem("ball_plate", "a ball that hits a plate, [HH07] 13", 0.1,
                           "0.05, of molecules 0.0025, of embedded atoms 0.0125");
+    problem.units(spam::lattice_units());
     ball_plate::Parameters p;
     ball_plate::add_options(problem, p);
     return problem.main(argc, argv, [&](spam::Session& session) {

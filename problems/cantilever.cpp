@@ -97,14 +97,15 @@ void compute(Session& session, const Parameters& p) {
 }
 
 void add_options(Options& options, Parameters& p) {
-    options.number("length", p.beam.length, "length of the plate beyond x = 0, m", positive());
-    options.number("thickness", p.beam.thickness, "its thickness, m", positive());
+    options.number("length", p.beam.length, "length of the plate beyond x = 0", positive())
+        .unit("m");
+    options.number("thickness", p.beam.thickness, "its thickness", positive()).unit("m");
     options.integer("layers", p.layers, "rows of particles over the thickness", between(3, 200));
-    options.number("young", p.beam.young, "Young's modulus, Pa", positive());
+    options.number("young", p.beam.young, "Young's modulus", positive()).unit("Pa");
     options.number("poisson", p.beam.poisson, "Poisson's ratio", between(0.0, 0.499));
-    options.number("density", p.beam.density, "density, kg/m^3", positive());
+    options.number("density", p.beam.density, "density", positive()).unit("kg/m^3");
     options.number("speed", p.speed, "speed of the tip at the start, by sqrt(K/rho)", positive());
-    options.number("gravity", p.gravity, "acceleration downwards, m/s^2", any_number());
+    options.number("gravity", p.gravity, "acceleration downwards", any_number()).unit("m/s^2");
     options.choice<Formulation>(
         "formulation", p.formulation,
         {Formulation::total_lagrangian, Formulation::updated, Formulation::material_vectors},
@@ -153,6 +154,8 @@ void refuse_impossible(const Parameters& p) {
 int main(int argc, char** argv) {
     spam::Problem problem("cantilever", "an oscillating plate against the theory of beams", 0.1,
                           "0.4 spacings by the speed of waves");
+    problem.units(
+        {.length = "m", .mass = "kg", .time = "s", .stress = "Pa", .of_unit_thickness = true});
     cantilever::Parameters p;
     cantilever::add_options(problem.options(), p);
     return problem.main(argc, argv, [&](spam::Session& session) {

@@ -12,6 +12,7 @@
 //     |  <-  <-  <-  |
 //      ==============           at rest
 #include "cavity/centre_line.hpp"
+#include "reduced_units.hpp"
 #include "taylor_green/stirred_fluid.hpp"
 #include <spam/picture/draw.hpp>
 #include <spam/problem/nearest_state.hpp>
@@ -202,6 +203,7 @@ void run(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     Problem problem("cavity", "flow in a square under a moving lid, against Ghia, Ghia and Shin",
                     0.4, stirred::step_words);
+    problem.units(fluid_units());
     Parameters p;
     p.cells = 40;
     // Images move with 2 V - v but stand where mirrors put them: by continuity densities drift there.

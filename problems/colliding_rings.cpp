@@ -17,6 +17,7 @@
 // which the centres part by the one at which they met.
 #include "breaking/pieces.hpp"
 #include "formulation.hpp"
+#include "reduced_units.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/nearest_state.hpp>
@@ -44,6 +45,12 @@ struct Parameters {
     double range = 3.0, viscosity = 1.0;
     std::optional<double> penalty;
     ContactScheme contact{};
+
+    /// How long they take, up to a factor: a ring bends in a time that grows like radius^2 by thickness, and
+    /// goes its own radius.
+    double time() const {
+        return radius * radius / (radius - inner_radius) / 64.0 + radius / speed / 320.0;
+    }
 
     double kappa() const {
         return penalty.value_or(formulation == Formulation::material_vectors
@@ -230,18 +237,22 @@ void add_options(Options& options, Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("colliding_rings", "two elastic rings collide and part");
+    problem.units(lattice_units());
     Parameters p;
     add_options(problem.options(), p);
     return problem.main(argc, argv, [&](Session& session) {
         const bool smoke = session.common().smoke;
-        if (smoke && !session.given("radius")) p.radius = 6.0;
-        if (smoke && !session.given("inner-radius")) p.inner_radius = 3.5;
+        Parameters usual;
+        if (smoke) usual.radius = 6.0, usual.inner_radius = 3.5;
+        if (!session.given("radius")) p.radius = usual.radius;
+        if (!session.given("inner-radius")) p.inner_radius = usual.inner_radius;
         const auto model = make_model(p);
         auto y0 = initial_state<2>(*model, rho, eta, [&](const Point<2>& x) {
             return Point<2>(x.x() < 0.0 ? p.speed : -p.speed, 0.0);
         });
         Plan<2> plan;
-        plan.t_end = session.common().t_end.value_or(smoke ? 40.0 : 640.0);
+        plan.t_end =
+            session.common().t_end.value_or((smoke ? 40.0 : 640.0) * (p.time() / usual.time()));
         plan.snapshot_every = plan.t_end / 20.0;
         plan.record(columns(*model->term<Contact<2>>()));
         std::vector<NearestState<2>> drawn;

@@ -14,6 +14,7 @@
 // nothing to do. Only a constraint for each body,
 //     P_b/R_b - M_b R_b + X_b = 0     for b = 1, 2
 // keeps both. Run twice: torques balanced for each body, and for all together.
+#include "reduced_units.hpp"
 #include <spam/problem/nearest_state.hpp>
 #include <spam/spam.hpp>
 
@@ -89,6 +90,7 @@ void draw(Session& session, const std::vector<Hexagons>& pairs, const std::vecto
 int main(int argc, char** argv) {
     Problem problem("counter_rotating",
                     "two hexagons that rotate against each other, [HHM04] VII, IX");
+    problem.units(lattice_units());
     int size = 8;
     double speed = 0.1, turns = 1.0;
     problem.options().integer("size", size,

@@ -16,6 +16,7 @@
 // L - angular impulse and E - work are kept through plastic flow and contact. E contains what has been spent
 // on plastic flow. When the walls are gone nobody touches anybody: folds that were pressed together do not
 // stick.
+#include "reduced_units.hpp"
 #include <spam/core/error.hpp>
 #include <spam/external/rigid_wall.hpp>
 #include <spam/material/hencky_solid.hpp>
@@ -212,6 +213,7 @@ void add_options(Options& options, Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("crushed_sheet", "a plastic sheet crushed between two walls");
+    problem.units(lattice_units());
     Parameters p;
     add_options(problem.options(), p);
     return problem.main(argc, argv, [&](Session& session) {

@@ -13,6 +13,7 @@
 // lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
 #include "diffusion_waves/diffusion_waves.hpp"
 
+#include "reduced_units.hpp"
 #include <spam/external/clamp.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
@@ -209,6 +210,7 @@ int main(int argc, char** argv) {
     using namespace diffusion_waves;
     Problem problem("diffusion_waves",
                     "heat and momentum diffuse through smooth particles, [HH07] 4");
+    problem.units(gas_units());
     Parameters p;
     auto& options = problem.options();
     options.choice<Wave>("wave", p.wave, {Wave::both, Wave::thermal, Wave::shear},

@@ -24,6 +24,7 @@
 // names have no prefix.
 #include "drop/roundness.hpp"
 #include "kernels/lattices.hpp"
+#include "reduced_units.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/picture/draw.hpp>
@@ -201,6 +202,7 @@ void refuse_impossible(const Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("drop", "a square drop of an embedded-atom fluid, [HH07] 7 and 8");
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "the drop is cells x cells particles", between(2, 1000));

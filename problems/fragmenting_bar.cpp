@@ -21,6 +21,7 @@
 //     --compare                        that beside plain velocities, ⟨v⟩_Monaghan, and balanced torques
 #include "breaking/pieces.hpp"
 #include "fragmenting_bar/account.hpp"
+#include "reduced_units.hpp"
 
 #include <fmt/format.h>
 
@@ -60,7 +61,8 @@ void add_options(Problem& problem, Parameters& p) {
 
 Plan<2> plan_of(const Session& session, const Parameters& p, Bar& bar, double row_interval) {
     Plan<2> plan;
-    plan.t_end = session.common().t_end.value_or(session.common().smoke ? 20.0 : 200.0);
+    plan.t_end =
+        session.common().t_end.value_or(p.target.time(session.common().smoke ? 20.0 : 200.0));
     plan.output_every = row_interval;
     if (p.compare) plan.step = bar.label == "material_vectors" ? step_of_vectors : step;
     plan.record({closest_pair_column<2>(),
@@ -136,6 +138,7 @@ void compute(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     spam::Problem problem("fragmenting_bar", "a bar broken by a projectile, [HHM04] IX",
                           fragmenting_bar::step);
+    problem.units(spam::lattice_units());
     fragmenting_bar::Parameters p;
     fragmenting_bar::add_options(problem, p);
     return problem.main(argc, argv, [&](spam::Session& session) {

@@ -31,6 +31,7 @@
 //     --cost             seconds against the number of particles, exercise 4
 //     --movie            frames, and a film where ffmpeg is installed
 #include "free_expansion/gas.hpp"
+#include "reduced_units.hpp"
 #include <spam/core/error.hpp>
 
 #include <fmt/format.h>
@@ -134,6 +135,7 @@ int main(int argc, char** argv) {
     using namespace free_expansion;
     Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25,
                     "0.25, on a line 0.125, or shorter where the range is short");
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("dimension", p.dimension,

@@ -12,6 +12,7 @@
 //                               the second derivative of y' errs by h^3, whatever the method
 // A force that jumps:           torque_particle: order one
 // Velocities that jump:         reflection: found in time, so that orders stay
+#include "reduced_units.hpp"
 #include <spam/spam.hpp>
 #include <spam/study/work_precision.hpp>
 
@@ -66,6 +67,7 @@ std::vector<Trial<2>> systems(const Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("integrator_accuracy", "error against work of many integrators");
+    problem.units(lattice_units());
     Parameters p;
     WorkPrecision study;
     auto& options = problem.options();

@@ -9,6 +9,7 @@
 //     md                 the same of points and springs
 //     wave               a standing wave in smooth particles, `periods` periods
 //     hexagon            smooth particles, torques of pairs balanced: one turn, they last no longer
+#include "reduced_units.hpp"
 #include <spam/analysis/plane_wave.hpp>
 #include <spam/spam.hpp>
 #include <spam/study/drift_study.hpp>
@@ -58,6 +59,7 @@ std::vector<Trial<2>> systems(const Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("invariant_drift", "drifts of energy and angular momentum in long runs");
+    problem.units(lattice_units());
     Parameters p;
     DriftStudy study;
     auto& options = problem.options();

@@ -15,6 +15,7 @@
 // Fluid and molecules differ by rounding. In a chaotic system every difference grows like
 // exp(lambda t), lambda the largest Lyapunov exponent: that of rounding as fast as that of the moved
 // molecule.
+#include "reduced_units.hpp"
 #include <spam/diagnostics/fits.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/lucy_gas.hpp>
@@ -218,6 +219,7 @@ int main(int argc, char** argv) {
     using namespace isomorphism;
     Problem problem("isomorphism", "smooth-particle fluids that move like molecules, [HH07] 6",
                     0.05);
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.choice<Law>("law", p.law, {Law::both, Law::lucy, Law::embedded_atom},

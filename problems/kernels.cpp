@@ -265,6 +265,8 @@ void draw_ripple(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     Problem problem("kernels",
                     "weight functions and the evenness of lattices, [HH01] exercises 2, 3");
+    problem.units(
+        reduced_units("the mass of a particle and the spacing of its lattice; nothing moves"));
     Parameters p;
     auto& options = problem.options();
     options.number("smallest-range", p.smallest, "smallest range h", between(1.1, 20.0));

@@ -20,6 +20,7 @@
 // With --potential one lattice under one choice of potentials is analysed, and nothing moves.
 #include "lattice_stability/motion.hpp"
 #include "lattice_stability/strength.hpp"
+#include "reduced_units.hpp"
 #include <spam/kernel/kernel.hpp>
 #include <spam/spam.hpp>
 
@@ -141,6 +142,7 @@ int main(int argc, char** argv) {
     using namespace lattice_stability;
     Problem problem("lattice_stability",
                     "which potentials of the density hold a lattice together, [HH07] 8", step);
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.choice<LatticeKind>("lattice", p.lattice,

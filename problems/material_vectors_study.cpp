@@ -17,6 +17,7 @@
 // order at which the period converges.
 // Numbers of the projectile scatter: what breaks where is decided by the last digits.
 #include "material_vectors_study/trials.hpp"
+#include "reduced_units.hpp"
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -262,6 +263,7 @@ int main(int argc, char** argv) {
     Problem problem("material_vectors_study",
                     "penalty and weights of material vectors, tried on lattices, a hexagon, a beam "
                     "and a projectile");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("rows", p.sizes.beam_rows,

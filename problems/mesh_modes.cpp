@@ -18,6 +18,7 @@
 // 2. In motion: the kinetic energy of each of the three stays what it is. With a resistance to the hourglass
 //    (rhs/elements.hpp) it is gone before the end.
 #include "mesh_modes/zero_modes.hpp"
+#include "reduced_units.hpp"
 #include <spam/picture/draw.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/spam.hpp>
@@ -176,6 +177,7 @@ int main(int argc, char** argv) {
     using namespace mesh_modes;
     Problem problem("mesh_modes",
                     "motions of a mesh of one-point elements that nothing resists, [HH01]", 0.05);
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("elements", p.elements, "the mesh is elements x elements", between(1, 16));

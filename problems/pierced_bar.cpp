@@ -20,6 +20,7 @@
 //                           spacing, without adhesion (rhs/contact.hpp)
 //     --contact none        both are of one body: they meet as neighbours do, and what yields may stick
 #include "pierced_bar/shot.hpp"
+#include "reduced_units.hpp"
 
 #include <fmt/format.h>
 
@@ -62,6 +63,7 @@ void add_options(Options& options, Parameters& p) {
 int main(int argc, char** argv) {
     using namespace spam;
     Problem problem("pierced_bar", "a projectile goes through a bar that flows and breaks", 0.025);
+    problem.units(lattice_units());
     pierced_bar::Parameters p;
     pierced_bar::add_options(problem.options(), p);
     return problem.main(argc, argv, [&](Session& session) {
@@ -70,7 +72,8 @@ int main(int argc, char** argv) {
         refuse_tunnelling(session, p.target, p.matter.range, row_interval);
         pierced_bar::Shot shot = pierced_bar::make_shot(p);
         Plan<2> plan;
-        plan.t_end = session.common().t_end.value_or(session.common().smoke ? 20.0 : 200.0);
+        plan.t_end =
+            session.common().t_end.value_or(p.target.time(session.common().smoke ? 20.0 : 200.0));
         plan.output_every = row_interval;
         plan.snapshot_every = plan.t_end / 40.0;
         plan.record(pierced_bar::columns_of(shot));

@@ -26,6 +26,7 @@
 // cells, unless given) and fits the order at which the error falls to that of long waves (0.8 %).
 #include "plane_wave/block_rotation.hpp"
 #include "plane_wave/input.hpp"
+#include "reduced_units.hpp"
 #include <spam/analysis/lattice_modes.hpp>
 #include <spam/analysis/periodic_solid.hpp>
 #include <spam/diagnostics/fits.hpp>
@@ -293,6 +294,7 @@ void compare_sizes(Session& session, const std::vector<Ringing>& all,
 
 int main(int argc, char** argv) {
     Problem problem("plane_wave", "standing waves in a periodic elastic solid, [HHM04] V, Fig. 3");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.choice<Polarization>("polarization", p.polarization,

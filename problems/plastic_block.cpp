@@ -21,6 +21,7 @@
 // --compare runs all of them with steps and tolerances of their own: comparison.csv, and error against work
 // in one picture. It reports what the tolerance of adaptive steps does not control. 15 s
 #include "plastic_block/block.hpp"
+#include "reduced_units.hpp"
 #include <spam/picture/draw.hpp>
 #include <spam/problem/nearest_state.hpp>
 
@@ -108,6 +109,7 @@ void run_one(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     using namespace plastic_block;
     Problem problem("plastic_block", "a free block that bends, yields and keeps its energy", 0.25);
+    problem.units(lattice_units());
     Parameters p;
     p.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     auto& options = problem.options();

@@ -27,6 +27,7 @@
 //                        factor of three. The particles' onset is later: at rest they are in order, and resist
 //                        weak rolls as a solid does. 2 min
 #include "rayleigh_benard/convection.hpp"
+#include "reduced_units.hpp"
 #include <spam/core/error.hpp>
 
 #include <fmt/format.h>
@@ -189,6 +190,7 @@ int main(int argc, char** argv) {
     using namespace rayleigh_benard;
     Problem problem("rayleigh_benard", "convection between a hot and a cold plate, [HH07] 12", 0.2,
                     "0.2, or shorter where heat diffuses fast or the lower plate is hotter");
+    problem.units(gas_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("height", p.height,

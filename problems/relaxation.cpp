@@ -170,6 +170,8 @@ void draw(Session& session, const Region& region, const Ruler& ruler, const RunR
 int main(int argc, char** argv) {
     using namespace relaxation;
     Problem problem("relaxation", "a mesh for an irregular shape by viscous relaxation, [HH07] 7");
+    problem.units(reduced_units(
+        "the mass of a particle, its area and the energy of two by the integral of their weight"));
     Parameters p;
     auto& options = problem.options();
     options.integer("particles", p.particles, "number of particles that fill the shape",

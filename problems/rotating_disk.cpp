@@ -25,6 +25,7 @@
 // sigma_rt in proportion to the angle turned.
 #include "rotating_disk/rotating_disk.hpp"
 
+#include "reduced_units.hpp"
 #include "rotating_disk/polar_stress.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/io/csv.hpp>
@@ -257,6 +258,7 @@ void refuse_impossible(const Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("rotating_disk", "steady stress of a rotating elastic disk, [HHM04] VI");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.choice<Shape>("shape", p.shape, {Shape::disk, Shape::hexagon},

@@ -23,6 +23,7 @@
 // spacings, the turns run if none has.
 // Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
 // With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
+#include "reduced_units.hpp"
 #include "rotating_hexagon/hexagon.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
@@ -226,6 +227,7 @@ int main(int argc, char** argv) {
     using namespace rotating_hexagon;
     Problem problem("rotating_hexagon",
                     "a rotating elastic hexagon of smooth particles, [HHM04] VI-VIII");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer(

@@ -18,6 +18,7 @@
 // one mode, u_x even in x and odd in y, u_y the other way round. Rayleigh and Ritz with polynomials
 // find its frequency, 3.926 c_T/side; the square of particles is softer at its edges, and slower by
 // that much the smaller it is.
+#include "reduced_units.hpp"
 #include "sheared_square/vibrations.hpp"
 #include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/outline.hpp>
@@ -272,6 +273,7 @@ void draw_motion(Session& session, const Parameters& p, const RunRecord& run,
 int main(int argc, char** argv) {
     Problem problem("sheared_square",
                     "a sheared elastic square vibrates and does not rotate, [HHM04] Fig. 2");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "particles along a side", between(6, 2000));

@@ -226,6 +226,8 @@ int main(int argc, char** argv) {
     using namespace shock_tube;
     Problem problem("shock_tube", "Sod's shock tube against the exact solution", 0.1,
                     "0.1 by the number of particles of the largest size");
+    problem.units(
+        reduced_units("the length of the tube, and the density and pressure on its left"));
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "particles along the tube", between(20, 20000));

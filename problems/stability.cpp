@@ -21,6 +21,7 @@
 // stress, which may have a shear part (--shear-stress). Its K(k), m omega^2 u = K(k) u, is Hermitian: a wave
 // grows or oscillates, and none does neither but translations. Without --penalty or --memoryless it compares
 // penalties kappa and the scheme without its memory, whose vectors are X = F^-1 r at all times.
+#include "reduced_units.hpp"
 #include "stability/lattice.hpp"
 
 #include <fmt/format.h>
@@ -102,6 +103,7 @@ int main(int argc, char** argv) {
     using namespace stability;
     Problem problem("stability",
                     "linear stability of a lattice under hydrostatic stress, [HHM04] IV");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.number("stress", p.stress, "hydrostatic stress; tension is positive",

@@ -24,6 +24,7 @@
 //
 // Without --core both are run; names in result.json without a prefix then belong to the one without a
 // core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
+#include "reduced_units.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/neighbors/pair_list.hpp>
@@ -231,6 +232,7 @@ void refuse_impossible(const Parameters& p) {
 int main(int argc, char** argv) {
     Problem problem("string_phase",
                     "strings of an embedded-atom fluid and their cure by cores, [HH07] 8");
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("particles", p.particles, "number of particles, at random places in the box",

@@ -44,9 +44,10 @@ struct Drawn {
     void remember(Archive& archive) { archive(t, section.position, section.strain); }
 };
 
-Plan<3> plan_of(const Session& session, const Bar& bar, std::vector<Drawn>& drawn) {
+Plan<3> plan_of(const Session& session, const Parameters& p, const Bar& bar,
+                std::vector<Drawn>& drawn) {
     Plan<3> plan;
-    plan.t_end = session.common().smoke ? 4.0 : 80.0;
+    plan.t_end = (session.common().smoke ? 4.0 : 80.0) * (p.time() / Parameters{}.time());
     plan.output_every = plan.t_end / 80.0;
     plan.snapshot_every = plan.t_end / 4.0;
     const auto now = std::make_shared<BarShape>();
@@ -121,7 +122,7 @@ void compute(Session& session, const Parameters& p) {
     std::vector<std::vector<Drawn>> drawn(bars.size());
     std::vector<Case<3>> cases;
     for (std::size_t k = 0; k < bars.size(); ++k)
-        cases.push_back({bars[k].model, bars[k].y0, plan_of(session, bars[k], drawn[k]),
+        cases.push_back({bars[k].model, bars[k].y0, plan_of(session, p, bars[k], drawn[k]),
                          p.compare ? bars[k].label : ""});
     const auto runs = session.run_all(std::move(cases));
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, bars[k], runs[k]);
@@ -136,19 +137,22 @@ int main(int argc, char** argv) {
     using namespace taylor_bar;
     Problem problem("taylor_bar", "a copper cylinder against a rigid wall", 0.05,
                     "0.4 spacings of the flattened bar by the speed of waves");
+    problem.units({.length = "mm", .mass = "g", .time = "µs", .stress = "TPa", .energy = "kJ"});
     Parameters p;
     auto& options = problem.options();
     options.integer("particles-per-radius", p.particles_per_radius,
                     "particles from the axis to the rim", between(2, 40));
-    options.number("radius", p.radius, "of the bar, mm", positive());
+    options.number("radius", p.radius, "of the bar", positive()).unit("mm");
     options.number("aspect", p.aspect, "length of the bar by its radius", between(2.0, 100.0));
-    options.number("speed", p.speed, "of the bar, m/s", between(0.0, 1000.0));
-    options.number("young", p.young, "Young's modulus, GPa", positive());
+    options.number("speed", p.speed, "of the bar", between(0.0, 1000.0)).unit("m/s");
+    options.number("young", p.young, "Young's modulus", positive()).unit("GPa");
     options.number("poisson", p.poisson, "Poisson's ratio", between(0.0, 0.49));
-    options.number("density", p.density, "kg/m^3", positive());
-    options.number("yield-stress", p.yield_stress, "GPa", positive());
-    options.number("hardening", p.hardening, "growth of the yield stress with plastic strain, GPa",
-                   non_negative());
+    options.number("density", p.density, "of the bar", positive()).unit("kg/m^3");
+    options.number("yield-stress", p.yield_stress, "yield stress", positive()).unit("GPa");
+    options
+        .number("hardening", p.hardening, "growth of the yield stress with plastic strain",
+                non_negative())
+        .unit("GPa");
     options.number("range", p.range, "range h of Lucy's weight function, in spacings",
                    between(1.2, 4.0));
     options.number("penalty", p.penalty, "penalty against zero-energy modes", between(0.0, 10.0));

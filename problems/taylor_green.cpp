@@ -14,6 +14,7 @@
 //     --left mirror --right mirror --bottom mirror --top mirror
 //                        a quarter of a wave further the sides are planes of symmetry, and mirrors change
 //                        nothing
+#include "reduced_units.hpp"
 #include "taylor_green/vortices.hpp"
 
 #include <fmt/format.h>
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
     Problem problem("taylor_green",
                     "four vortices decay in a periodic square, against the exact solution", 0.4,
                     stirred::step_words);
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     stirred::add_options(options, p, "largest speed at the start");

@@ -20,6 +20,7 @@
 // almost as fast as the fastest; 1 % would come too late.)
 // Without --stress and scheme options it draws the figure: tension 0.01 and 0.02, and
 // <v>_Monaghan at 0.02. Names in result.json without a prefix belong to plain velocities at 0.02.
+#include "reduced_units.hpp"
 #include <spam/analysis/kicked_lattice.hpp>
 #include <spam/analysis/periodic_solid.hpp>
 #include <spam/analysis/wave_vectors.hpp>
@@ -268,6 +269,7 @@ void draw(Session& session, const std::vector<Sample>& samples,
 int main(int argc, char** argv) {
     Problem problem("tensile_instability",
                     "one moving particle in a stretched periodic lattice, [HHM04] Fig. 1");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.number("stress", p.stress, "hydrostatic stress; tension is positive",

@@ -25,6 +25,7 @@
 // bar of the lecture parts at t = 620), at 0.41 with 1/200, which is the default. The others flow, and part at
 // lower loads when these grow more slowly; motion is chaotic, and --seed changes loads by a tenth. Without
 // a core smooth particles clump before they part.
+#include "reduced_units.hpp"
 #include "tension_test/bar.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,7 @@ void add_options(Problem& problem, Parameters& p) {
 
 int main(int argc, char** argv) {
     spam::Problem problem("tension_test", "a tapered bar under tension, [HH07] 13", 0.25);
+    problem.units(spam::lattice_units());
     tension_test::Parameters p;
     tension_test::add_options(problem, p);
     return problem.main(argc, argv, [&](spam::Session& session) {

@@ -10,6 +10,7 @@
 //
 // The first are as many as --turns, its tenth, hundredth and thousandth part. Every configuration is kept as a table
 // of x, y and velocities.
+#include "reduced_units.hpp"
 #include <spam/diagnostics/shape.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/text_file.hpp>
@@ -160,6 +161,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& all
 int main(int argc, char** argv) {
     Problem problem("thousand_turns",
                     "the rotating hexagon with material vectors, beside the paper's best scheme");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",

@@ -12,6 +12,7 @@
 //                                 because it cannot do otherwise: no new neighbours, no flow, no
 //                                 fragments
 //     material vectors            sums over present neighbours with a memory: they may change
+#include "reduced_units.hpp"
 #include <spam/diagnostics/shape.hpp>
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
@@ -177,6 +178,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Contestant>& 
 
 int main(int argc, char** argv) {
     Problem problem("turns_survived", "how many turns each scheme keeps the rotating hexagon");
+    problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",

@@ -34,6 +34,7 @@
 //                     walls: mirrors, or rigid ones. The one on the right is taken away.
 //     --cavitation P  the tension is P at most (text: "P > Pc -> P = Pc", where pressure is meant to be
 //                     tension); the energy of the limited law is used, so that energy is still kept
+#include "reduced_units.hpp"
 #include "water_column/column.hpp"
 #include <spam/core/error.hpp>
 #include <spam/problem/remake.hpp>
@@ -178,6 +179,7 @@ void add_options(Options& options, Parameters& p) {
 int main(int argc, char** argv) {
     spam::Problem problem("water_column",
                           "a column of water comes to rest and collapses, [HH07] 11", 0.025);
+    problem.units(spam::fluid_units());
     water_column::Parameters p;
     water_column::add_options(problem.options(), p);
     const spam::SideOption wall(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "channel.hpp"
 
+#include "../reduced_units.hpp"
 #include <spam/external/gravity.hpp>
 #include <spam/material/lucy_gas.hpp>
 #include <spam/picture/draw.hpp>
@@ -210,6 +211,7 @@ Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described)
 int main_of(int argc, char** argv, const std::string& name, const std::string& summary,
             Drive drive) {
     Problem problem(name, summary, 0.25, "0.25, or shorter where friction is strong");
+    problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "particles from plate to plate, and as many along them",

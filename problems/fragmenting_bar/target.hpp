@@ -12,6 +12,8 @@ struct Target {
     double speed = 1.0;          ///< of the projectile
     double offset = 8.0;         ///< of its centre above the middle of the bar
 
+    /// How long a run is that takes `usual` at the usual speed: the projectile goes equally far.
+    double time(double usual) const { return usual * Target{}.speed / speed; }
     std::int64_t of_bar() const { return static_cast<std::int64_t>(columns) * rows; }
     /// The bar centred on the origin, the projectile left of it by `gap`; the bar's particles first.
     Points<2> positions(double gap) const;

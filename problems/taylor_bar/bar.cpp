@@ -33,6 +33,12 @@ Points<3> sites_of(const Parameters& p, double spacing, int layers) {
 
 }  // namespace
 
+double Parameters::time() const {
+    const double v = speed * to_mm_per_us, rho = density * to_g_per_mm3;
+    const double shorter = -length() * std::expm1(-0.5 * rho * v * v / (yield_stress * to_TPa));
+    return (v > 0.0 ? 2.0 * shorter / v : 0.0) + 2.0 * length() / std::sqrt(young * to_TPa / rho);
+}
+
 Bar make_bar(const Parameters& p, int particles_per_radius) {
     const double nominal = p.radius / particles_per_radius;
     const int layers = static_cast<int>(std::lround(p.length() / nominal));

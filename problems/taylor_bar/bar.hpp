@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the parts of taylor_bar share. Lengths in mm, times in us, masses in g: stresses in TPa, 1e3 GPa.
+// What the parts of taylor_bar share. Lengths in mm, times in µs, masses in g: stresses in TPa, 1e3 GPa. Options
+// are in the units that they say.
 #pragma once
 
 #include <spam/external/rigid_wall.hpp>
@@ -22,6 +23,9 @@ struct Parameters {
     bool compare = false;
 
     double length() const { return aspect * radius; }
+    /// Until the bar is at rest, up to a factor, in µs: a rigid, plastic bar loses its speed while it becomes
+    /// shorter (Taylor), and waves go up and down the bar.
+    double time() const;
 };
 
 /// A bar of cubic lattice along z, its face at z = 0 against a rigid wall without friction.

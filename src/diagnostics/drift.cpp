@@ -10,38 +10,35 @@ namespace {
 /// What rounding may leave of forces that cancel: a few units in the last place.
 constexpr double rounding = 1e-15;
 
-/// Largest change of a column over the run, less the columns of what externals have given (where there
-/// are such).
-double largest_change(const History& history, const std::string& name,
+/// Of a column, less the columns of what was given of it (where there are such).
+WatchedChange watched(const History& history, const std::string& invariant, std::string column,
                       const std::vector<std::string>& given) {
-    if (std::none_of(given.begin(), given.end(),
-                     [&](const std::string& column) { return history.has(column); }))
-        return history.largest_change(name);
-    std::vector<double> balance = history.column(name);
-    for (const std::string& column : given) {
-        const std::vector<double> from_outside = history.column(column);
-        for (std::size_t k = 0; k < balance.size(); ++k) balance[k] -= from_outside[k];
+    WatchedChange one{invariant, column, history.column(column)};
+    const char* joint = " less ";
+    for (const std::string& part : given) {
+        if (!history.has(part)) continue;
+        const std::vector<double> from_outside = history.column(part);
+        for (std::size_t k = 0; k < one.change.size(); ++k) one.change[k] -= from_outside[k];
+        one.name += joint + part.substr(0, part.find_last_not_of("xyz_") + 1);
+        joint = " and ";
     }
-    double change = 0.0;
-    for (const double b : balance) {
-        const double here = std::abs(b - balance.front());
-        if (!(here <= change)) change = here;  // NaN stays: std::max would drop it
-        if (std::isnan(change)) break;
-    }
-    return change;
+    const double start = one.change.front();
+    for (double& value : one.change) value -= start;
+    std::replace(one.name.begin(), one.name.end(), '_', ' ');
+    return one;
 }
 
-/// Of a quantity stored as `name` or as `name`_x, _y, _z, and of what is given to it.
-double largest_vector_change(const History& history, const std::string& name,
-                             const std::string& given) {
-    double change = 0.0;
-    for (const char* axis : {"", "_x", "_y", "_z"}) {
-        if (!history.has(name + axis)) continue;
-        const double here = largest_change(history, name + axis, {given + axis});
-        if (!(here <= change)) change = here;  // NaN stays: std::max would drop it
-        if (std::isnan(change)) break;
+/// Of all parts of an invariant.
+double largest_change(const std::vector<WatchedChange>& all, const std::string& invariant) {
+    double largest = 0.0;
+    for (const WatchedChange& one : all) {
+        if (one.invariant != invariant) continue;
+        for (const double change : one.change) {
+            if (!(std::abs(change) <= largest)) largest = std::abs(change);
+            if (std::isnan(largest)) return largest;  // it stays: nothing is larger than NaN
+        }
     }
-    return change;
+    return largest;
 }
 
 /// `exchanged`: between neighbours during the run. A change of rounding * exchanged is at the limit.
@@ -79,22 +76,36 @@ void DriftScales::remember(Archive& archive) {
             before_.power);
 }
 
+std::vector<WatchedChange> watched_changes(const History& history) {
+    if (history.rows().empty()) return {};
+    std::vector<WatchedChange> all{watched(history, "mass", "mass", {})};
+    for (const char* axis : {"_x", "_y", "_z"})
+        if (history.has(std::string("momentum") + axis))
+            all.push_back(watched(history, "momentum", std::string("momentum") + axis,
+                                  {std::string("impulse") + axis}));
+    for (const char* axis : {"", "_x", "_y", "_z"})
+        if (history.has(std::string("angular_momentum") + axis))
+            all.push_back(watched(history, "angular momentum",
+                                  std::string("angular_momentum") + axis,
+                                  {std::string("angular_impulse") + axis}));
+    all.push_back(watched(history, "energy", "energy", {"work", "heat"}));
+    return all;
+}
+
 std::vector<Drift> measure_drifts(const History& history, const Promises& promises,
                                   const DriftScales& scales, double integrator_limit) {
     if (history.rows().empty()) return {};
+    const auto changes = watched_changes(history);
     std::vector<Drift> drifts;
-    const auto add = [&](const char* name, Promise promise, double change, double size,
-                         double exchanged) {
-        drifts.push_back(drift_of(name, promise, change, size, exchanged, integrator_limit));
+    const auto add = [&](const char* name, Promise promise, double size, double exchanged) {
+        drifts.push_back(drift_of(name, promise, largest_change(changes, name), size, exchanged,
+                                  integrator_limit));
     };
-    add("mass", promises.mass, history.largest_change("mass"), history.first("mass"), 0.0);
-    add("momentum", promises.momentum, largest_vector_change(history, "momentum", "impulse"),
-        scales.momentum, scales.impulse);
+    add("mass", promises.mass, history.first("mass"), 0.0);
+    add("momentum", promises.momentum, scales.momentum, scales.impulse);
     if (history.has("angular_momentum") || history.has("angular_momentum_z"))
-        add("angular momentum", promises.angular_momentum,
-            largest_vector_change(history, "angular_momentum", "angular_impulse"),
-            scales.angular_momentum, scales.torque);
-    add("energy", promises.energy, largest_change(history, "energy", {"work", "heat"}),
+        add("angular momentum", promises.angular_momentum, scales.angular_momentum, scales.torque);
+    add("energy", promises.energy,
         std::max(std::abs(history.first("energy")), history.largest("kinetic")), scales.work);
     return drifts;
 }

@@ -14,9 +14,10 @@ struct Options::Entry {
     bool is_flag = false;
     bool is_text = false;  ///< TOML must give a string
     bool in_case = true;
-    bool has_meaning = true;      ///< in this case
-    bool at_default = true;       ///< as settle() found it
-    std::string word;             ///< that stands for no number; empty where none does
+    bool has_meaning = true;  ///< in this case
+    bool at_default = true;   ///< as settle() found it
+    std::string unit;  ///< of its number, which may stand behind it; empty where there is none
+    std::string word;  ///< that stands for no number; empty where none does
     std::string default_value;    ///< what get() said before anything was parsed
     bool in_file = false;         ///< set by the file of --config
     bool on_command = false;      ///< set on the command line

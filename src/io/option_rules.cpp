@@ -45,6 +45,11 @@ const Options::Added& Options::Added::or_word(const std::string& word) const {
     return *this;
 }
 
+const Options::Added& Options::Added::unit(const std::string& name) const {
+    options_.unit({name_}, name);
+    return *this;
+}
+
 Options::Entry& Options::entry(std::string_view name) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(),
                                     [name](const auto& e) { return e->name == name; });

@@ -30,13 +30,21 @@ namespace {
 
 template <class Number>
 Number accepted(const std::string& name, const std::string& text, std::optional<Number> value,
-                const Allowed& allowed) {
+                const Allowed& allowed, const std::string& unit) {
+    const std::string words = allowed.words + (unit.empty() ? "" : " (in " + unit + ")");
     if (std::is_floating_point_v<Number> && !value)
-        throw InputError(fmt::format("{}: '{}' is not a finite number; it must be {}", name, text,
-                                     allowed.words));
+        throw InputError(
+            fmt::format("{}: '{}' is not a finite number; it must be {}", name, text, words));
     if (!value || !allowed.holds(*value))
-        throw InputError(fmt::format("{}: '{}' must be {}", name, text, allowed.words));
+        throw InputError(fmt::format("{}: '{}' must be {}", name, text, words));
     return *value;
+}
+
+/// "0.4 GPa" and "0.4GPa" are "0.4" where the unit is GPa.
+std::string without_unit(std::string text, const std::string& unit) {
+    if (unit.empty() || !text.ends_with(unit)) return text;
+    text.resize(text.size() - unit.size());
+    return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
 }  // namespace
@@ -70,10 +78,11 @@ Options::Added Options::number(std::string name, Target& target, std::string hel
     entry.type = whole ? "INTEGER" : "NUMBER";
     entry.allowed = allowed.words;
     entry.set = [&entry, &target, allowed](const std::string& text) {
+        const std::string number = without_unit(text, entry.unit);
         if constexpr (whole)
-            target = accepted(entry.name, text, whole_number_in(text), allowed);
+            target = accepted(entry.name, text, whole_number_in(number), allowed, entry.unit);
         else
-            target = accepted(entry.name, text, number_in(text), allowed);
+            target = accepted(entry.name, text, number_in(number), allowed, entry.unit);
     };
     if constexpr (std::is_arithmetic_v<Target>) {
         entry.get = [&target] { return fmt::format("{}", target); };
@@ -133,6 +142,10 @@ Options::Added Options::choice(std::string name, std::vector<std::string> names,
     };
     entry.get = [names, get = std::move(get)] { return toml_string(names[get()]); };
     return {*this, entry.name};
+}
+
+void Options::unit(const std::vector<std::string>& names, const std::string& unit) {
+    for (const auto& name : names) entry(name).unit = unit;
 }
 
 void Options::exclude_from_case(const std::vector<std::string>& names) {

@@ -146,7 +146,9 @@ std::string Options::case_toml(const std::map<std::string, std::string>& chosen)
         const auto choice = chosen.find(entry->name);
         std::string value = entry->in_case ? entry->get() : "";
         if (value.empty() && choice != chosen.end()) value = choice->second;
-        if (!value.empty()) text += fmt::format("{} = {}\n", entry->name, value);
+        if (value.empty()) continue;
+        const std::string unit = entry->unit.empty() ? "" : "  # " + entry->unit;
+        text += fmt::format("{} = {}{}\n", entry->name, value, unit);
     }
     return text;
 }

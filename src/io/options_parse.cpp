@@ -50,6 +50,7 @@ bool Options::parse(int argc, const char* const* argv) {
     CLI::App app(summary_, program_);
     app.allow_extras();
     app.set_help_flag("--help,-h", "print this help and exit");
+    app.footer(footer_);
     app.set_version_flag("--version", version_, "print versions and exit");
     std::vector<std::string> raw(entries_.size());
     std::vector<CLI::Option*> registered;
@@ -61,7 +62,7 @@ bool Options::parse(int argc, const char* const* argv) {
             // As a constant: a string that may be changed would be taken for the flag's target.
             option = app.add_flag("--" + entry.name, std::as_const(entry.help));
         } else {
-            std::string help = entry.help;
+            std::string help = entry.help + (entry.unit.empty() ? "" : ", " + entry.unit);
             if (!entry.default_value.empty()) help += fmt::format(" [{}]", entry.default_value);
             option =
                 app.add_option("--" + entry.name, raw[k], help)

@@ -76,11 +76,20 @@ nlohmann::ordered_json json_of(const std::vector<Drift>& drifts) {
     return all;
 }
 
+/// The unit of each kind of number by its name, or what is 1: {"reduced": "the mass of a particle, ..."}.
+nlohmann::ordered_json json_of(const Units& units, int dim) {
+    auto all = nlohmann::ordered_json::object();
+    if (!units.reduced.empty()) all["reduced"] = "1 is " + units.reduced;
+    for (const auto& [kind, unit] : units.table(dim)) all[kind] = unit;
+    return all;
+}
+
 }  // namespace
 
 void write_statistics(const RunFolder& folder, const RunStatistics& s) {
     nlohmann::ordered_json json;
     json["problem"] = s.problem;
+    if (s.units.declared()) json["units"] = json_of(s.units, s.dim);
     json["particles"] = s.particles;
     json["t_end"] = s.t_end;
     json["steps"] = s.steps;

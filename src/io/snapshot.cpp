@@ -42,7 +42,7 @@ std::vector<std::uint32_t> vertices(const Model<Dim>& model) {
 /// Every field of the elements, by the names of the fields. VTK counts the points that are cells first.
 template <int Dim>
 void add_element_arrays(VtkAppended& file, const Model<Dim>& model, const ConstState<Dim>& state,
-                        std::size_t points) {
+                        std::size_t points, const Units& units) {
     const std::size_t cells = points + model.quadrilaterals().size();
     file.open("CellData");
     file.integers("element", cells, [&](std::size_t k, int) {
@@ -53,18 +53,19 @@ void add_element_arrays(VtkAppended& file, const Model<Dim>& model, const ConstS
         const auto field = state.elements().field(block.field);
         const Rank rank = block.field.rank();
         const int components = rank == Rank::symmetric ? 9 : rank == Rank::vector ? 3 : 1;
-        file.reals(block.field.name(), components, cells, [&](std::size_t k, int c) {
+        const auto value = [&](std::size_t k, int c) {
             return k < points                ? 0.0
                    : rank == Rank::symmetric ? tensor_in_space(field, k - points, c)
                                              : in_space(field, k - points, c);
-        });
+        };
+        file.reals(block.field.name(), components, cells, value, units.of(block.field.unit(), Dim));
     }
     file.close("CellData");
 }
 
 template <int Dim>
 void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const double> y,
-                const Points<Dim>& x, const std::vector<double>& density) {
+                const Points<Dim>& x, const std::vector<double>& density, const Units& units) {
     const ConstState<Dim> state(model.layout(), y);
     const auto& particles = model.particles();
     const std::size_t n = particles.size();
@@ -72,25 +73,38 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
     file.open("PointData");
     file.integers("id", n, [&](std::size_t i, int) { return particles.id[i]; });
     file.integers("body", n, [&](std::size_t i, int) { return particles.body[i]; });
-    file.reals("mass", 1, n, [&](std::size_t i, int) { return particles.mass[i]; });
-    file.reals("particle_spacing", 1, n, [&](std::size_t, int) { return particles.spacing; });
-    file.reals("velocity", 3, n, [&](std::size_t i, int c) { return in_space(v, i, c); });
+    const auto unit = [&](Field field) { return units.of(field.unit(), Dim); };
+    file.reals(
+        "mass", 1, n, [&](std::size_t i, int) { return particles.mass[i]; }, units.of("m", Dim));
+    file.reals(
+        "particle_spacing", 1, n, [&](std::size_t, int) { return particles.spacing; },
+        units.of("l", Dim));
+    file.reals(
+        "velocity", 3, n, [&](std::size_t i, int c) { return in_space(v, i, c); },
+        unit(Field::velocity));
     if (!density.empty())
-        file.reals("density", 1, n, [&](std::size_t i, int) { return density[i]; });
-    if (state.has(Field::stress)) {
-        const auto stress = state.stress();
-        file.reals("stress", 9, n,
-                   [&](std::size_t i, int c) { return tensor_in_space(stress, i, c); });
-    }
+        file.reals(
+            "density", 1, n, [&](std::size_t i, int) { return density[i]; }, unit(Field::density));
+    if (state.has(Field::stress))
+        file.reals(
+            "stress", 9, n,
+            [stress = state.stress()](std::size_t i, int c) {
+                return tensor_in_space(stress, i, c);
+            },
+            unit(Field::stress));
     if (state.has(Field::energy))
-        file.reals("energy", 1, n, [e = state.energy()](std::size_t i, int) {
-            return e(0, static_cast<Eigen::Index>(i));
-        });
+        file.reals(
+            "energy", 1, n,
+            [e = state.energy()](std::size_t i, int) { return e(0, static_cast<Eigen::Index>(i)); },
+            unit(Field::energy));
     file.close("PointData");
     const std::vector<std::uint32_t> alone = vertices(model);
-    if (!model.quadrilaterals().empty()) add_element_arrays(file, model, state, alone.size());
+    if (!model.quadrilaterals().empty())
+        add_element_arrays(file, model, state, alone.size(), units);
     file.open("Points");
-    file.reals("Points", 3, n, [&](std::size_t i, int c) { return in_space(x, i, c); });
+    file.reals(
+        "Points", 3, n, [&](std::size_t i, int c) { return in_space(x, i, c); },
+        units.of("l", Dim));
     file.close("Points");
     file.open("Verts");
     file.integers("connectivity", alone.size(), [&](std::size_t k, int) { return alone[k]; });
@@ -106,18 +120,19 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
 }
 
 template <int Dim>
-void write_snapshot(std::ostream& out, const Model<Dim>& model, double t,
-                    std::span<const double> y) {
+void write_snapshot(std::ostream& out, const Model<Dim>& model, double t, std::span<const double> y,
+                    const Units& units) {
     const auto density = model.density(y);
     const Points<Dim> x = model.box().wrapped(ConstState<Dim>(model.layout(), y).position());
-    VtkAppended::write(out, "PolyData", "",
-                       VtkAppended::field_data<Dim>(t, model.box(), x.rowwise().minCoeff(),
-                                                    x.rowwise().maxCoeff()),
-                       fmt::format("NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" "
-                                   "NumberOfStrips=\"0\" NumberOfPolys=\"{}\"",
-                                   model.particles().size(), vertices(model).size(),
-                                   model.quadrilaterals().size()),
-                       [&](VtkAppended& file) { add_arrays(file, model, y, x, density); });
+    VtkAppended::write(
+        out, "PolyData", "",
+        VtkAppended::field_data<Dim>(t, model.box(), x.rowwise().minCoeff(), x.rowwise().maxCoeff(),
+                                     units.declared() ? units.describe() : ""),
+        fmt::format("NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" "
+                    "NumberOfStrips=\"0\" NumberOfPolys=\"{}\"",
+                    model.particles().size(), vertices(model).size(),
+                    model.quadrilaterals().size()),
+        [&](VtkAppended& file) { add_arrays(file, model, y, x, density, units); });
 }
 
 }  // namespace
@@ -143,7 +158,7 @@ std::vector<std::string> SnapshotSeries<Dim>::names() const {
 template <int Dim>
 void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
     const std::string name = snapshot_name(files_.size());
-    folder_.write(name, [&](std::ostream& out) { write_snapshot(out, model_, t, y); });
+    folder_.write(name, [&](std::ostream& out) { write_snapshot(out, model_, t, y, units_); });
     files_.emplace_back(t, name);
     write_file_series(folder_, "snapshots", files_);
 }

@@ -21,17 +21,17 @@ namespace spam {
 /// written one after the other and never gathered.
 class VtkAppended {
   public:
-    /// get(i, c): component c of tuple i
+    /// get(i, c): component c of tuple i. `unit`: empty for none.
     template <class Value, class Get>
     void array(std::string_view type, std::string_view name, int components, std::size_t tuples,
-               const Get& get) {
+               const Get& get, std::string_view unit = {}) {
         const auto bytes = static_cast<std::uint64_t>(tuples) *
                            static_cast<std::uint64_t>(components) * sizeof(Value);
         if (tail_ == nullptr) {
             head_ += fmt::format(
                 "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-                "format=\"appended\" offset=\"{}\"/>\n",
-                type, name, components, offset_);
+                "format=\"appended\" offset=\"{}\"{}\n",
+                type, name, components, offset_, end_of_array(unit));
             offset_ += sizeof bytes + bytes;
             return;
         }
@@ -41,8 +41,9 @@ class VtkAppended {
         flush();
     }
     template <class Get>
-    void reals(std::string_view name, int components, std::size_t tuples, const Get& get) {
-        array<double>("Float64", name, components, tuples, get);
+    void reals(std::string_view name, int components, std::size_t tuples, const Get& get,
+               std::string_view unit = {}) {
+        array<double>("Float64", name, components, tuples, get, unit);
     }
     template <class Get>
     void integers(std::string_view name, std::size_t tuples, const Get& get) {
@@ -50,9 +51,10 @@ class VtkAppended {
     }
     /// What a reader must know beside the numbers: FieldData TimeValue (ParaView's name for it), box_low,
     /// box_high and periodic (3 each). The box is between walls, and where a side is open from `low` or to `high`.
+    /// `units`: a text for readers, or empty.
     template <int Dim>
     static std::string field_data(double t, const Box<Dim>& box, const Point<Dim>& low,
-                                  const Point<Dim>& high) {
+                                  const Point<Dim>& high, std::string_view units = {}) {
         std::string lows, highs, periodic;
         for (int a = 0; a < 3; ++a) {
             const bool closed = a < Dim && box.periodic(a), free = a < Dim && !closed;
@@ -67,7 +69,8 @@ class VtkAppended {
         }
         return "    <FieldData>\n" + words("Float64", "TimeValue", 1, fmt::format(" {:.17g}", t)) +
                words("Float64", "box_low", 3, lows) + words("Float64", "box_high", 3, highs) +
-               words("Int32", "periodic", 3, periodic) + "    </FieldData>\n";
+               words("Int32", "periodic", 3, periodic) + text("units", units) +
+               "    </FieldData>\n";
     }
     void open(std::string_view tag) { head_ += fmt::format("      <{}>\n", tag); }
     void close(std::string_view tag) { head_ += fmt::format("      </{}>\n", tag); }
@@ -106,6 +109,21 @@ class VtkAppended {
             "      <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
             "NumberOfTuples=\"1\" format=\"ascii\">{} </DataArray>\n",
             type, name, components, values);
+    }
+    /// A text is an array of its bytes, ended by 0; nothing where it is empty.
+    static std::string text(std::string_view name, std::string_view content) {
+        if (content.empty()) return {};
+        std::string bytes;
+        for (const char c : content) bytes += fmt::format(" {}", static_cast<unsigned char>(c));
+        return words("String", name, 1, bytes + " 0");
+    }
+    /// What ends the tag of an array in the head, and says its unit as VTK has it.
+    static std::string end_of_array(std::string_view unit) {
+        if (unit.empty()) return "/>";
+        return fmt::format(
+            "><InformationKey name=\"UNITS_LABEL\" "
+            "location=\"vtkDataArray\">{}</InformationKey></DataArray>",
+            unit);
     }
     template <class Value>
     void append(Value value) {

@@ -127,9 +127,10 @@ bool IntegratorSettings::prefer_step(double dt, const Options& options) {
 
 void refuse_endless(const IntegratorOptions& integrator, double t_end) {
     if (integrator.dt && !(t_end / *integrator.dt <= 1e9))
-        throw InputError(
-            fmt::format("dt: {} would take {:.0e} steps to t = {:g}; choose a larger one",
-                        *integrator.dt, t_end / *integrator.dt, t_end));
+        throw InputError(fmt::format(
+            "dt: {} would take {:.0e} steps to t = {:g}; end earlier (t-end), or choose "
+            "a larger dt where the motion allows it",
+            *integrator.dt, t_end / *integrator.dt, t_end));
 }
 
 IntegratorOptions IntegratorSettings::resolve(Options& options) {

@@ -79,6 +79,14 @@ Problem::Problem(std::string name, std::string summary, double default_dt, std::
 
 Problem::~Problem() = default;
 
+void Problem::units(Units units) {
+    units_ = std::move(units);
+    options_.unit({"t-end", "output-every", "snapshot-every", "checkpoint-every", "dt", "min-step",
+                   "max-step", "initial-step"},
+                  units_.named() ? units_.time : "reduced units");
+    options_.footer("Units: " + units_.describe());
+}
+
 void Problem::add_guard_options() {
     auto& guard = common_.guard;
     options_.group("Guard");

@@ -98,6 +98,11 @@ std::string Session::case_file() const {
 
 void Session::write_case_file() { folder_->write("case.toml", case_file()); }
 
+void Session::say_units() {
+    if (problem_.units_.declared())
+        terminal_.say(fmt::format("units       {}", problem_.units_.describe()));
+}
+
 void Session::describe_environment() {
     std::array<char, 256> host{};
     gethostname(host.data(), host.size() - 1);
@@ -109,6 +114,7 @@ void Session::describe_environment() {
     terminal_.say(fmt::format("machine     {}, {} thread{}, {}", host.data(), threads_,
                               threads_ == 1 ? "" : "s", to_string(instruction_set())));
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
+    say_units();
     const SessionMemory* earlier = problem_.earlier_.get();
     if (earlier == nullptr) return;
     terminal_.say(fmt::format("restart     {}, {}", problem_.common_.restart,

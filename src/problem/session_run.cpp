@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checkpoint.hpp"
+#include "draw_invariants.hpp"
 #include "duration.hpp"
 #include "run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/io/snapshot.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/problem/session.hpp>
 
 #include <fmt/format.h>
@@ -17,30 +17,6 @@
 
 namespace spam {
 namespace {
-
-/// "momentum_x" as a reader wants it in a key.
-std::string words(std::string name) {
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
-}
-
-void draw_invariants(const RunFolder& folder, const History& history, const std::string& title,
-                     Session& session) {
-    const auto t = history.column("t");
-    CurvePanel energy{"energies", "t", "energy", false, {}};
-    for (const char* name : {"kinetic", "internal", "energy"})
-        energy.curves.push_back({words(name), t, history.column(name)});
-    const auto changes = [&](const char* name) {
-        auto values = history.column(name);
-        const double start = values.front();
-        for (double& v : values) v -= start;
-        return Curve{words(name), t, values};
-    };
-    CurvePanel drift{"drift since t = 0", "t", "|change|", true, {}};
-    for (const char* name : {"energy", "momentum_x", "momentum_y", "angular_momentum"})
-        if (history.has(name)) drift.curves.push_back(changes(name));
-    session.note_drawn(draw_curves(folder, "invariants", title, {energy, drift}));
-}
 
 /// Promises and limits before anything has moved.
 std::vector<Drift> drifts_at_start(const Promises& p, int dim, double integrator_limit) {
@@ -195,6 +171,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     check_restart(cases);
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
+        say_units();
         for (const auto& one : cases) describe(one);
         end_dry_run();
     }
@@ -307,7 +284,9 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     memory_->cases.emplace_back().label = one.label;
     Run<Dim> run(one, integrator_of(one.plan), &folder);
     run.record().statistics.problem = problem_.name_;
-    SnapshotSeries<Dim> snapshots(folder, *one.model);
+    run.record().statistics.units = problem_.units_;
+    run.record().statistics.dim = Dim;
+    SnapshotSeries<Dim> snapshots(folder, *one.model, problem_.units_);
     if (earlier != nullptr)
         resume(run, *earlier, folder, snapshots);
     else
@@ -335,8 +314,9 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     write_statistics(folder, record.statistics);
     statistics_.push_back(record.statistics);
     if (plots())
-        draw_invariants(folder.inside("plots"), record.history,
-                        words(problem_.name_ + (one.label.empty() ? "" : ": " + one.label)), *this);
+        note_drawn(draw_invariants(folder.inside("plots"), record.history,
+                                   problem_.name_ + (one.label.empty() ? "" : ": " + one.label),
+                                   problem_.units_, Dim));
     return std::move(record);
 }
 

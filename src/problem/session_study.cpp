@@ -48,6 +48,7 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
     };
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
+        say_units();
         describe();
         end_dry_run();
     }
@@ -67,6 +68,7 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
     analysis_start_ = std::chrono::steady_clock::now();
     statistics_.push_back({});
     statistics_.back().problem = problem_.name_;
+    statistics_.back().units = problem_.units_;
 }
 
 RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {

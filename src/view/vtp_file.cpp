@@ -91,7 +91,7 @@ void VtpFile::read_head(std::string_view head) {
             closed ? std::string_view{} : head.substr(at, head.find('<', at) - at);
         if (name == "DataArray" || name == "VTKFile" || name == "Piece")
             read_element(name, attributes, text, section);
-        else if (!closed && name != "PolyData")
+        else if (!closed && name != "PolyData" && name != "InformationKey")
             section = name;
         piece = piece || name == "Piece";
     }

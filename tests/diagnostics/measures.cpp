@@ -138,6 +138,57 @@ BOOST_AUTO_TEST_CASE(drifts_are_judged_by_the_promise) {
     BOOST_TEST(!measure_drifts(h, strict, sizes, 1e-6)[2].kept());
 }
 
+/// A block that falls, and is pushed: its momentum and energy change by what it is given, and a little more.
+BOOST_AUTO_TEST_CASE(what_is_watched_is_less_what_was_given) {
+    History h({"t",
+               "dt",
+               "mass",
+               "momentum_x",
+               "momentum_y",
+               "momentum_z",
+               "angular_momentum_x",
+               "angular_momentum_y",
+               "angular_momentum_z",
+               "kinetic",
+               "internal",
+               "energy",
+               "work",
+               "heat",
+               "impulse_x",
+               "impulse_y",
+               "impulse_z",
+               "angular_impulse_x",
+               "angular_impulse_y",
+               "angular_impulse_z"});
+    h.add({0, 1, 4, 3, 2, 0, 7, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0});
+    h.add({1, 1, 4, 3, 1, 0, 9, 0, 5, 3, 1, 4.5, 2, 1, 0, -1.25, 0, 2, 0, 4});
+    const auto all = watched_changes(h);
+    std::vector<std::string> names;
+    std::vector<double> last;
+    for (const WatchedChange& one : all) {
+        names.push_back(one.name);
+        last.push_back(one.change.back());
+        BOOST_TEST(one.change.front() == 0.0);
+    }
+    const std::vector<std::string> expected{"mass",
+                                            "momentum x less impulse",
+                                            "momentum y less impulse",
+                                            "momentum z less impulse",
+                                            "angular momentum x less angular impulse",
+                                            "angular momentum y less angular impulse",
+                                            "angular momentum z less angular impulse",
+                                            "energy less work and heat"};
+    BOOST_TEST(names == expected, boost::test_tools::per_element());
+    const std::vector<double> changes{0, 0, 0.25, 0, 0, 0, 1, 0.5};
+    BOOST_TEST(last == changes, boost::test_tools::per_element());
+    DriftScales one;
+    one.momentum = one.angular_momentum = 1.0;
+    const auto drifts = measure_drifts(h, Scheme{}.promises(3), one, 1e-6);  // the same numbers
+    BOOST_TEST(drifts[1].change == 0.25);
+    BOOST_TEST(drifts[2].change == 1.0);
+    BOOST_TEST(drifts[3].change == 0.5 / 3.0);  // by the largest kinetic energy
+}
+
 namespace {
 
 /// Of a run whose energy begins at E0 and changes by 1e-7 while its kinetic energy reaches K.

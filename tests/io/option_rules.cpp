@@ -49,6 +49,19 @@ struct Target {
 
 std::string refusal(const Words& words) { return Target().refusal(words); }
 
+/// A problem of lengths in mm.
+double radius_of(const Words& words, std::string* file = nullptr) {
+    double radius = 3.2;
+    Options options("test", "a test");
+    options.number("radius", radius, "of the bar", positive()).unit("mm");
+    std::vector<const char*> arguments{"test"};
+    for (const auto& word : words) arguments.push_back(word.c_str());
+    options.parse(static_cast<int>(arguments.size()), arguments.data());
+    options.settle();
+    if (file != nullptr) *file = options.case_toml();
+    return radius;
+}
+
 /// Whether the case holds an option, when these words are given.
 bool holds(const std::string& option, const Words& words) {
     Target target;
@@ -122,4 +135,17 @@ BOOST_AUTO_TEST_CASE(at_default) {
     target.speed = 2.0;  // what the program makes of it later is not what was asked for
     BOOST_TEST(target.options.at_default({"speed"}));
     BOOST_CHECK_THROW(static_cast<void>(target.options.at_default({"sped"})), std::logic_error);
+}
+
+/// The unit of an option may stand behind its number; another one is refused, not converted.
+BOOST_AUTO_TEST_CASE(numbers_with_their_unit) {
+    for (const char* text : {"0.4", "0.4mm", "0.4 mm", "4e-1  mm"})
+        BOOST_TEST(radius_of({"--radius", text}) == 0.4, text);
+    for (const char* text : {"0.4 m", "0.4 µm", "0.4 mm mm", "mm", "0.4 MM"})
+        BOOST_CHECK_EXCEPTION(radius_of({"--radius", text}), InputError, [](const auto& error) {
+            return std::string(error.what()).ends_with("must be a number above 0 (in mm)");
+        });
+    std::string file;
+    radius_of({"--radius", "7 mm"}, &file);
+    BOOST_TEST(file.ends_with("radius = 7  # mm\n"));
 }

@@ -80,9 +80,23 @@ BOOST_AUTO_TEST_CASE(a_dry_run_says_what_it_would_do_and_does_nothing) {
             const Scratch folder;
             const Outcome outcome = run_in(folder, name, {"--dry-run"});
             BOOST_TEST(outcome.status == 0);
-            for (const std::string words : {name.c_str(), "particles", "integrator", "dry run"})
+            for (const std::string words :
+                 {name.c_str(), "units       ", "particles", "integrator", "dry run"})
                 BOOST_TEST(outcome.out.find(words) != std::string::npos, "no '" << words << "'");
             BOOST_TEST(folder.listing().empty());
+        }
+}
+
+/// Of times, whose options every problem has.
+BOOST_AUTO_TEST_CASE(help_says_the_units) {
+    for (const auto& name : problems) BOOST_TEST_CONTEXT(name) {
+            const std::string help = run(problem(name, {"--help"})).out;
+            const std::size_t end = help.find("time at which the run ends, ");
+            BOOST_REQUIRE(end != std::string::npos);
+            const std::size_t last = help.rfind("Units: ");
+            BOOST_REQUIRE(last != std::string::npos);
+            const bool reduced = help.compare(last, 15, "Units: reduced:") == 0;
+            BOOST_TEST((help.find("ends, reduced units", end - 8) != std::string::npos) == reduced);
         }
 }
 

@@ -68,7 +68,8 @@ inline boost::property_tree::ptree xml_of(const std::string& text) {
     return tree;
 }
 
-/// Field data of a VTK data set by name, as words with single blanks between them.
+/// Field data of a VTK data set by name, as words with single blanks between them; texts, which are bytes in VTK,
+/// as they are.
 inline std::map<std::string, std::string> field_data(const boost::property_tree::ptree& set) {
     std::map<std::string, std::string> all;
     for (const auto& [tag, array] : set.get_child("FieldData")) {
@@ -78,6 +79,12 @@ inline std::map<std::string, std::string> field_data(const boost::property_tree:
         std::istringstream words(array.data());
         std::string& text = all[array.get<std::string>("<xmlattr>.Name")];
         int count = 0;
+        if (array.get<std::string>("<xmlattr>.type") == "String") {
+            int byte = 0;
+            while (words >> byte && byte != 0) text += static_cast<char>(byte);
+            require(byte == 0, "a text does not end");
+            continue;
+        }
         for (std::string word; words >> word; ++count) text += (count > 0 ? " " : "") + word;
         require(array.get<int>("<xmlattr>.NumberOfComponents") == count, "components");
     }
@@ -103,6 +110,7 @@ struct Vtp {
     std::map<std::string, std::vector<double>> arrays;
     std::map<std::string, int> components;
     std::map<std::string, std::string> about;  ///< field data
+    std::map<std::string, std::string> units;  ///< of arrays that have one
 
     explicit Vtp(const std::filesystem::path& file) {
         const std::string text = contents_of(file);
@@ -143,6 +151,11 @@ struct Vtp {
                      std::size_t offset, std::size_t tuples, const std::string& prefix) {
         const auto name = prefix + array.get<std::string>("<xmlattr>.Name");
         const auto type = array.get<std::string>("<xmlattr>.type");
+        if (const auto unit = array.get_optional<std::string>("InformationKey")) {
+            require(array.get<std::string>("InformationKey.<xmlattr>.name") == "UNITS_LABEL",
+                    "key");
+            units[name] = *unit;
+        }
         const int width = components[name] = array.get<int>("<xmlattr>.NumberOfComponents");
         require(array.get<std::string>("<xmlattr>.format") == "appended", name + " not appended");
         require(array.get<std::size_t>("<xmlattr>.offset") == offset, name + " has a wrong offset");

@@ -55,12 +55,13 @@ double check_invariants(const std::filesystem::path& file) {
 void check_statistics(const nlohmann::json& statistics, bool of_one_run = true) {
     Words keys;
     for (const auto& item : statistics.items()) keys.push_back(item.key());
-    Words expected{"events",         "pair_interactions", "particles", "problem",
-                   "rejected_steps", "rhs_evaluations",   "steps",     "t_end",
-                   "version",        "wall_seconds"};  // and no "stopped"
+    Words expected{"events",         "pair_interactions", "particles",   "problem",
+                   "rejected_steps", "rhs_evaluations",   "steps",       "t_end",
+                   "units",          "version",           "wall_seconds"};  // and no "stopped"
     if (of_one_run) expected.insert(expected.begin() + 1, "invariants");
     BOOST_TEST(keys == expected, boost::test_tools::per_element());
     BOOST_TEST(statistics["problem"] == "rotating_hexagon");
+    BOOST_TEST(statistics["units"]["reduced"].get<std::string>().starts_with("1 is the mass"));
     BOOST_TEST(statistics["wall_seconds"].get<double>() > 0.0);
     BOOST_TEST(statistics["version"].get<std::string>() != "");
 }

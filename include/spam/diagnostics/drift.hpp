@@ -41,6 +41,18 @@ struct DriftScales {
     bool begun_ = false;
 };
 
+/// A number that is watched: a column of invariants.csv less what externals and walls have given of it.
+struct WatchedChange {
+    /// That it is a part of: "mass", "momentum", "angular momentum", "energy".
+    std::string invariant;
+    /// "momentum y less impulse"; without the last two words where nothing acts from outside.
+    std::string name;
+    std::vector<double> change;  ///< since the first row, row by row
+};
+
+/// All that is watched in these rows: every component of every invariant. None of a run without rows.
+std::vector<WatchedChange> watched_changes(const History& history);
+
 /// Drifts of mass, momentum, angular momentum and energy over a run, the last three less what externals
 /// have given (Invariants::energy_balance() and the like); none of a run without rows.
 /// Columns are those of invariants.csv; vectors are compared with sum m |v| and sum m |x||v|, the

@@ -36,6 +36,8 @@ class Options {
 
     /// What --version prints.
     void version(std::string text) { version_ = std::move(text); }
+    /// What --help ends with.
+    void footer(std::string text) { footer_ = std::move(text); }
     /// Heading under which the options added next appear in --help.
     void group(std::string title);
 
@@ -53,6 +55,8 @@ class Options {
         const Added& excludes(std::vector<std::string> others) const;
         /// `word` stands for no number, which is the default of an optional one.
         const Added& or_word(const std::string& word) const;
+        /// Options::unit of this option.
+        const Added& unit(const std::string& name) const;
 
       private:
         Options& options_;
@@ -90,6 +94,10 @@ class Options {
                 return k;
             });
     }
+
+    /// Unit of the numbers of these options, as said in --help, case.toml and messages. On the command line it may
+    /// stand behind the number, with or without a space: no other unit is understood.
+    void unit(const std::vector<std::string>& names, const std::string& unit);
 
     /// Options that say how to run rather than what to compute (--out, --quiet, ...): not part of
     /// the case that is written back. Applies to options already added.
@@ -164,7 +172,7 @@ class Options {
 
     std::string reason(const Rule& rule) const;
 
-    std::string program_, summary_, version_, group_;
+    std::string program_, summary_, version_, footer_, group_;
     std::string config_;
     struct {
         std::string option;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/units.hpp>
 #include <spam/diagnostics/drift.hpp>
 #include <spam/io/run_folder.hpp>
 
@@ -32,6 +33,9 @@ struct Check {
 struct RunStatistics {
     /// Name of the problem.
     std::string problem;
+    /// Of its numbers, and in how many dimensions they are.
+    Units units{};
+    int dim = 2;
     /// N of the first run.
     std::size_t particles = 0;
     /// Time reached.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/units.hpp>
 #include <spam/io/run_folder.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -21,13 +22,15 @@ void write_file_series(const RunFolder& folder, std::string_view name,
 /// alike), body, mass, particle_spacing, velocity (3), and where the model has them density, stress
 /// (3 x 3 tensor) and energy. Elements are polygons between the points, with all their fields as cell arrays and
 /// `element`, their number (below 0 for a particle that is no corner of any). Field data: TimeValue, box_low, box_high,
-/// periodic (3 each): the box ends at its walls, and where a side is open with the last particle.
+/// periodic (3 each): the box ends at its walls, and where a side is open with the last particle. Where they are
+/// declared the text `units` says them, and where they have names arrays carry theirs as VTK has it (UNITS_LABEL).
 template <int Dim>
 class SnapshotSeries {
   public:
-    SnapshotSeries(const RunFolder& folder, const Model<Dim>& model)
+    SnapshotSeries(const RunFolder& folder, const Model<Dim>& model, Units units = {})
         : folder_(folder),
-          model_(model) {}
+          model_(model),
+          units_(std::move(units)) {}
 
     /// Goes on after earlier ones at these times; removes what an earlier run left after them. Throws
     /// OutputError.
@@ -41,6 +44,7 @@ class SnapshotSeries {
   private:
     RunFolder folder_;
     const Model<Dim>& model_;
+    Units units_;
     std::vector<std::pair<double, std::string>> files_;
 };
 

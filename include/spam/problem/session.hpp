@@ -93,6 +93,8 @@ class Session {
     /// are not given to this the session does so itself at the end, with the label of the case.
     void check_promises(const RunRecord& record, const std::string& prefix = "");
 
+    /// As the problem declared them.
+    const Units& units() const { return problem_.units_; }
     /// For lines of a problem's own.
     Terminal& terminal() { return terminal_; }
     /// The folder of pictures; precondition: a run has begun and plots() is true.
@@ -130,6 +132,7 @@ class Session {
                bool of_integrators = false);
     bool continues(const char* study) const;
     void describe_environment();
+    void say_units();
     void write_results_so_far();
     int finish();
     template <int Dim>
