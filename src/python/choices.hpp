@@ -5,7 +5,9 @@
 #include <spam/external/friction.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/fluid.hpp>
+#include <spam/physics/scheme.hpp>
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -36,6 +38,19 @@ Material<Dim> material_of(const Solid& solid, const SharedPending& pending);
 double modulus_of(const Solid& solid);
 /// Likewise the elastic constants; throws InputError where the law tells none.
 ElasticSolid elastic_of(const Solid& solid, const char* model);
+
+/// A scheme whose range, where none is given, is three spacings of the particles that it is for.
+struct SchemeChoice {
+    Scheme scheme;
+    std::optional<double> range;
+
+    Scheme of(double spacing) const {
+        Scheme one = scheme;
+        one.range = range.value_or(3.0 * spacing);
+        return one;
+    }
+    bool operator==(const SchemeChoice&) const = default;
+};
 
 struct GravityChoice {
     std::vector<double> g;

@@ -178,8 +178,10 @@ void bind(py::module_& module, const char* name) {
             "fluid with a temperature its energy.")
         .def(
             "rates", &Model::rates, "t"_a, "y"_a,
-            "dy/dt (size,) at time t, as scipy.integrate.solve_ivp wants it; y as Simulation.y. NaN, and\n"
-            "`failure` says why, where a state has no physical meaning. Raises InputError for a wrong shape.")
+            "dy/dt (size,) at time t, as scipy.integrate.solve_ivp wants it; y as Simulation.y, whose particles are\n"
+            "in the library's order: id[i] is the number of the i-th one among those given, and\n"
+            "Simulation.by_id(field) is the way back. NaN, and `failure` says why, where a state has no physical\n"
+            "meaning. Raises InputError for a wrong shape.")
         .def_property_readonly("failure", [](const Model& self) { return self.model->failure(); })
         .def_property_readonly("dimensions", [](const Model&) { return Dim; })
         .def_property_readonly(
@@ -251,11 +253,14 @@ void bind_models(py::module_& module) {
     bind<3>(module, "Model3");
     module.def(
         "smooth_particles",
-        [](py::object x, const Matter& matter, const Scheme& scheme, py::object mass,
+        [](py::object x, const Matter& matter, const SchemeChoice& scheme, py::object mass,
            double density, double spacing, std::vector<double> box,
            std::vector<ExternalChoice> externals) {
-            return by_dimensions(MakeSmooth{
-                {x, mass, spacing, std::move(box), std::move(externals)}, matter, scheme, density});
+            return by_dimensions(
+                MakeSmooth{{x, mass, spacing, std::move(box), std::move(externals)},
+                           matter,
+                           scheme.of(spacing),
+                           density});
         },
         "x"_a, "material"_a, "scheme"_a, "mass"_a, "density"_a, "spacing"_a, "box"_a,
         "externals"_a);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
 
@@ -28,11 +29,11 @@ Enum value_of(const std::string& word, const std::vector<Enum>& values, const st
 
 namespace {
 
-Scheme scheme_of(const std::string& density, const std::string& transport,
-                 const std::string& mean_density, const std::string& angular_momentum,
-                 const std::string& balance, const std::string& gauss_singular, double viscosity,
-                 double shifting, double closest_approach, const std::string& kernel,
-                 double range) {
+SchemeChoice scheme_of(const std::string& density, const std::string& transport,
+                       const std::string& mean_density, const std::string& angular_momentum,
+                       const std::string& balance, const std::string& gauss_singular,
+                       double viscosity, double shifting, double closest_approach,
+                       const std::string& kernel, std::optional<double> range) {
     Scheme s;
     s.density = value_of<Density>(
         density, {Density::continuity, Density::summed, Density::chain_rule}, "density");
@@ -53,8 +54,7 @@ Scheme scheme_of(const std::string& density, const std::string& transport,
     s.shifting = shifting;
     s.closest_approach = closest_approach;
     s.kernel = value_of<Kernel>(kernel, all_kernels(), "kernel");
-    s.range = range;
-    return s;
+    return {s, range};
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ void bind_scheme(py::module_& module) {
     using namespace py::literals;
     const Scheme standard;
     const auto word = [](auto value) { return std::string(to_string(value)); };
-    py::class_<Scheme>(
+    py::class_<SchemeChoice>(
         module, "Scheme",
         "The choices of a scheme, [HHM04] IX, by the words of the programs' options:\n\n"
         "density           continuity, summed, chain_rule\n"
@@ -76,7 +76,7 @@ void bind_scheme(py::module_& module) {
         "shifting          coefficient of transport='shifting'\n"
         "closest_approach  distance at which pairs are reflected, 0: never (length)\n"
         "kernel            lucy, monaghan, w2 to w8\n"
-        "range             where the weight vanishes (length)\n\n"
+        "range             where the weight vanishes (length); default 3 spacings of the particles\n\n"
         "Raises InputError for an unknown word. What makes no sense together is refused by the model.")
         .def(py::init(&scheme_of), py::kw_only(), "density"_a = word(standard.density),
              "transport"_a = word(standard.transport),
@@ -85,11 +85,14 @@ void bind_scheme(py::module_& module) {
              "balance"_a = word(standard.balance),
              "gauss_singular"_a = word(standard.gauss_singular), "viscosity"_a = standard.viscosity,
              "shifting"_a = standard.shifting, "closest_approach"_a = standard.closest_approach,
-             "kernel"_a = word(standard.kernel), "range"_a = standard.range)
-        .def_readonly("range", &Scheme::range, "Where the weight vanishes (length).")
-        .def("__eq__", [](const Scheme& a, const Scheme& b) { return a == b; })
-        .def("__repr__",
-             [](const Scheme& scheme) { return "<Scheme: " + scheme.describe() + ">"; });
+             "kernel"_a = word(standard.kernel), "range"_a = py::none())
+        .def_readonly("range", &SchemeChoice::range,
+                      "Where the weight vanishes (length); None: at 3 spacings.")
+        .def("__eq__", [](const SchemeChoice& a, const SchemeChoice& b) { return a == b; })
+        .def("__repr__", [](const SchemeChoice& choice) {
+            return "<Scheme: " + choice.of(1.0).describe() +
+                   (choice.range ? ">" : " (in spacings)>");
+        });
 }
 
 }  // namespace spam::python

@@ -2,6 +2,7 @@
 """Laws of one's own: stress in numpy and by an address, forces, the accounts of what they give."""
 import ctypes
 import importlib.util
+import math
 import unittest
 
 import numpy as np
@@ -114,6 +115,68 @@ class Stress(unittest.TestCase):
         y = other.start(v)
         y[other.fields["velocity"][0]] += 0.1
         np.testing.assert_allclose(own.rates(0, y), other.rates(0, y), rtol=1e-12, atol=1e-15)
+
+
+class Defaults(unittest.TestCase):
+    """What is not given follows from masses, dimensions and spacing."""
+
+    def start(self, x, **keywords):
+        model = spam.SmoothParticles(x, **keywords)
+        first, n, _ = model.fields["density"]
+        return model.start()[first : first + n]
+
+    def test_densities(self):
+        triangular = math.sqrt(4 / 3)
+        for x, spacing, number in [
+            (spam.triangular_hexagon(3), 1.0, triangular),
+            (spam.triangular_block(64, 64, 0.1), 0.1, triangular / 0.1**2),
+            (spam.triangular_block(40, 3), 1.0, triangular),
+            (spam.square_lattice([40], 0.1), 0.1, 10.0),
+            (spam.square_lattice([64, 64], 0.1), 0.1, 100.0),
+            (spam.square_lattice([6, 6, 6], 0.1), 0.1, 1000.0),
+        ]:
+            masses = np.where(np.arange(len(x)) % 2 == 0, 6.0, 8.0)
+            for mass, mean in [(1.0, 1.0), (7.0, 7.0), (np.full(len(x), 7.0), 7.0), (masses, masses.mean())]:
+                with self.subTest(n=len(x), spacing=spacing, mass=mean):
+                    density = self.start(x, mass=mass, spacing=spacing)
+                    np.testing.assert_allclose(density, number * mean, rtol=1e-14)
+        np.testing.assert_array_equal(self.start(spam.triangular_hexagon(3), density=3.0), 3.0)
+
+    def test_an_array_of_one_mass_is_that_mass(self):
+        x = spam.triangular_hexagon(3)
+        v = 0.1 * np.sin(np.arange(x.size)).reshape(x.shape)
+        for make in (spam.SmoothParticles, spam.TotalLagrangian, spam.MaterialVectors, spam.Springs):
+            rates = []
+            for mass in (7.0, np.full(len(x), 7.0)):
+                model = make(x, mass=mass)
+                rates.append(model.rates(0.0, model.start(v)))
+            np.testing.assert_array_equal(*rates)
+
+    def test_ranges_are_three_spacings(self):
+        """In a unit of length eight times as long stress has the same rate, and accelerations are an eighth."""
+        x = spam.triangular_hexagon(4)
+        moved = x + 0.01 * np.sin(np.arange(x.size)).reshape(x.shape)
+        for make in (spam.SmoothParticles, spam.TotalLagrangian, spam.MaterialVectors):
+            found = []
+            field, power = ("stress", 0) if make is spam.SmoothParticles else ("velocity", 1)
+            for unit in (1.0, 0.125):
+                model = make(x * unit, spacing=unit)
+                y = model.start(0.1 * moved * unit)
+                first, n, _ = model.fields["position"]
+                y[first : first + n] = moved[model.id].ravel() * unit
+                first, n, _ = model.fields[field]
+                found.append(model.rates(0.0, y)[first : first + n] / unit**power)
+            self.assertGreater(np.abs(found[0]).max(), 1e-3)
+            np.testing.assert_allclose(*found, rtol=1e-12, atol=1e-15)
+        self.assertIsNone(spam.Scheme().range)
+        self.assertEqual(spam.Scheme(range=2.5).range, 2.5)
+        self.assertEqual(spam.Scheme(), spam.Scheme())
+        self.assertNotEqual(spam.Scheme(), spam.Scheme(range=2.5))
+
+    def test_rates_say_their_order(self):
+        model = spam.SmoothParticles(spam.triangular_hexagon(2))
+        for words in ("id[i] is the number of the i-th one among those given", "by_id"):
+            self.assertIn(words, type(model).rates.__doc__)
 
 
 def numba_law():

@@ -143,11 +143,11 @@ class Fluid:
 
 class Scheme:
     @property
-    def range(self) -> float: ...
+    def range(self) -> Optional[float]: ...
     def __init__(self, *, density: str = "continuity", transport: str = "plain",
                  mean_density: str = "arithmetic", angular_momentum: str = "free", balance: str = "body",
                  gauss_singular: str = "skip", viscosity: float = 0.0, shifting: float = 1.0,
-                 closest_approach: float = 0.0, kernel: str = "lucy", range: float = 3.0) -> None: ...
+                 closest_approach: float = 0.0, kernel: str = "lucy", range: Optional[float] = None) -> None: ...
 
 class Gravity:
     def __init__(self, g: Sequence[float]) -> None: ...
@@ -183,11 +183,11 @@ def SmoothParticles(x: ArrayLike, *, material: Union[None, _Solid, Fluid] = None
                     spacing: float = 1.0, box: Optional[Sequence[float]] = None,
                     externals: Sequence[_External] = ()) -> _Model: ...
 def TotalLagrangian(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
-                    density: Optional[float] = None, range: float = 3.0, penalty: float = 0.1,
+                    density: Optional[float] = None, range: Optional[float] = None, penalty: float = 0.1,
                     mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
                     externals: Sequence[_External] = ()) -> _Model: ...
 def MaterialVectors(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
-                    density: Optional[float] = None, range: float = 3.0, penalty: float = 1.0,
+                    density: Optional[float] = None, range: Optional[float] = None, penalty: float = 2.0,
                     mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
                     externals: Sequence[_External] = ()) -> _Model: ...
 def Springs(x: ArrayLike, *, kappa: float = 1.0, rest_length: Optional[float] = None, mass: ArrayLike = 1.0,

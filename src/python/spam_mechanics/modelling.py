@@ -2,6 +2,8 @@
 """Models of particles. Positions (N, 1), (N, 2) or (N, 3) say in how many dimensions."""
 import math
 
+import numpy as np
+
 from ._core import ElasticSolid, Scheme, remembering, smooth_particles
 
 
@@ -12,10 +14,10 @@ def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, sp
     x          positions (N, D): of a solid its reference configuration, free of stress (length)
     material   ElasticSolid, VonMisesSolid, Material (a law of one's own) or Fluid; default the elastic
                constants of the triangular lattice
-    scheme     a Scheme; default Scheme()
+    scheme     a Scheme; default Scheme(). Its range is 3 spacings where it says none
     mass       one number, or (N,)
-    density    of a solid at the start (mass/length^D); default sqrt(4/3) mass, the triangular lattice. A
-               fluid's is summed
+    density    of a solid at the start (mass/length^D); default the mean mass by the volume spacing^D of a
+               particle, and in the plane, where one has six neighbours, sqrt(3/4) spacing^2. A fluid's is summed
     spacing    distance of nearest neighbours (length)
     box        periods (D,), 0 where space is open; default open space
     externals  Gravity, Friction, Drag, Force: applied in this order
@@ -24,20 +26,20 @@ def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, sp
     """
     material = ElasticSolid.triangular_lattice() if material is None else material
     return smooth_particles(x, material, Scheme() if scheme is None else scheme, mass,
-                            _density(density, mass, spacing), spacing, list(box or ()), list(externals))
+                            _density(density, mass, spacing, x, box), spacing, list(box or ()), list(externals))
 
 
-def TotalLagrangian(x, *, material=None, density=None, range=3.0, penalty=0.1, mass=1.0, spacing=1.0,
+def TotalLagrangian(x, *, material=None, density=None, range=None, penalty=0.1, mass=1.0, spacing=1.0,
                     box=None, externals=()):
     """A solid that sums over the neighbours of its reference configuration x (N, D): p, L and E are kept.
 
-    material: ElasticSolid; range of Lucy's weight (length); penalty kappa against zero-energy modes. Others as
-    of SmoothParticles().
+    material: ElasticSolid; range of Lucy's weight (length; default 3 spacings); penalty kappa against zero-energy
+    modes. Others as of SmoothParticles().
     """
     return _solid("total_lagrangian", x, material, density, range, penalty, mass, spacing, box, externals)
 
 
-def MaterialVectors(x, *, material=None, density=None, range=3.0, penalty=2.0, mass=1.0, spacing=1.0,
+def MaterialVectors(x, *, material=None, density=None, range=None, penalty=2.0, mass=1.0, spacing=1.0,
                     box=None, externals=()):
     """A solid whose particles remember a material vector for each present neighbour: p, L and E are kept, and
     bodies meet. Arguments as of TotalLagrangian()."""
@@ -48,23 +50,45 @@ def Springs(x, *, kappa=1.0, rest_length=None, mass=1.0, spacing=1.0, box=None, 
     """Molecular dynamics: harmonic springs kappa between neighbours nearer than 1.2 spacings in x (N, D)."""
     rest_length = spacing if rest_length is None else rest_length
     return remembering(x, "springs", ElasticSolid.triangular_lattice(kappa), kappa, rest_length, mass,
-                       _density(None, mass, spacing), 1.0, 0.0, spacing, list(box or ()), list(externals))
+                       _density(None, mass, spacing, x, box), 1.0, 0.0, spacing, list(box or ()), list(externals))
 
 
 def _solid(kind, x, material, density, range, penalty, mass, spacing, box, externals):
     material = ElasticSolid.triangular_lattice() if material is None else material
-    return remembering(x, kind, material, 1.0, 1.0, mass, _density(density, mass, spacing), range, penalty,
-                       spacing, list(box or ()), list(externals))
+    return remembering(x, kind, material, 1.0, 1.0, mass, _density(density, mass, spacing, x, box),
+                       3.0 * spacing if range is None else range, penalty, spacing, list(box or ()),
+                       list(externals))
 
 
-def _density(density, mass, spacing):
+def _density(density, mass, spacing, x, box):
+    """Mass by volume of the lattice that x is likely to be; what is wrong with the others the model says."""
     if density is not None:
         return density
     try:
-        one = float(mass)
-    except (TypeError, ValueError):
-        one = 1.0
-    return math.sqrt(4.0 / 3.0) * one / spacing**2 if spacing > 0 else 1.0
+        x, mass = np.asarray(x, dtype=float), np.asarray(mass, dtype=float)
+        dimensions = x.shape[1]
+        one = float(mass.flat[0] if np.all(mass == mass.flat[0]) else mass.mean())
+        if not (spacing > 0 and one > 0):
+            return 1.0
+        factor = math.sqrt(4.0 / 3.0) if _is_triangular(x, spacing, box) else 1.0
+    except (IndexError, TypeError, ValueError):
+        return 1.0
+    return factor * one / spacing**dimensions
+
+
+def _is_triangular(x, spacing, box):
+    """Whether one of 64 particles, spread over x, has six neighbours within 1.2 spacings in the plane."""
+    if x.shape[1] != 2 or len(x) == 0:
+        return False
+    periods = np.array([float(length) or np.inf for length in box or (0.0, 0.0)])
+    golden = (math.sqrt(5.0) - 1.0) / 2.0  # no step through rows and columns
+    some = np.unique((np.arange(64) * golden % 1.0 * len(x)).astype(int)) if len(x) > 64 else np.arange(len(x))
+    for k in some:
+        apart = x - x[k]
+        apart -= np.where(np.isinf(periods), 0.0, periods) * np.round(apart / periods)
+        if np.count_nonzero(np.einsum("ia,ia->i", apart, apart) < (1.2 * spacing) ** 2) > 6:
+            return True
+    return False
 
 
 def shape_error(model, state):
