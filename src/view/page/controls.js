@@ -90,6 +90,9 @@ function setDark(dark) {
 
 // --- words
 
+const units = cases.map(c => c.statistics?.units).find(u => u && typeof u === 'object') || {};
+const unit = kind => typeof units[kind] === 'string' ? ' ' + units[kind].slice(0, 200) : '';
+
 function describeRun() {
   byId('title').textContent = page.problem.replace(/_/g, ' ');
   const counts = [...new Set(cases.map(c => c.snapshots[0].n))].map(n => n.toLocaleString('en')).join(', ');
@@ -99,6 +102,8 @@ function describeRun() {
   const words = [`Snapshots: ${[...new Set(shots)].join(', ')}.`, page.thinning[0].toUpperCase() + page.thinning.slice(1) + '.'];
   for (const c of cases) if (c.invariants?.every > 1) { words.push(`Curves: every ${c.invariants.every}. row.`); break; }
   for (const c of cases) if (c.statistics?.stopped) words.push(`${c.label || 'The run'} was stopped: ${c.statistics.stopped}.`);
+  if (unit('reduced')) words.push(`Reduced units:${unit('reduced')}.`);
+  if (unit('time')) words.push(`Units:${['length', 'mass', 'time', 'stress'].map(unit).join(',')}.`);
   if (page.checks === null) words.push('The run had not ended when this page was made.');
   byId('about').textContent = words.join(' ');
   byId('options').textContent = page.options || 'case.toml is missing';
@@ -158,7 +163,7 @@ const ways = {
 };
 
 function describeTime(how) {
-  byId('time').textContent = 't = ' + (Math.abs(state.t) < 1e-12 ? 0 : Number(state.t.toPrecision(5)));
+  byId('time').textContent = 't = ' + (Math.abs(state.t) < 1e-12 ? 0 : Number(state.t.toPrecision(5))) + unit('time');
   byId('slider').value = (state.t - firstTime) / (lastTime - firstTime || 1);
   const words = [...how].map(h => ways[h]);
   const text = how.size > 1 && how.has('velocities') ? 'cubic; where velocities do not lead along it, through positions' : words.join('; ');
