@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 
 namespace spam {
 namespace {
@@ -60,12 +61,13 @@ std::string Units::of(std::string_view made_of, int dim) const {
     for (std::size_t k = 0; k < names.size(); ++k) {
         if (powers[k] == 0) continue;
         std::string& side = powers[k] > 0 ? above : below;
-        side += (side.empty() ? "" : " ") + with_power(*names[k], std::abs(powers[k]));
+        if (!side.empty()) side += ' ';
+        side += with_power(*names[k], std::abs(powers[k]));
         if (powers[k] < 0) ++divisors;
     }
     if (divisors == 0) return above;
-    if (above.empty()) above = "1";
-    return divisors > 1 ? fmt::format("{}/({})", above, below) : fmt::format("{}/{}", above, below);
+    return fmt::format(fmt::runtime(divisors > 1 ? "{}/({})" : "{}/{}"),
+                       above.empty() ? std::string("1") : above, below);
 }
 
 std::string Units::axis(std::string_view quantity, std::string_view made_of, int dim) const {

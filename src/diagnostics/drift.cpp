@@ -10,21 +10,22 @@ namespace {
 /// What rounding may leave of forces that cancel: a few units in the last place.
 constexpr double rounding = 1e-15;
 
-/// Of a column, less the columns of what was given of it (where there are such).
-WatchedChange watched(const History& history, const std::string& invariant, std::string column,
+/// Of the column of an invariant, less those of `given`, where there are such.
+WatchedChange watched(const History& history, const std::string& invariant, const std::string& axis,
                       const std::vector<std::string>& given) {
-    WatchedChange one{invariant, column, history.column(column)};
-    const char* joint = " less ";
+    const auto column = [&](std::string name) {
+        std::replace(name.begin(), name.end(), ' ', '_');
+        return axis.empty() ? name : name + "_" + axis;
+    };
+    WatchedChange one{invariant, axis, {}, history.column(column(invariant))};
     for (const std::string& part : given) {
-        if (!history.has(part)) continue;
-        const std::vector<double> from_outside = history.column(part);
+        if (!history.has(column(part))) continue;
+        const std::vector<double> from_outside = history.column(column(part));
         for (std::size_t k = 0; k < one.change.size(); ++k) one.change[k] -= from_outside[k];
-        one.name += joint + part.substr(0, part.find_last_not_of("xyz_") + 1);
-        joint = " and ";
+        one.given += (one.given.empty() ? "" : " and ") + part;
     }
     const double start = one.change.front();
     for (double& value : one.change) value -= start;
-    std::replace(one.name.begin(), one.name.end(), '_', ' ');
     return one;
 }
 
@@ -76,19 +77,24 @@ void DriftScales::remember(Archive& archive) {
             before_.power);
 }
 
+std::string WatchedChange::name(bool with_axis) const {
+    std::string words = invariant;
+    if (with_axis && !axis.empty()) words += " " + axis;
+    return given.empty() ? words : words + " less " + given;
+}
+
 std::vector<WatchedChange> watched_changes(const History& history) {
     if (history.rows().empty()) return {};
-    std::vector<WatchedChange> all{watched(history, "mass", "mass", {})};
-    for (const char* axis : {"_x", "_y", "_z"})
-        if (history.has(std::string("momentum") + axis))
-            all.push_back(watched(history, "momentum", std::string("momentum") + axis,
-                                  {std::string("impulse") + axis}));
-    for (const char* axis : {"", "_x", "_y", "_z"})
-        if (history.has(std::string("angular_momentum") + axis))
-            all.push_back(watched(history, "angular momentum",
-                                  std::string("angular_momentum") + axis,
-                                  {std::string("angular_impulse") + axis}));
-    all.push_back(watched(history, "energy", "energy", {"work", "heat"}));
+    std::vector<WatchedChange> all{watched(history, "mass", "", {})};
+    for (const char* axis : {"x", "y", "z"})
+        if (history.has(std::string("momentum_") + axis))
+            all.push_back(watched(history, "momentum", axis, {"impulse"}));
+    if (history.has("angular_momentum"))
+        all.push_back(watched(history, "angular momentum", "", {"angular impulse"}));
+    for (const char* axis : {"x", "y", "z"})
+        if (history.has(std::string("angular_momentum_") + axis))
+            all.push_back(watched(history, "angular momentum", axis, {"angular impulse"}));
+    all.push_back(watched(history, "energy", "", {"work", "heat"}));
     return all;
 }
 

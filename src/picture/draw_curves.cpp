@@ -17,6 +17,8 @@ constexpr gnuplot::Size frame_size{505.0, 318.6};
 /// Above it titles, below it numbers, their name and the key.
 constexpr gnuplot::Room axes{.left = 95.0, .right = 20.0, .bottom = 129.6, .top = 91.8};
 
+constexpr double key_below = 94.0;  ///< a frame
+
 /// Of the curves with a look of their own, and so a place in the key.
 std::vector<std::string> key_titles(const CurvePanel& panel) {
     std::vector<std::string> titles;
@@ -140,10 +142,11 @@ Curve steps(std::string title, const std::vector<double>& centre, const std::vec
 }
 
 bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
-                 const std::vector<CurvePanel>& panels) {
+                 const std::vector<CurvePanel>& panels, std::size_t columns) {
     // One key for all frames where they show the same curves: under the middle of the picture.
     const bool shared = same_titles(panels);
-    const gnuplot::PanelGrid grid(panels.size(), panels.size(), frame_size, {axes});
+    const gnuplot::PanelGrid grid(panels.size(), columns > 0 ? columns : panels.size(), frame_size,
+                                  {axes});
     std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += gnuplot::line_styles;
     script += fmt::format("set multiplot title \"{}\" font ',15'\n", escaped(title));
@@ -158,7 +161,7 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
                       ? (k == 0 ? shared_key(panel) : std::string("unset label\nunset arrow\n"))
                       : fmt::format("set key at screen {} center horizontal samplen 2 maxrows 2\n",
                                     grid.at(grid.frame(k).left + 0.5 * frame_size.width,
-                                            0.066 * grid.height()));
+                                            grid.frame(k).bottom - key_below));
         std::string plots;
         for (std::size_t c = 0; c < panel.curves.size(); ++c) {
             data += curve_block(panel, panel.curves[c]);

@@ -7,6 +7,16 @@
 #include <algorithm>
 
 namespace spam {
+namespace {
+
+const char* made_of(const std::string& invariant) {
+    return invariant == "mass"               ? "m"
+           : invariant == "momentum"         ? "m l/t"
+           : invariant == "angular momentum" ? "m l^2/t"
+                                             : "m l^2/t^2";
+}
+
+}  // namespace
 
 bool draw_invariants(const RunFolder& folder, const History& history, std::string title,
                      const Units& units, int dim) {
@@ -16,15 +26,21 @@ bool draw_invariants(const RunFolder& folder, const History& history, std::strin
     CurvePanel energy{"energies", time, units.axis("energy", "m l^2/t^2", dim), false, {}};
     for (const char* name : {"kinetic", "internal", "energy"})
         energy.curves.push_back({name, t, history.column(name)});
-    CurvePanel drift{"what must stay constant: change since t = 0", time, "|change|", true, {}};
-    if (units.named()) drift.y_label += ", units as in statistics.json";
-    for (WatchedChange& one : watched_changes(history)) {
+    std::vector<CurvePanel> panels{std::move(energy)};
+    for (WatchedChange& one : watched_changes(history)) {  // components of a vector share a frame
         const bool moved = std::any_of(one.change.begin(), one.change.end(),
                                        [](double change) { return change != 0.0; });
-        if (one.invariant != "mass" || moved)  // nearly always none at all
-            drift.curves.push_back({std::move(one.name), t, std::move(one.change)});
+        if (one.invariant == "mass" && !moved) continue;  // nearly always
+        const std::string what = one.name(false);
+        if (panels.back().title != what)
+            panels.push_back({what,
+                              time,
+                              units.axis("|change since t = 0|", made_of(one.invariant), dim),
+                              true,
+                              {}});
+        panels.back().curves.push_back({std::move(one.axis), t, std::move(one.change)});
     }
-    return draw_curves(folder, "invariants", title, {energy, drift});
+    return draw_curves(folder, "invariants", title, panels, 2);
 }
 
 }  // namespace spam

@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(what_is_watched_is_less_what_was_given) {
     std::vector<std::string> names;
     std::vector<double> last;
     for (const WatchedChange& one : all) {
-        names.push_back(one.name);
+        names.push_back(one.name());
         last.push_back(one.change.back());
         BOOST_TEST(one.change.front() == 0.0);
     }
@@ -181,6 +181,7 @@ BOOST_AUTO_TEST_CASE(what_is_watched_is_less_what_was_given) {
     BOOST_TEST(names == expected, boost::test_tools::per_element());
     const std::vector<double> changes{0, 0, 0.25, 0, 0, 0, 1, 0.5};
     BOOST_TEST(last == changes, boost::test_tools::per_element());
+    BOOST_TEST(all[2].name(false) == "momentum less impulse");
     DriftScales one;
     one.momentum = one.angular_momentum = 1.0;
     const auto drifts = measure_drifts(h, Scheme{}.promises(3), one, 1e-6);  // the same numbers

@@ -43,11 +43,14 @@ struct DriftScales {
 
 /// A number that is watched: a column of invariants.csv less what externals and walls have given of it.
 struct WatchedChange {
-    /// That it is a part of: "mass", "momentum", "angular momentum", "energy".
+    /// That it is (a part of): "mass", "momentum", "angular momentum", "energy".
     std::string invariant;
-    /// "momentum y less impulse"; without the last two words where nothing acts from outside.
-    std::string name;
+    std::string axis;   ///< "x", "y" or "z"; empty where there is one number
+    std::string given;  ///< what was taken off: "impulse"; empty where nothing acts from outside
     std::vector<double> change;  ///< since the first row, row by row
+
+    /// "momentum y less impulse"; without the axis: of all parts.
+    std::string name(bool with_axis = true) const;
 };
 
 /// All that is watched in these rows: every component of every invariant. None of a run without rows.

@@ -46,8 +46,9 @@ struct CurvePanel {
     std::vector<Tick> x_ticks{};  ///< in place of numbers
 };
 
+/// `columns` frames in a row; 0: all of them.
 bool draw_curves(const RunFolder& folder, std::string_view name, std::string_view title,
-                 const std::vector<CurvePanel>& panels);
+                 const std::vector<CurvePanel>& panels, std::size_t columns = 0);
 
 /// One curve between logarithmic axes; what is not above 0 is left out. `key`: its entry of the
 /// picture's key, that is colour and mark (10 of them). Open: dashed, with open marks.
