@@ -22,7 +22,7 @@ bool draw_invariants(const RunFolder& folder, const History& history, std::strin
                      const Units& units, int dim) {
     std::replace(title.begin(), title.end(), '_', ' ');
     const auto t = history.column("t");
-    const std::string time = units.axis("t", "t", dim);
+    const std::string time = units.reduced.empty() ? units.axis("t", "t", dim) : "t, reduced units";
     CurvePanel energy{"energies", time, units.axis("energy", "m l^2/t^2", dim), false, {}};
     for (const char* name : {"kinetic", "internal", "energy"})
         energy.curves.push_back({name, t, history.column(name)});

@@ -126,6 +126,8 @@ BOOST_AUTO_TEST_CASE(pictures_show_what_must_stay_constant) {
              {"momentum less impulse: ", "angular momentum less angular impulse: "})
             BOOST_TEST(curves.count(watched + axis) == 1u, watched << axis);
     const Run plain("rotating_hexagon", {"--transport", "plain", "--t-end", "1"});
+    BOOST_TEST(contents_of(plain / "plots/invariants.gp").find("\"t, reduced units\"") !=
+               std::string::npos);
     for (const char* name : {"momentum: x", "momentum: y", "angular momentum: ", "energy: "})
         BOOST_TEST(curves_of(plain / "plots/invariants.dat").count(name) == 1u, name);
 }
