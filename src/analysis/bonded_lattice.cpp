@@ -5,7 +5,6 @@
 #include <spam/physics/material_vectors.hpp>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,7 +92,7 @@ Tensor<Dim> deformation_under(const HyperelasticMaterial<Dim>& material,
             down[n] -= step;
             slope.col(n) = (missing(up) - missing(down)) / (2.0 * step);
         }
-        Numbers change = slope.colPivHouseholderQr().solve(off);
+        Numbers change = solution(slope, off);
         if (change.norm() > 0.2) change *= 0.2 / change.norm();
         F -= change;
         if (!F.allFinite() || !(symmetric(F).determinant() > 0.0)) break;
@@ -159,75 +158,97 @@ BondedLattice<Dim>::BondedLattice(const Tensor& basis, const HyperelasticMateria
     for (Bond& bond : bonds_) bond.q = P_ * (N_inverse_ * bond.X);
 }
 
+/// Complex numbers as two real ones, of vectors and matrices part by part: products of complex matrices of a fixed
+/// size with real ones take Eigen longer to compile than all the rest of this file.
+template <int Dim>
+auto BondedLattice<Dim>::phases(const Point<Dim>& k) const -> std::vector<Complex> {
+    std::vector<Complex> a;
+    for (const Bond& bond : bonds_) a.push_back(std::polar(1.0, k.dot(bond.r)) - 1.0);
+    return a;
+}
+
 template <int Dim>
 auto BondedLattice<Dim>::with_memory(const Point<Dim>& k) const -> ComplexTensor {
-    using Complex = std::complex<double>;
-    std::vector<Complex> a(bonds_.size());
-    Eigen::Matrix<Complex, Dim, 1> b = Eigen::Matrix<Complex, Dim, 1>::Zero();
+    const std::vector<Complex> a = phases(k);
+    Vector b_re = Vector::Zero(), b_im = Vector::Zero();
     for (std::size_t m = 0; m < bonds_.size(); ++m) {
-        a[m] = std::polar(1.0, k.dot(bonds_[m].r)) - 1.0;
-        b += (bonds_[m].w * a[m]) * (N_inverse_ * bonds_[m].X);
+        const Vector along = bonds_[m].w * (N_inverse_ * bonds_[m].X);
+        b_re += a[m].real() * along;
+        b_im += a[m].imag() * along;
     }
     ComplexTensor K = ComplexTensor::Zero();
     for (int c = 0; c < Dim; ++c)
         for (int d = 0; d < Dim; ++d)
             for (int e = 0; e < Dim; ++e)
                 for (int f = 0; f < Dim; ++f)
-                    K(c, d) += volume_ * std::conj(b[e]) * C_(c + Dim * e, d + Dim * f) * b[f];
+                    K(c, d) += volume_ * C_(c + Dim * e, d + Dim * f) * Complex(b_re[e], -b_im[e]) *
+                               Complex(b_re[f], b_im[f]);
     double misfit = 0.0;
     for (std::size_t m = 0; m < bonds_.size(); ++m) {
         const Bond& bond = bonds_[m];
-        const Complex eps = a[m] - (b.transpose() * bond.X)(0);
+        const Complex eps = a[m] - Complex(b_re.dot(bond.X), b_im.dot(bond.X));
         const Complex mixed = volume_ * bond.fading * std::conj(a[m]) * eps;
-        K += mixed * (bond.r * bond.q.transpose()).template cast<Complex>() +
-             std::conj(mixed) * (bond.q * bond.r.transpose()).template cast<Complex>();
+        for (int c = 0; c < Dim; ++c)
+            for (int d = 0; d < Dim; ++d)
+                K(c, d) +=
+                    mixed * (bond.r[c] * bond.q[d]) + std::conj(mixed) * (bond.q[c] * bond.r[d]);
         misfit += bond.w * std::norm(eps);
     }
-    return K + c_ * misfit * ComplexTensor::Identity();
+    for (int c = 0; c < Dim; ++c) K(c, c) += c_ * misfit;
+    return K;
 }
 
 /// t = w T r, T = V tau M^-1 with M = sum w r (x) r and the Kirchhoff stress tau of the F that is integrated,
 /// F_dot = L F, and w = g(|F^-1 r|) s(r). The force is sum t_kj - t_jk. Under stress K has no symmetry.
+/// Changes of t are linear in a with real factors: found for its real and its imaginary part.
 template <int Dim>
 auto BondedLattice<Dim>::without_memory(const Point<Dim>& k) const -> ComplexTensor {
-    using Complex = std::complex<double>;
-    using Row = Eigen::Matrix<Complex, Dim, 1>;
-    const Tensor tau = P_ * F_.transpose(), F_back = F_.inverse();
-    const Tensor M_back = F_back.transpose() * N_inverse_ * F_back, T = volume_ * tau * M_back;
-    Row beta = Row::Zero();  // L = u (x) beta
-    std::vector<Complex> a;
-    for (const Bond& bond : bonds_) {
-        a.push_back(std::polar(1.0, k.dot(bond.r)) - 1.0);
-        beta += (bond.w * a.back()) * (M_back * bond.r);
-    }
+    const std::vector<Complex> a = phases(k);
     ComplexTensor K = ComplexTensor::Zero();
-    for (int axis = 0; axis < Dim; ++axis) {
-        const Row u = Row::Unit(axis);
-        const ComplexTensor dF = u * (beta.transpose() * F_);
-        ComplexTensor dP;
-        for (int n = 0; n < Dim * Dim; ++n) {
-            dP(n) = 0.0;
-            for (int o = 0; o < Dim * Dim; ++o) dP(n) += C_(n, o) * dF(o);
-        }
-        const ComplexTensor dtau = dP * F_.transpose() + P_ * dF.transpose();
-        std::vector<Complex> dw;
-        ComplexTensor dM = ComplexTensor::Zero();
-        for (std::size_t m = 0; m < bonds_.size(); ++m) {
-            const Bond& bond = bonds_[m];
-            const Row dX = (a[m] - (beta.transpose() * bond.r)(0)) * (F_back * u);
-            dw.push_back(bond.fading * a[m] * bond.r[axis] +
-                         bond.forgetting * (bond.X.transpose() * dX)(0));
-            dM += dw[m] * (bond.r * bond.r.transpose()).template cast<Complex>() +
-                  bond.w * a[m] * (u * bond.r.transpose() + bond.r * u.transpose());
-        }
-        const ComplexTensor dT = (volume_ * dtau - T * dM) * M_back;
-        for (std::size_t m = 0; m < bonds_.size(); ++m) {
-            const Bond& bond = bonds_[m];
-            K.col(axis) += std::conj(a[m]) * (dw[m] * (T * bond.r) + bond.w * (dT * bond.r) +
-                                              bond.w * a[m] * (T * u));
+    std::vector<double> part(a.size());
+    for (const bool imaginary : {false, true}) {
+        for (std::size_t m = 0; m < a.size(); ++m) part[m] = imaginary ? a[m].imag() : a[m].real();
+        for (int axis = 0; axis < Dim; ++axis) {
+            const std::vector<Vector> changes = traction_changes(part, axis);
+            for (std::size_t m = 0; m < a.size(); ++m) {
+                const Complex back =
+                    std::conj(a[m]) * (imaginary ? Complex(0.0, 1.0) : Complex(1.0));
+                for (int c = 0; c < Dim; ++c) K(c, axis) += back * changes[m][c];
+            }
         }
     }
     return K;
+}
+
+template <int Dim>
+auto BondedLattice<Dim>::traction_changes(const std::vector<double>& a, int axis) const
+    -> std::vector<Vector> {
+    const Tensor tau = P_ * F_.transpose(), F_back = F_.inverse();
+    const Tensor M_back = F_back.transpose() * N_inverse_ * F_back, T = volume_ * tau * M_back;
+    const Vector u = Vector::Unit(axis), u_back = F_back * u;
+    Vector beta = Vector::Zero();  // L = u (x) beta
+    for (std::size_t m = 0; m < a.size(); ++m)
+        beta += (bonds_[m].w * a[m]) * (M_back * bonds_[m].r);
+    const Tensor dF = u * (F_.transpose() * beta).transpose();
+    Tensor dP = Tensor::Zero();
+    for (int n = 0; n < Dim * Dim; ++n)
+        for (int o = 0; o < Dim * Dim; ++o) dP(n) += C_(n, o) * dF(o);
+    const Tensor dtau = dP * F_.transpose() + P_ * dF.transpose();
+    std::vector<double> dw;
+    Tensor dM = Tensor::Zero();
+    for (std::size_t m = 0; m < a.size(); ++m) {
+        const Bond& bond = bonds_[m];
+        dw.push_back(bond.fading * a[m] * bond.r[axis] +
+                     bond.forgetting * (a[m] - beta.dot(bond.r)) * bond.X.dot(u_back));
+        dM += dw[m] * bond.r * bond.r.transpose() +
+              bond.w * a[m] * (u * bond.r.transpose() + bond.r * u.transpose());
+    }
+    const Tensor dT = (volume_ * dtau - T * dM) * M_back;
+    std::vector<Vector> changes;
+    for (std::size_t m = 0; m < a.size(); ++m)
+        changes.push_back(dw[m] * (T * bonds_[m].r) + bonds_[m].w * (dT * bonds_[m].r) +
+                          bonds_[m].w * a[m] * (T * u));
+    return changes;
 }
 
 template <int Dim>

@@ -15,4 +15,8 @@ Eigen::VectorXcd ComplexModes::shares(const Eigen::VectorXcd& v) const {
     return vectors.partialPivLu().solve(v);
 }
 
+Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+    return matrix.partialPivLu().solve(right);
+}
+
 }  // namespace spam

@@ -16,4 +16,7 @@ struct ComplexModes {
 };
 ComplexModes complex_modes(const Eigen::MatrixXcd& matrix);
 
+/// Of matrix x = right: here for the same reason.
+Eigen::VectorXd solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
 }  // namespace spam

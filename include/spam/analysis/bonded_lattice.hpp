@@ -58,6 +58,7 @@ class BondedLattice {
 
   private:
     using Vector = Point<Dim>;
+    using Complex = std::complex<double>;
     struct Bond {
         Vector X, r, q;
         double w, fading;   ///< fading = g s'/r
@@ -65,6 +66,10 @@ class BondedLattice {
     };
     ComplexTensor with_memory(const Point<Dim>& k) const;
     ComplexTensor without_memory(const Point<Dim>& k) const;
+    /// exp(i k . r) - 1 of every bond.
+    std::vector<Complex> phases(const Point<Dim>& k) const;
+    /// Of every bond the change of t where its end moves by a along the axis.
+    std::vector<Vector> traction_changes(const std::vector<double>& a, int axis) const;
 
     BondMemory memory_;
     Tensor F_, P_, N_inverse_ = Tensor::Zero();
