@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "levels.hpp"
 #include <spam/core/error.hpp>
-#include <spam/core/instruction_set.hpp>
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace spam {
 namespace {
 
 InstructionSet best_of_processor() {
-#if defined(SPAM_X86_LEVELS)
+#if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl"))
@@ -20,23 +20,36 @@ InstructionSet best_of_processor() {
         return InstructionSet::v3;
     if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"))
         return InstructionSet::v2;
-    throw InputError(
-        "this processor has no SSE4.2, which this build needs; build with -DSPAM_LEVELS=generic");
-#else
-    return InstructionSet::generic;
 #endif
+    return InstructionSet::generic;
+}
+
+/// The best that is built and that the processor can do.
+InstructionSet best() {
+    const InstructionSet most = best_of_processor();
+    for (const auto set : {InstructionSet::v4, InstructionSet::v3, InstructionSet::v2})
+        if (set <= most && is_built(set)) return set;
+    if (is_built(InstructionSet::generic)) return InstructionSet::generic;
+    throw InputError(
+        fmt::format("this build is for better processors than this one ({}); build it here, with "
+                    "-DSPAM_LEVELS='v2;v3;v4' or, for any processor, -DSPAM_LEVELS=generic",
+                    to_string(most)));
 }
 
 InstructionSet chosen() {
-    const InstructionSet best = best_of_processor();
     const char* const wish = std::getenv("SPAM_ISA");
-    if (wish == nullptr || *wish == '\0') return best;
+    if (wish == nullptr || *wish == '\0') return best();
     for (const auto set : {InstructionSet::v2, InstructionSet::v3, InstructionSet::v4}) {
         if (to_string(set) != std::string("x86-64-") + wish) continue;
-        if (set <= best) return set;
-        throw InputError(fmt::format(
-            "SPAM_ISA: {} is more than this processor can do ({}); unset it, or choose less", wish,
-            to_string(best)));
+        if (!(set <= best_of_processor()))
+            throw InputError(fmt::format(
+                "SPAM_ISA: {} is more than this processor can do ({}); unset it, or choose less",
+                wish, to_string(best_of_processor())));
+        if (is_built(set)) return set;
+        throw InputError(
+            fmt::format("SPAM_ISA: {} is not in this build, which has {}; unset it, or build with "
+                        "-DSPAM_LEVELS='v2;v3;v4' (./spam test and ./spam bench do)",
+                        wish, to_string(best())));
     }
     throw InputError(
         fmt::format("SPAM_ISA: no instruction set '{}'; there are v2, v3 and v4", wish));

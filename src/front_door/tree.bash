@@ -225,10 +225,11 @@ configure() { # KEY=VALUE...
         return 0
     fi
     # What a verb does not ask for stays as it is, so that `run` after `test` keeps the tests; the
-    # first time it is off, so that `run` needs neither Boost.Test nor Google Benchmark.
+    # first time it is off, so that `run` needs neither Boost.Test nor Google Benchmark, and compiles pair
+    # sums for this processor only.
     if ! [[ -f $root/build/$preset/build.ninja ]]; then
-        for part in SPAM_BUILD_TESTS SPAM_BUILD_BENCH; do
-            [[ ${settings[*]} == *$part=* ]] || settings+=("$part=OFF")
+        for part in SPAM_BUILD_TESTS=OFF SPAM_BUILD_BENCH=OFF "SPAM_LEVELS=$(level_of_processor)"; do
+            [[ ${settings[*]} == *${part%%=*}=* ]] || settings+=("$part")
         done
     fi
     for setting in "${settings[@]}"; do arguments+=("-D$setting"); done
@@ -240,6 +241,19 @@ configure() { # KEY=VALUE...
         fail configure "$(configure_advice)"
     fi
     rm -f "$cache.before"
+}
+
+# Where pair sums are compared or timed they are compiled for every level of x86-64.
+every_level() { if [[ $(uname -m) == x86_64 ]]; then echo 'v2;v3;v4'; else echo generic; fi; }
+
+# As best_of_processor() in src/core/instruction_set.cpp has it.
+level_of_processor() {
+    local flags level=v4 flag
+    flags=$(sed -n '/^flags/{s/$/ /p;q}' /proc/cpuinfo 2>/dev/null || true)
+    if [[ $(uname -m) != x86_64 || -z $flags ]]; then every_level && return; fi
+    for flag in avx512f avx512bw avx512cd avx512dq avx512vl; do [[ $flags == *" $flag "* ]] || level=v3; done
+    for flag in avx2 fma bmi1 bmi2; do [[ $flags == *" $flag "* ]] || level=v2; done
+    echo "$level"
 }
 
 configure_advice() {
@@ -278,18 +292,20 @@ set_up() { # <packages...> -- <KEY=VALUE...> -- <targets...>
 
 # --- programs ----------------------------------------------------------------------------------
 
-# Whether a program is newer than all it is made of: then it also runs for users who may not write to the
-# build directory.
+# Whether a program is newer than all it is made of, and than the last commit, which it names: then it runs
+# without waiting for another ./spam, and for users who may not write to the build directory.
 is_up_to_date() { # program, parts in the root...
+    local parts=(CMakeLists.txt CMakePresets.json "${@:2}")
     [[ -x $1 ]] || return 1
-    [[ -z $(cd -- "$root" && find CMakeLists.txt CMakePresets.json "${@:2}" -newer "$1" -print -quit) ]]
+    if [[ -w $root/build/$preset && -f $root/.git/logs/HEAD ]]; then parts+=(.git/logs/HEAD); fi
+    [[ -z $(cd -- "$root" && find "${parts[@]}" -newer "$1" -print -quit) ]]
 }
 
 # Builds the program of a target and becomes it: it gets the signals, and its exit status is ours.
 become() { # verb, target, program, how many parts, parts..., arguments...
     local verb=$1 target=$2 program=$root/build/$preset/$3 parts=("${@:5:$4}")
     shift "$((4 + $4))"
-    if ! [[ -w $root/build/$preset ]] && is_up_to_date "$program" "${parts[@]}"; then exec "$program" "$@"; fi
+    if is_up_to_date "$program" "${parts[@]}"; then exec "$program" "$@"; fi
     set_up -- -- "$target"
     [[ -x $program ]] || stop "$verb" "the build left no $program" "rm -r $root/build/$preset and try again"
     exec "$program" "$@"

@@ -116,6 +116,40 @@ BOOST_AUTO_TEST_CASE(a_program_that_is_up_to_date_runs_without_leave_to_write) {
     fs::permissions(tree / "build/release", fs::perms(0755));
 }
 
+BOOST_AUTO_TEST_CASE(a_program_that_is_up_to_date_does_not_wait_for_another_build) {
+    const Tree tree("0");
+    BOOST_TEST(run(tree.call({"run", "--no-install", "drop"}), tree.launch()).status == 0);
+    fs::remove(tree / "build/release/view/spam-view");
+    tree.write("takes", "100");
+    Child builds(tree.call({"view", "--no-install", "drop-out"}), tree.launch());
+    BOOST_TEST_REQUIRE(
+        builds.wait_for([&](const Outcome& seen) { return has(seen.err, "building"); }));
+    Child runs(tree.call({"run", "drop", "--smoke"}), tree.launch());
+    const Outcome outcome = runs.finish(Child::Seconds(30));
+    BOOST_TEST(outcome.status == 0, outcome.err);
+    BOOST_TEST(outcome.out == "ran --smoke\n");
+    BOOST_TEST(!has(outcome.err, "waiting"), outcome.err);
+    builds.send(SIGTERM);
+    builds.finish(Child::Seconds(30));
+
+    // Its commit is part of what a program says.
+    tree.write(".git/logs/HEAD", "");
+    tree.write("takes", "nonsense");
+    BOOST_TEST(run(tree.call({"run", "--no-install", "drop"}), tree.launch()).status == 5);
+}
+
+BOOST_AUTO_TEST_CASE(pair_sums_are_compiled_for_this_processor_at_first_and_for_all_in_tests) {
+    const Tree tree("0");
+    const auto configured = [&] { return contents_of(tree / "configured"); };
+    run(tree.call({"run", "--no-install", "drop"}), tree.launch());
+    BOOST_TEST(has(configured(), "-DSPAM_LEVELS="), configured());
+    BOOST_TEST(!has(configured(), "v2;v3"), configured());
+    run(tree.call({"bench", "--no-install"}), tree.launch());
+#if defined(__x86_64__)
+    BOOST_TEST(has(configured(), "-DSPAM_LEVELS=v2;v3;v4"), configured());
+#endif
+}
+
 BOOST_AUTO_TEST_CASE(view_is_built_and_gets_its_words) {
     const Tree tree("0");
     const Outcome empty = run(tree.call({"view"}), tree.launch());
@@ -154,6 +188,14 @@ BOOST_AUTO_TEST_CASE(installed_it_runs_what_lies_beside_it) {
     const Outcome misspelt = call({"run", "dorp"});
     BOOST_TEST(misspelt.status == 2);
     BOOST_TEST(has(misspelt.err, "did you mean drop?"), misspelt.err);
+    for (const char* far : {"nosuch", "../x", "rotating"}) {
+        const Outcome unknown = call({"run", far});
+        BOOST_TEST(unknown.status == 2);
+        BOOST_TEST(!has(unknown.err, "did you mean"), unknown.err);
+    }
+    const Outcome more = call({"list", "extra"});
+    BOOST_TEST(more.status == 2);
+    BOOST_TEST(has(more.err, "list: 'extra'?"), more.err);
     BOOST_TEST(!has(call({"help"}).out, "bench"));
     for (const char* verb : {"test", "bench"}) {
         const Outcome refused = call({verb});

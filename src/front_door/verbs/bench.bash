@@ -14,7 +14,7 @@ verb_bench() { # [options of Google Benchmark...]
         [[ $option == --help || $option =~ ^--benchmark_($benchmark_options)(=|$) ]] ||
             refuse "bench: '$option' is no option of Google Benchmark; these are --benchmark_ and one of ${benchmark_options//|/, }"
     done
-    set_up "${bench_packages[@]}" -- SPAM_BUILD_BENCH=ON -- spam_bench
+    set_up "${bench_packages[@]}" -- SPAM_BUILD_BENCH=ON "SPAM_LEVELS=$(every_level)" -- spam_bench
     [[ -x $program ]] || stop bench "the build left no $program" "rm -r $root/build/$preset and try again"
     exec "$program" "$@"
 }

@@ -11,7 +11,7 @@ verb_python() { # <script> [its arguments...]
     (($#)) || refuse "python: which script? one of Python that says 'import spam_mechanics as spam'"
     [[ $1 == -* || -f $1 ]] || refuse "python: there is no script '$1'"
     module=$(compgen -G "$folder/spam_mechanics/_core*.so" || true)
-    if [[ -w $root/build/$preset ]] || ! is_up_to_date "$module" "${parts[@]}"; then
+    if ! is_up_to_date "$module" "${parts[@]}"; then
         set_up "${python_packages[@]}" -- SPAM_BUILD_PYTHON=ON -- spam_python
     fi
     [[ -x $python ]] || stop python "there is no $python" "install python3 and python3-numpy"
