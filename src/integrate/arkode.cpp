@@ -142,10 +142,12 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
         if (me.checks_rates_ && me.non_finite_.empty())
             me.non_finite_ = me.non_finite_rate(entries(y_dot), t);
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
-        // ends here, before later stages cover the first reason by their own.
+        // ends here. Of an adaptive one the later stages, which are made of these rates, complain of
+        // what is not a number: the first reason is the one that counts.
         std::string failure = me.ode_.failure();
         if (failure.empty()) return 0;
-        me.failure_ = std::move(failure);
+        if (me.failure_.empty() || me.non_finite_entry(entries(y), t).empty())
+            me.failure_ = std::move(failure);
         return me.dt_ ? -1 : 0;
     } catch (...) {
         me.error_ = std::current_exception();

@@ -81,7 +81,7 @@ class Arkode final : public Integrator {
     KeptController controller_;
     void* memory_ = nullptr;
     SundialsMessages messages_;
-    std::string failure_;        ///< of the ode, the latest since the last accepted step
+    std::string failure_;        ///< of the ode, the first of the latest attempt with any
     bool checks_rates_ = false;  ///< whether they are finite
     std::string non_finite_;     ///< the first rate in this step that is not
     std::exception_ptr error_;

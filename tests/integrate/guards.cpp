@@ -5,9 +5,11 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 using namespace spam;
@@ -34,11 +36,13 @@ struct End {
 };
 
 /// From y = 1 in three entries to t = 1.
-End run(const IntegratorOptions& options, const Rates& rates) {
+End run(
+    const IntegratorOptions& options, const Rates& rates,
+    const std::function<std::string()>& failure = [] { return std::string{}; }) {
     const SundialsContext context;
     Ode ode;
     ode.rates = rates;
-    ode.failure = [] { return std::string{}; };  // a model that gives no reason
+    ode.failure = failure;  // without it a model that gives no reason
     ode.entry_name = [](std::size_t k) { return "entry " + std::to_string(k); };
     ode.absolute_tolerance = {1e-10, 1e-10, 1e-10};
     Vector y(3, context);
@@ -74,6 +78,32 @@ BOOST_AUTO_TEST_CASE(a_rate_that_is_not_a_number_is_named_where_it_began) {
             BOOST_TEST(says(end, "the rate of entry 1 became nan at t = 0.55"));
             BOOST_TEST((end.t > 0.49 && end.t < 0.551));
             BOOST_TEST(end.evaluations < 5000u);
+            for (const double value : end.y) BOOST_TEST(std::isfinite(value));
+        }
+    }
+}
+
+/// Entry 2, an energy, falls below zero at t = 0.5 however short the step is. The rates then are not numbers,
+/// and a later stage, which is made of them, complains of its positions.
+BOOST_AUTO_TEST_CASE(the_first_complaint_of_a_step_is_the_reason) {
+    std::string complaint;
+    const auto cooling = [&](double, std::span<const double> y, std::span<double> y_dot) {
+        complaint = !std::isfinite(y[0]) ? "a position is not finite"
+                    : y[2] < 0.0         ? "an energy is outside the law"
+                                         : "";
+        y_dot[0] = y[1];
+        y_dot[1] = -y[0];
+        y_dot[2] = -2.0;
+        if (!complaint.empty())
+            std::fill(y_dot.begin(), y_dot.end(), std::numeric_limits<double>::quiet_NaN());
+    };
+    for (const auto& options :
+         {rk4, fixed, adaptive, with("arkode:BOGACKI_SHAMPINE_4_2_3", std::nullopt),
+          with("gsl:rkf45", std::nullopt)}) {
+        const End end = run(options, cooling, [&] { return complaint; });
+        BOOST_TEST_CONTEXT(options.method << ": " << end.reason) {
+            BOOST_TEST(says(end, "an energy is outside the law at t = "));
+            BOOST_TEST((end.t > 0.39 && end.t < 0.501));
             for (const double value : end.y) BOOST_TEST(std::isfinite(value));
         }
     }
