@@ -59,7 +59,7 @@ void report(Session& session, const Parameters& p, const Convection& gas, const 
     const double mean = 0.5 * (bottom + top), of_grid = 0.5 * (grid_bottom + grid_top);
     const bool long_enough = run.complete && run.statistics.t_end >= 79.0 * gas.layer.L;
     const bool known = session.when_default({"height", "rayleigh", "roll", "friction", "density",
-                                             "kernel", "range"}) &&
+                                             "work", "kernel", "range"}) &&
                        session.when_default(p.sides->names()) && long_enough;
     const bool still = gas.layer.rayleigh <= 1000.0;
     session.claim({"nusselt_bottom", bottom, 1.8, 0.15, "an independent computation"}, known);
@@ -211,6 +211,10 @@ int main(int argc, char** argv) {
     add_friction_option(options, p.friction);
     options.choice<Density>("density", p.density, {Density::summed, Density::continuity},
                             "density as a sum over neighbours, or by the continuity equation");
+    options.choice<Work>(
+        "work", p.work, {Work::mean, Work::own},
+        "what changes a particle's energy: work by the mean stress of each pair, or by its "
+        "own");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "range h of the weight function", between(1.2, 6.0));
     options.flag("scan", p.scan, "find the Rayleigh number at which small rolls begin to grow");

@@ -48,7 +48,7 @@ Convection make_convection(const Parameters& p, double rayleigh, bool only_descr
     x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
     const Fluid gas{IdealGas{2}, NewtonViscosity::shear_and_bulk(layer.eta(), 0.0, 2),
                     FourierConduction{layer.eta()}, p.friction == FrictionBy::pairs};
-    const Scheme scheme{.density = p.density, .kernel = p.kernel, .range = p.range};
+    const Scheme scheme{.density = p.density, .work = p.work, .kernel = p.kernel, .range = p.range};
     Convection convection{layer, std::make_shared<FluidModel<2>>(
                                      make_particles<2>(x, 1.0, 1.0, box), gas, scheme, box)};
     FluidModel<2>& model = *convection.model;

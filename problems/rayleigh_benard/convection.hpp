@@ -23,6 +23,7 @@ struct Parameters {
     double roll = 0.05;
     FrictionBy friction = FrictionBy::pairs;
     Density density = Density::summed;
+    Work work = Work::mean;
     Kernel kernel = Kernel::w4;
     double range = 3.5;
     bool scan = false;

@@ -27,6 +27,11 @@ void Scheme::validate(int dim) const {
     if (!(viscosity >= 0.0) || !std::isfinite(viscosity))
         throw InputError(fmt::format(
             "viscosity: {} must be 0 (none) or a positive number; try --viscosity 1", viscosity));
+    if (work == Work::own && balances_torques())
+        throw InputError(fmt::format(
+            "work: own gives each particle the work of its own stress, and the forces that {} adds "
+            "belong to no stress; use --work mean, or --angular-momentum free",
+            to_string(angular_momentum)));
     if (transport == Transport::shifting) validate_shifting();
 }
 
@@ -45,6 +50,10 @@ void Scheme::validate_shifting() const {
             "angular-momentum: {} is for bodies in open space, and shifting for fluids that "
             "fill their box; use --angular-momentum free",
             to_string(angular_momentum)));
+    if (work == Work::own)
+        throw InputError(
+            "work: own is for gases in which shocks run, and shifting for fluids that are hardly "
+            "compressed; use --work mean, or --transport plain");
     if (closest_approach > 0.0)
         throw InputError(
             "closest-approach: shifting parts particles by itself, and moves on those that are "
@@ -78,6 +87,7 @@ std::string Scheme::describe() const {
     if (balance == Balance::global) more += " over all bodies";
     if (angular_momentum == AngularMomentum::gauss && gauss_singular == GaussSingular::stop)
         more += " until it is singular";
+    if (work == Work::own) more += ", work of the own pressure";
     if (viscosity > 0.0) more += fmt::format(", viscosity {}", viscosity);
     if (closest_approach > 0.0)
         more += fmt::format(", approaching pairs reflected at {}", closest_approach);
@@ -134,6 +144,8 @@ std::string_view to_string(AngularMomentum a) {
 std::string_view to_string(Balance b) { return b == Balance::body ? "body" : "global"; }
 
 std::string_view to_string(GaussSingular g) { return g == GaussSingular::skip ? "skip" : "stop"; }
+
+std::string_view to_string(Work w) { return w == Work::mean ? "mean" : "own"; }
 
 std::string_view to_string(Promise p) {
     switch (p) {

@@ -32,8 +32,9 @@ namespace {
 SchemeChoice scheme_of(const std::string& density, const std::string& transport,
                        const std::string& mean_density, const std::string& angular_momentum,
                        const std::string& balance, const std::string& gauss_singular,
-                       double viscosity, double shifting, double closest_approach,
-                       const std::string& kernel, std::optional<double> range) {
+                       const std::string& work, double viscosity, double shifting,
+                       double closest_approach, const std::string& kernel,
+                       std::optional<double> range) {
     Scheme s;
     s.density = value_of<Density>(
         density, {Density::continuity, Density::summed, Density::chain_rule}, "density");
@@ -50,6 +51,7 @@ SchemeChoice scheme_of(const std::string& density, const std::string& transport,
     s.balance = value_of<Balance>(balance, {Balance::body, Balance::global}, "balance");
     s.gauss_singular = value_of<GaussSingular>(
         gauss_singular, {GaussSingular::skip, GaussSingular::stop}, "gauss_singular");
+    s.work = value_of<Work>(work, {Work::mean, Work::own}, "work");
     s.viscosity = viscosity;
     s.shifting = shifting;
     s.closest_approach = closest_approach;
@@ -72,6 +74,7 @@ void bind_scheme(py::module_& module) {
         "angular_momentum  free, gauss, torque_particle, torque_pair\n"
         "balance           body, global: what keeps an angular momentum of its own\n"
         "gauss_singular    skip, stop\n"
+        "work              mean, own: whose pressure does the work that changes a particle's energy\n"
         "viscosity         alpha of the artificial viscosity, 0 without\n"
         "shifting          coefficient of transport='shifting'\n"
         "closest_approach  distance at which pairs are reflected, 0: never (length)\n"
@@ -83,9 +86,10 @@ void bind_scheme(py::module_& module) {
              "mean_density"_a = word(standard.mean_density),
              "angular_momentum"_a = word(standard.angular_momentum),
              "balance"_a = word(standard.balance),
-             "gauss_singular"_a = word(standard.gauss_singular), "viscosity"_a = standard.viscosity,
-             "shifting"_a = standard.shifting, "closest_approach"_a = standard.closest_approach,
-             "kernel"_a = word(standard.kernel), "range"_a = py::none())
+             "gauss_singular"_a = word(standard.gauss_singular), "work"_a = word(standard.work),
+             "viscosity"_a = standard.viscosity, "shifting"_a = standard.shifting,
+             "closest_approach"_a = standard.closest_approach, "kernel"_a = word(standard.kernel),
+             "range"_a = py::none())
         .def_readonly("range", &SchemeChoice::range,
                       "Where the weight vanishes (length); None: at 3 spacings.")
         .def("__eq__", [](const SchemeChoice& a, const SchemeChoice& b) { return a == b; })

@@ -45,6 +45,16 @@ void check_shifting(const std::vector<Fluid>& fluids, const Scheme& scheme) {
             "one fluid");
 }
 
+void check_work(const std::vector<Fluid>& fluids, const Scheme& scheme) {
+    if (scheme.work == Work::mean ||
+        std::any_of(fluids.begin(), fluids.end(), [](const Fluid& f) { return f.state.thermal; }))
+        return;
+    throw InputError(fmt::format(
+        "work: own is for laws with a temperature, and the pressure of ({}) does not depend on the "
+        "energy: no particle can lack heat; use --work mean",
+        fluids.front().state.describe()));
+}
+
 void check_fluid(const Fluid& fluid, int dim) {
     const auto refuse_negative = [](const char* name, double value) {
         if (!(value >= 0.0) || !std::isfinite(value))
@@ -93,6 +103,7 @@ void FluidConstitution<Dim>::check(const Scheme& scheme) const {
     for (const Fluid& fluid : fluids_) check_fluid(fluid, Dim);
     check_pairs(fluids_, scheme);
     check_shifting(fluids_, scheme);
+    check_work(fluids_, scheme);
 }
 
 /// What neither friction and conduction nor the scheme ask for is left out.
@@ -102,6 +113,7 @@ Matter FluidConstitution<Dim>::matter(const Scheme& scheme) const {
         return gradients_ || scheme.viscosity > 0.0 ? Matter::conducting : Matter::shifted;
     if (std::any_of(fluids_.begin(), fluids_.end(), has_pairs)) return Matter::rubbing;
     const bool plain = scheme.transport == Transport::plain && scheme.viscosity == 0.0 &&
+                       scheme.work == Work::mean &&
                        (scheme.angular_momentum == AngularMomentum::free ||
                         scheme.angular_momentum == AngularMomentum::gauss);
     return gradients_ || !plain ? Matter::conducting : Matter::inviscid;
@@ -321,22 +333,6 @@ double FluidConstitution<Dim>::stress_forces(const ConstState<Dim>& state,
     for (std::size_t i = 0; i < P.size(); ++i)
         sum += this->particles_.mass[i] * std::abs(P[i]) / rho[i];
     return sum;
-}
-
-template <int Dim>
-std::vector<double> FluidConstitution<Dim>::pressures(std::span<const double> rho,
-                                                      std::span<const double> e) const {
-    std::vector<double> P(rho.size());
-    for (std::size_t i = 0; i < P.size(); ++i) P[i] = of(i).state.pressure(rho[i], e[i]);
-    return P;
-}
-
-template <int Dim>
-std::vector<double> FluidConstitution<Dim>::temperatures(std::span<const double> rho,
-                                                         std::span<const double> e) const {
-    std::vector<double> T(rho.size());
-    for (std::size_t i = 0; i < T.size(); ++i) T[i] = of(i).state.temperature(rho[i], e[i]);
-    return T;
 }
 
 template class FluidConstitution<1>;

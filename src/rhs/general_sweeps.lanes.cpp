@@ -48,7 +48,7 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
     if (matter == Matter::inviscid || matter == Matter::rubbing || matter == Matter::shifted) {
         sweeps.pack = pack<Dim, InviscidRecord<Dim>>;
         sweeps.force = matter == Matter::inviscid  ? Forces::inviscid
-                       : matter == Matter::rubbing ? Forces::rubbing
+                       : matter == Matter::rubbing ? Forces::template rubbing<>
                                                    : Forces::shifted;
     } else {
         // A fluid's stress comes later.

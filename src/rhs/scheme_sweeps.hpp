@@ -39,11 +39,13 @@ struct ForceSweeps {
                              decltype(transport), TorqueParts>;
         });
     }
+    template <Work work = Work::mean>
     static Sweep<Dim> conducting(const Scheme& scheme) {
-        if (scheme.transport == Transport::shifting)
-            return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, StressForce<Dim>, HeatFlow<Dim>,
-                             Continuity, ShiftingTransport<Dim, Mean>>;
-        return by_transport(scheme, [](auto transport, auto force) {
+        if constexpr (work == Work::mean)
+            if (scheme.transport == Transport::shifting)
+                return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, StressForce<Dim>,
+                                 HeatFlow<Dim>, Continuity, ShiftingTransport<Dim, Mean>>;
+        return by_transport<work>(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, decltype(transport),
                              decltype(force), HeatFlow<Dim>, Continuity>;
         });
@@ -52,8 +54,9 @@ struct ForceSweeps {
     static constexpr Sweep<Dim> inviscid =
         run_sweep<Kind, W, Dim, InviscidRecord<Dim>, PlainTransport<Dim>, PressureForce<Dim>,
                   Continuity>;
+    template <Work work = Work::mean>
     static constexpr Sweep<Dim> rubbing =
-        run_sweep<Kind, W, Dim, RubbingRecord<Dim>, PlainTransport<Dim>, PressureForce<Dim>,
+        run_sweep<Kind, W, Dim, RubbingRecord<Dim>, PlainTransport<Dim>, PressureForce<Dim, work>,
                   Continuity, PairFriction<Dim>, PairConduction>;
 
     /// Without friction and conduction their coefficients are 0.
@@ -62,24 +65,24 @@ struct ForceSweeps {
                   ShiftingTransport<Dim, Mean>, PairFriction<Dim>, PairConduction>;
 
   private:
-    template <class Make>
+    template <Work work = Work::mean, class Make>
     static Sweep<Dim> by_transport(const Scheme& scheme, const Make& make) {
         switch (scheme.transport) {
             case Transport::plain:
-                return by_force(scheme, make, PlainTransport<Dim>{});
+                return by_force<work>(scheme, make, PlainTransport<Dim>{});
             case Transport::average:
-                return by_force(scheme, make, AverageTransport<Dim>{});
+                return by_force<work>(scheme, make, AverageTransport<Dim>{});
             case Transport::monaghan:
             case Transport::shifting:  // of fluids: above
                 break;
         }
-        return by_force(scheme, make, MonaghanTransport<Dim, Mean>{});
+        return by_force<work>(scheme, make, MonaghanTransport<Dim, Mean>{});
     }
-    template <class Make, class Velocity>
+    template <Work work, class Make, class Velocity>
     static Sweep<Dim> by_force(const Scheme& scheme, const Make& make, Velocity velocity) {
-        if constexpr (Dim == 2)
+        if constexpr (Dim == 2 && work == Work::mean)
             if (scheme.balances_torques()) return make(velocity, TorqueSums{});
-        return make(velocity, StressForce<Dim>{});
+        return make(velocity, StressForce<Dim, work>{});
     }
 };
 

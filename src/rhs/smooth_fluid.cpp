@@ -12,6 +12,22 @@ const Fluid& SmoothParticles<Dim>::fluid() const {
 }
 
 template <int Dim>
+std::vector<double> FluidConstitution<Dim>::pressures(std::span<const double> rho,
+                                                      std::span<const double> e) const {
+    std::vector<double> P(rho.size());
+    for (std::size_t i = 0; i < P.size(); ++i) P[i] = of(i).state.pressure(rho[i], e[i]);
+    return P;
+}
+
+template <int Dim>
+std::vector<double> FluidConstitution<Dim>::temperatures(std::span<const double> rho,
+                                                         std::span<const double> e) const {
+    std::vector<double> T(rho.size());
+    for (std::size_t i = 0; i < T.size(); ++i) T[i] = of(i).state.temperature(rho[i], e[i]);
+    return T;
+}
+
+template <int Dim>
 std::vector<double> SmoothParticles<Dim>::pressure(std::span<const double> y) const {
     const auto rho = this->densities(y);
     return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
@@ -45,6 +61,18 @@ std::vector<double> SmoothParticles<Dim>::start(const Points<Dim>& position,
         velocity, rho, T);
 }
 
+template std::vector<double> FluidConstitution<1>::pressures(std::span<const double>,
+                                                             std::span<const double>) const;
+template std::vector<double> FluidConstitution<2>::pressures(std::span<const double>,
+                                                             std::span<const double>) const;
+template std::vector<double> FluidConstitution<3>::pressures(std::span<const double>,
+                                                             std::span<const double>) const;
+template std::vector<double> FluidConstitution<1>::temperatures(std::span<const double>,
+                                                                std::span<const double>) const;
+template std::vector<double> FluidConstitution<2>::temperatures(std::span<const double>,
+                                                                std::span<const double>) const;
+template std::vector<double> FluidConstitution<3>::temperatures(std::span<const double>,
+                                                                std::span<const double>) const;
 template const Fluid& SmoothParticles<1>::fluid() const;
 template std::vector<double> SmoothParticles<1>::pressure(std::span<const double>) const;
 template std::vector<double> SmoothParticles<1>::temperature(std::span<const double>) const;

@@ -6,6 +6,7 @@ namespace spam {
 
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
+    if (scheme.work == Work::own) return own_work_sweeps<Dim, Level>(scheme, matter);
     Sweeps<Dim> sweeps = general_sweeps<Dim, Level>(scheme, matter);
     if (scheme.kernel != Kernel::lucy) return sweeps;
     // On a line a fluid's general sweeps are as quick.
@@ -14,7 +15,7 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
     if constexpr (Dim > 1) {
         using Forces = ForceSweeps<LucysSweep, Dim, ArithmeticMean>;
         if (matter == Matter::inviscid) sweeps.force = Forces::inviscid;
-        if (matter == Matter::rubbing) sweeps.force = Forces::rubbing;
+        if (matter == Matter::rubbing) sweeps.force = Forces::template rubbing<>;
     }
     if (matter != Matter::solid || scheme.mean_density != MeanDensityKind::arithmetic)
         return sweeps;

@@ -29,6 +29,10 @@ class SolidConstitution final : public Constitution<Dim> {
             throw InputError(
                 "transport: shifting would leave the stress of a solid, which remembers where its "
                 "particle has been, at wrong places; use --transport plain, average or monaghan");
+        if (scheme.work == Work::own)
+            throw InputError(
+                "work: own is for fluids, whose pressure falls with their energy; the stress of a "
+                "solid is its own and does work whatever its energy; use --work mean");
     }
     Matter matter(const Scheme&) const override { return Matter::solid; }
     bool central(const Scheme&) const override { return false; }

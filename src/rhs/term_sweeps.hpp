@@ -26,6 +26,10 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter);
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter);
 
+/// The same of rubbing and conducting matter for schemes with Work::own.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> own_work_sweeps(const Scheme& scheme, Matter matter);
+
 /// Ranges that follow the density, of RangeRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> own_range_sweeps();

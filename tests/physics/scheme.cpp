@@ -23,6 +23,24 @@ BOOST_AUTO_TEST_CASE(combinations_without_meaning_are_refused) {
         (Scheme{.density = Density::chain_rule, .transport = Transport::average}.validate(3)));
 }
 
+BOOST_AUTO_TEST_CASE(work_of_the_own_stress_is_refused_where_forces_belong_to_none) {
+    const Scheme own{.work = Work::own};
+    for (const int dim : {1, 2, 3}) BOOST_CHECK_NO_THROW(own.validate(dim));
+    Scheme scheme = own;
+    scheme.angular_momentum = AngularMomentum::gauss;  // keeps the energy by itself
+    BOOST_CHECK_NO_THROW(scheme.validate(2));
+    for (const auto law : {AngularMomentum::torque_pair, AngularMomentum::torque_particle}) {
+        scheme.angular_momentum = law;
+        BOOST_CHECK_THROW(scheme.validate(2), InputError);
+    }
+    scheme = own;
+    scheme.transport = Transport::shifting;
+    BOOST_CHECK_THROW(scheme.validate(2), InputError);
+    BOOST_TEST((own.describe().find("work of the own pressure") != std::string::npos));
+    BOOST_TEST((Scheme{}.describe().find("work") == std::string::npos));
+    BOOST_TEST((own.promises(2).energy == Promise::integrator_error));
+}
+
 BOOST_AUTO_TEST_CASE(shifting_goes_with_few_others) {
     const Scheme shifted{.transport = Transport::shifting};
     BOOST_CHECK_NO_THROW(shifted.validate(1));

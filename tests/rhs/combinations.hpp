@@ -87,6 +87,11 @@ inline const std::map<std::string, Build> with_scheme{
      }},
     {"SmoothParticles, gas",
      [](Sample& s, const Scheme& scheme) { add_fluid(s, {IdealGas{}}, scheme); }},
+    {"SmoothParticles, gas, friction and work of its own stress",
+     [](Sample& s, Scheme scheme) {
+         scheme.work = Work::own;
+         add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}}, scheme);
+     }},
     {"SmoothParticles, fluid with friction and conduction", [](Sample& s, const Scheme& scheme) {
          add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}, FourierConduction{0.2}}, scheme);
      }}};

@@ -119,11 +119,18 @@ std::vector<Law> laws() {
     Fluid water{IdealGas{}, NewtonViscosity{0.1, 0.3}, FourierConduction{0.4}};
     Fluid rubbing = water;
     rubbing.by_pairs = true;
-    Scheme viscous = scheme;
+    const Fluid inviscid{IdealGas{}};
+    Scheme viscous = scheme, own_by_pairs = scheme;
     viscous.viscosity = 1.0;
+    own_by_pairs.work = Work::own;
+    Scheme own = viscous;
+    own.work = Work::own;
     auto potentials = every_potential();
     potentials.range = range;
     return {{"gradients", built<FluidModel<2>>(water, viscous), false, true},
+            {"own work", built<FluidModel<2>>(inviscid, own), true, false},
+            {"own work of friction", built<FluidModel<2>>(water, own), false, true},
+            {"own work, pairs", built<FluidModel<2>>(rubbing, own_by_pairs), false, true},
             {"pairs", built<FluidModel<2>>(rubbing, scheme), false, true},
             {"solid", built<SmoothParticleModel<2>>(ElasticSolid{0.7, 0.4}, summed), false, false},
             {"own ranges",

@@ -15,7 +15,8 @@ enum class FluidMutation {
     printed_work,     ///< [HH07] 4 prints e_dot with the sign that cools what is compressed
     work_not_shared,  ///< [HH01] eq 14 without its factor 1/2
     heat_of_one,      ///< only Q_i, not Q_j: what leaves one particle does not arrive at another
-    wrong_mass        ///< the particle's own mass in place of its partner's
+    partners_work,  ///< Work::own with the partner's stress: keeps the energy, and cools what is cold
+    wrong_mass      ///< the particle's own mass in place of its partner's
 };
 
 /// The rates of FluidModel by loops over all pairs, straight from the formulas of FluidModel, in
@@ -63,7 +64,8 @@ std::vector<double> fluid_rates(const FluidModel<Dim>& model, std::span<const do
                                     ? 0.5 * (rho[k] + rho[l])
                                     : std::sqrt(rho[k] * rho[l]);
             const Point<Dim> g = grad_w(separation(i, j));
-            grad_v += m(j) / mean * g * (s.velocity().col(j) - s.velocity().col(i)).transpose();
+            const double divisor = scheme.work == Work::own ? rho[k] : mean;
+            grad_v += m(j) / divisor * g * (s.velocity().col(j) - s.velocity().col(i)).transpose();
             grad_T += m(j) / mean * (T[l] - T[k]) * g;
         }
         P[k] = fluid.state.pressure(rho[k], s.energy()(0, i)) * Tensor::Identity();
@@ -88,7 +90,12 @@ std::vector<double> fluid_rates(const FluidModel<Dim>& model, std::span<const do
             const double half = mutation == FluidMutation::printed_work      ? -0.5
                                 : mutation == FluidMutation::work_not_shared ? 1.0
                                                                              : 0.5;
-            rate.energy()(0, i) += half * m_j * f.dot(v_ij);
+            const bool partners = mutation == FluidMutation::partners_work;
+            const Point<Dim> shared =
+                scheme.work == Work::mean
+                    ? f
+                    : Point<Dim>(2.0 * (partners ? P[l] / rho_j : P[k] / rho_i) * g);
+            rate.energy()(0, i) += half * m_j * shared.dot(v_ij);
             const Point<Dim> q = mutation == FluidMutation::heat_of_one
                                      ? Point<Dim>(Q[k] / rho_i)
                                      : Point<Dim>(Q[k] / rho_i + Q[l] / rho_j);

@@ -45,4 +45,21 @@ struct EitherMean {
     }
 };
 
+/// rho_i in place of a mean, from the same records: then (grad v)_i is the gradient by which the stress of i
+/// does its work (Work::own), so that friction heats every particle, by sigma : grad v/rho >= 0.
+struct OwnDensity {
+    static constexpr double factor = 1.0;
+
+    double arithmetic = 1.0, geometric = 0.0;
+
+    static OwnDensity of(MeanDensityKind kind) {
+        if (kind == MeanDensityKind::arithmetic) return {};
+        return {0.0, 1.0};
+    }
+    template <class T>
+    T over(const T& number, const T& g_i, const T&) const {
+        return number * (T(arithmetic) / g_i + T(geometric) * (g_i * g_i));
+    }
+};
+
 }  // namespace spam

@@ -18,6 +18,8 @@ enum class MeanDensityKind { arithmetic, geometric };
 enum class AngularMomentum { free, gauss, torque_particle, torque_pair };
 enum class Balance { body, global };      ///< what keeps an angular momentum of its own
 enum class GaussSingular { skip, stop };  ///< where Gauss' principle has no solution
+/// Whose stress does the work that changes a particle's energy: the mean of both of a pair, or its own.
+enum class Work { mean, own };
 
 /// How well an invariant is kept by the equations themselves.
 enum class Promise {
@@ -54,6 +56,8 @@ struct Scheme {
     Balance balance = Balance::body;
     /// --gauss-singular
     GaussSingular gauss_singular = GaussSingular::skip;
+    /// --work; other than `mean` for gases and other fluids with a temperature only.
+    Work work = Work::mean;
     double viscosity = 0.0;  ///< von Neumann's artificial viscosity: alpha; 0 without
     /// Of Transport::shifting: its coefficient by sound speed at rest times range (physics/shifting.hpp).
     double shifting = 1.0;
@@ -94,6 +98,7 @@ std::string_view to_string(MeanDensityKind);
 std::string_view to_string(AngularMomentum);
 std::string_view to_string(Balance);
 std::string_view to_string(GaussSingular);
+std::string_view to_string(Work);
 std::string_view to_string(Promise);
 
 }  // namespace spam

@@ -146,7 +146,7 @@ class Scheme:
     def range(self) -> Optional[float]: ...
     def __init__(self, *, density: str = "continuity", transport: str = "plain",
                  mean_density: str = "arithmetic", angular_momentum: str = "free", balance: str = "body",
-                 gauss_singular: str = "skip", viscosity: float = 0.0, shifting: float = 1.0,
+                 gauss_singular: str = "skip", work: str = "mean", viscosity: float = 0.0, shifting: float = 1.0,
                  closest_approach: float = 0.0, kernel: str = "lucy", range: Optional[float] = None) -> None: ...
 
 class Gravity:
