@@ -57,6 +57,7 @@ const std::map<std::string, Words> runs{
     {"plastic_block", {"--checkpoint-every", "1.7"}},
     {"sheared_square", {"--cells", "12", "--checkpoint-every", "7"}},
     {"shock_tube", {"--cells", "200", "--t-end", "0.1", "--single", "--checkpoint-every", "0.007"}},
+    {"blast", {"--cells", "24", "--checkpoint-every", "0.03"}},
     {"string_phase", {"--t-end", "50", "--checkpoint-every", "7"}},
     {"taylor_green", {"--cells", "14", "--t-end", "120", "--checkpoint-every", "17"}},
     {"taylor_bar", {"--particles-per-radius", "2", "--t-end", "20", "--checkpoint-every", "1.7"}},
