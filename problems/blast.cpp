@@ -147,6 +147,7 @@ int main(int argc, char** argv) {
     using namespace blast;
     Problem problem("blast", "a plane blast against Sedov's exact solution", 0.001,
                     "0.05 spacings by the speed of sound in the hot gas");
+    problem.units(reduced_units("the edge of the quarter, the density of the gas and the energy"));
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "particles along an edge of the quarter that is computed",
