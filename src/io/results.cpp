@@ -77,7 +77,7 @@ nlohmann::ordered_json json_of(const std::vector<Drift>& drifts) {
 }
 
 /// The unit of each kind of number by its name, or what is 1: {"reduced": "the mass of a particle, ..."}.
-nlohmann::ordered_json json_of(const Units& units, int dim) {
+nlohmann::ordered_json json_of(const UnitNames& units, int dim) {
     auto all = nlohmann::ordered_json::object();
     if (!units.reduced.empty()) all["reduced"] = "1 is " + units.reduced;
     for (const auto& [kind, unit] : units.table(dim)) all[kind] = unit;

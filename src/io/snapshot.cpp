@@ -42,7 +42,7 @@ std::vector<std::uint32_t> vertices(const Model<Dim>& model) {
 /// Every field of the elements, by the names of the fields. VTK counts the points that are cells first.
 template <int Dim>
 void add_element_arrays(VtkAppended& file, const Model<Dim>& model, const ConstState<Dim>& state,
-                        std::size_t points, const Units& units) {
+                        std::size_t points, const UnitNames& units) {
     const std::size_t cells = points + model.quadrilaterals().size();
     file.open("CellData");
     file.integers("element", cells, [&](std::size_t k, int) {
@@ -65,7 +65,7 @@ void add_element_arrays(VtkAppended& file, const Model<Dim>& model, const ConstS
 
 template <int Dim>
 void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const double> y,
-                const Points<Dim>& x, const std::vector<double>& density, const Units& units) {
+                const Points<Dim>& x, const std::vector<double>& density, const UnitNames& units) {
     const ConstState<Dim> state(model.layout(), y);
     const auto& particles = model.particles();
     const std::size_t n = particles.size();
@@ -121,7 +121,7 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
 
 template <int Dim>
 void write_snapshot(std::ostream& out, const Model<Dim>& model, double t, std::span<const double> y,
-                    const Units& units) {
+                    const UnitNames& units) {
     const auto density = model.density(y);
     const Points<Dim> x = model.box().wrapped(ConstState<Dim>(model.layout(), y).position());
     VtkAppended::write(

@@ -19,7 +19,7 @@ const char* made_of(const std::string& invariant) {
 }  // namespace
 
 bool draw_invariants(const RunFolder& folder, const History& history, std::string title,
-                     const Units& units, int dim) {
+                     const UnitNames& units, int dim) {
     std::replace(title.begin(), title.end(), '_', ' ');
     const auto t = history.column("t");
     const std::string time = units.reduced.empty() ? units.axis("t", "t", dim) : "t, reduced units";

@@ -79,7 +79,7 @@ Problem::Problem(std::string name, std::string summary, double default_dt, std::
 
 Problem::~Problem() = default;
 
-void Problem::units(Units units) {
+void Problem::units(UnitNames units) {
     units_ = std::move(units);
     options_.unit({"t-end", "output-every", "snapshot-every", "checkpoint-every", "dt", "min-step",
                    "max-step", "initial-step"},

@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(elements_have_their_corners_and_fields) {
     const auto y = test::random_elements(*model, 0.1);
     {
         const RunFolder folder(scratch / "out", false);
-        const Units named{.length = "mm", .mass = "g", .time = "µs"};  // in the arrays' tags
+        const UnitNames named{.length = "mm", .mass = "g", .time = "µs"};  // in the arrays' tags
         SnapshotSeries<2>(folder, *model, named).add(0.0, y);
     }
     const view::Results results = view::read_results(scratch / "out");

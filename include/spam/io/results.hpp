@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/units.hpp>
+#include <spam/core/unit_names.hpp>
 #include <spam/diagnostics/drift.hpp>
 #include <spam/io/run_folder.hpp>
 
@@ -34,7 +34,7 @@ struct RunStatistics {
     /// Name of the problem.
     std::string problem;
     /// Of its numbers, and in how many dimensions they are.
-    Units units{};
+    UnitNames units{};
     int dim = 2;
     /// N of the first run.
     std::size_t particles = 0;

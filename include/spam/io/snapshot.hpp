@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/units.hpp>
+#include <spam/core/unit_names.hpp>
 #include <spam/io/run_folder.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -27,7 +27,7 @@ void write_file_series(const RunFolder& folder, std::string_view name,
 template <int Dim>
 class SnapshotSeries {
   public:
-    SnapshotSeries(const RunFolder& folder, const Model<Dim>& model, Units units = {})
+    SnapshotSeries(const RunFolder& folder, const Model<Dim>& model, UnitNames units = {})
         : folder_(folder),
           model_(model),
           units_(std::move(units)) {}
@@ -44,7 +44,7 @@ class SnapshotSeries {
   private:
     RunFolder folder_;
     const Model<Dim>& model_;
-    Units units_;
+    UnitNames units_;
     std::vector<std::pair<double, std::string>> files_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/units.hpp>
+#include <spam/core/unit_names.hpp>
 #include <spam/io/options.hpp>
 #include <spam/io/run_folder.hpp>
 #include <spam/physics/scheme.hpp>
@@ -54,7 +54,7 @@ class Problem {
     Options& options() { return options_; }
 
     /// The units of its numbers, for --help, the first lines of a run, rows, snapshots and pictures.
-    void units(Units units);
+    void units(UnitNames units);
 
     /// Adds the scheme and kernel options; `standard` holds their defaults.
     void use_scheme(const Scheme& standard = {});
@@ -73,7 +73,7 @@ class Problem {
     void add_guard_options();
 
     std::string name_, summary_;
-    Units units_;
+    UnitNames units_;
     IntegratorSettings integrator_;
     Options options_;
     CommonOptions common_;

@@ -94,7 +94,7 @@ class Session {
     void check_promises(const RunRecord& record, const std::string& prefix = "");
 
     /// As the problem declared them.
-    const Units& units() const { return problem_.units_; }
+    const UnitNames& units() const { return problem_.units_; }
     /// For lines of a problem's own.
     Terminal& terminal() { return terminal_; }
     /// The folder of pictures; precondition: a run has begun and plots() is true.

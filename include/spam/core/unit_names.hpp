@@ -9,7 +9,7 @@
 namespace spam {
 
 /// Names of the units in which a run's numbers are. The numbers themselves know nothing of it.
-struct Units {
+struct UnitNames {
     /// "mm", "g", "µs". Empty: nothing is known of the units, or they are reduced.
     std::string length, mass, time;
     /// Names, where they have some, of mass/(length time^2) and mass length^2/time^2 (in space).
@@ -34,6 +34,6 @@ struct Units {
 };
 
 /// Of numbers that are ratios to what is 1: `what_is_one` completes "1 is ...".
-Units reduced_units(std::string what_is_one);
+UnitNames reduced_units(std::string what_is_one);
 
 }  // namespace spam

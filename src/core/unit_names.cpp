@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/units.hpp>
+#include <spam/core/unit_names.hpp>
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ std::string with_power(const std::string& name, int power) {
 
 }  // namespace
 
-std::string Units::of(std::string_view made_of, int dim) const {
+std::string UnitNames::of(std::string_view made_of, int dim) const {
     Powers powers = powers_of(made_of, dim);
     if (!named() || powers == Powers{}) return {};
     if (of_unit_thickness) powers[1] -= powers[0];
@@ -70,12 +70,12 @@ std::string Units::of(std::string_view made_of, int dim) const {
                        above.empty() ? std::string("1") : above, below);
 }
 
-std::string Units::axis(std::string_view quantity, std::string_view made_of, int dim) const {
+std::string UnitNames::axis(std::string_view quantity, std::string_view made_of, int dim) const {
     const std::string unit = of(made_of, dim);
     return unit.empty() ? std::string(quantity) : fmt::format("{}, {}", quantity, unit);
 }
 
-std::vector<std::pair<std::string, std::string>> Units::table(int dim) const {
+std::vector<std::pair<std::string, std::string>> UnitNames::table(int dim) const {
     std::vector<std::pair<std::string, std::string>> all;
     if (!named()) return all;
     for (const auto& [name, made_of] : {std::pair{"length", "l"},
@@ -92,7 +92,7 @@ std::vector<std::pair<std::string, std::string>> Units::table(int dim) const {
     return all;
 }
 
-std::string Units::describe() const {
+std::string UnitNames::describe() const {
     if (!named())
         return reduced.empty() ? std::string("those of its numbers") : "reduced: 1 is " + reduced;
     return fmt::format("{}, {}{}, {}; stress {}, speed {}", length, mass,
@@ -100,8 +100,8 @@ std::string Units::describe() const {
                        time, of("m l^(2-D)/t^2", of_unit_thickness ? 2 : 3), of("l/t", 3));
 }
 
-Units reduced_units(std::string what_is_one) {
-    Units units;
+UnitNames reduced_units(std::string what_is_one) {
+    UnitNames units;
     units.reduced = std::move(what_is_one);
     return units;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names of units: made of three, as fields say what they are made of.
 #include <spam/core/field.hpp>
-#include <spam/core/units.hpp>
+#include <spam/core/unit_names.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -9,11 +9,11 @@ using namespace spam;
 
 namespace {
 
-const Units bar{.length = "mm", .mass = "g", .time = "µs", .stress = "TPa", .energy = "kJ"};
-const Units plate{
+const UnitNames bar{.length = "mm", .mass = "g", .time = "µs", .stress = "TPa", .energy = "kJ"};
+const UnitNames plate{
     .length = "m", .mass = "kg", .time = "s", .stress = "Pa", .of_unit_thickness = true};
 
-std::string of(const Units& units, Field field, int dim) { return units.of(field.unit(), dim); }
+std::string of(const UnitNames& units, Field field, int dim) { return units.of(field.unit(), dim); }
 
 }  // namespace
 
@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(names_of_fields) {
     BOOST_TEST(bar.of("1", 3) == "");
     BOOST_TEST(bar.of("t", 3) == "µs");
     BOOST_TEST(bar.of("m/l^D", 2) == "g/mm²");
-    Units plain = bar;
+    UnitNames plain = bar;
     plain.stress = plain.energy = "";
     BOOST_TEST(of(plain, Field::stress, 3) == "g/(mm µs²)");
 }
@@ -45,12 +45,12 @@ BOOST_AUTO_TEST_CASE(a_plate_of_unit_thickness) {
 }
 
 BOOST_AUTO_TEST_CASE(units_without_names) {
-    const Units reduced = reduced_units("the mass of a particle");
+    const UnitNames reduced = reduced_units("the mass of a particle");
     BOOST_TEST(of(reduced, Field::stress, 2) == "");
     BOOST_TEST(reduced.axis("t", "t", 2) == "t");
     BOOST_TEST(bar.axis("t", "t", 3) == "t, µs");
     BOOST_TEST(reduced.describe() == "reduced: 1 is the mass of a particle");
-    BOOST_TEST(!Units{}.declared());
+    BOOST_TEST(!UnitNames{}.declared());
     BOOST_TEST(reduced.declared());
     BOOST_TEST(reduced.table(2).empty());
 }
