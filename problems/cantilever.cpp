@@ -102,7 +102,7 @@ void add_options(Options& options, Parameters& p) {
     options.number("thickness", p.beam.thickness, "its thickness", positive()).unit("m");
     options.integer("layers", p.layers, "rows of particles over the thickness", between(3, 200));
     options.number("young", p.beam.young, "Young's modulus", positive()).unit("Pa");
-    options.number("poisson", p.beam.poisson, "Poisson's ratio", between(0.0, 0.499));
+    options.number("poisson", p.beam.poisson, "Poisson's ratio", between(-0.9, 0.499));
     options.number("density", p.beam.density, "density", positive()).unit("kg/m^3");
     options.number("speed", p.speed, "speed of the tip at the start, by sqrt(K/rho)", positive());
     options.number("gravity", p.gravity, "acceleration downwards", any_number()).unit("m/s^2");

@@ -83,7 +83,7 @@ void report(Session& session, const Parameters& p, const Convection& gas, const 
 double step_of(const Convection& gas) {
     const Layer standard;
     return std::min(0.2 * std::min(1.0, std::sqrt(standard.hot / gas.layer.hot)),
-                    1.5 / gas.model->fastest_damping());
+                    1.5 / gas.model->fastest_damping(gas.y0));
 }
 
 void run_one(Session& session, const Parameters& p) {

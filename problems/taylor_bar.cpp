@@ -47,7 +47,8 @@ struct Drawn {
 Plan<3> plan_of(const Session& session, const Parameters& p, const Bar& bar,
                 std::vector<Drawn>& drawn) {
     Plan<3> plan;
-    plan.t_end = (session.common().smoke ? 4.0 : 80.0) * (p.time() / Parameters{}.time());
+    plan.t_end = session.common().t_end.value_or((session.common().smoke ? 4.0 : 80.0) *
+                                                 (p.time() / Parameters{}.time()));
     plan.output_every = plan.t_end / 80.0;
     plan.snapshot_every = plan.t_end / 4.0;
     const auto now = std::make_shared<BarShape>();
@@ -146,7 +147,7 @@ int main(int argc, char** argv) {
     options.number("aspect", p.aspect, "length of the bar by its radius", between(2.0, 100.0));
     options.number("speed", p.speed, "of the bar", between(0.0, 1000.0)).unit("m/s");
     options.number("young", p.young, "Young's modulus", positive()).unit("GPa");
-    options.number("poisson", p.poisson, "Poisson's ratio", between(0.0, 0.49));
+    options.number("poisson", p.poisson, "Poisson's ratio", between(-0.9, 0.49));
     options.number("density", p.density, "of the bar", positive()).unit("kg/m^3");
     options.number("yield-stress", p.yield_stress, "yield stress", positive()).unit("GPa");
     options

@@ -119,7 +119,7 @@ void Arkode::set_step_control() {
     check(calls_->set_controller(memory_, options_.controller, context_.get(), controller_),
           "SetController");
     check(calls_->set_most_rejections(memory_, most_rejections), "SetMaxErrTestFails");
-    check(calls_->set_min_step(memory_, options_.min_step), "SetMinStep");
+    check(calls_->set_min_step(memory_, *options_.min_step), "SetMinStep");
     if (options_.max_step) check(calls_->set_max_step(memory_, *options_.max_step), "SetMaxStep");
     if (options_.initial_step)
         check(calls_->set_init_step(memory_, *options_.initial_step), "SetInitStep");
@@ -166,7 +166,7 @@ std::string Arkode::reason_of(int flag) {
         estimate_errors();
         double h = 0.0;
         calls_->current_step(memory_, &h);
-        message = rejected_too_often(h, options_.min_step, shares_.in_words());
+        message = rejected_too_often(h, *options_.min_step, shares_.in_words());
     }
     if (failure_.empty() && is_failed_relaxation(flag))
         message = "no step was found whose rescaling keeps the energy; leave --relaxation out";

@@ -61,7 +61,7 @@ void Cvode::create() {
     check(CVodeSetNonlinearSolver(memory_, solver_->solver), "SetNonlinearSolver");
     check(CVodeSetMaxErrTestFails(memory_, most_rejections), "SetMaxErrTestFails");
     check(CVodeSetMaxConvFails(memory_, most_rejections), "SetMaxConvFails");
-    check(CVodeSetMinStep(memory_, options_.min_step), "SetMinStep");
+    check(CVodeSetMinStep(memory_, *options_.min_step), "SetMinStep");
     if (options_.max_step) check(CVodeSetMaxStep(memory_, *options_.max_step), "SetMaxStep");
     if (options_.initial_step)
         check(CVodeSetInitStep(memory_, *options_.initial_step), "SetInitStep");
@@ -101,11 +101,11 @@ void Cvode::stop(int flag) {
     CVodeGetCurrentStep(memory_, &h);
     if (message.empty() && flag == CV_ERR_FAILURE) {
         estimate_errors();
-        message = rejected_too_often(h, options_.min_step, shares_.in_words());
+        message = rejected_too_often(h, *options_.min_step, shares_.in_words());
     } else if (message.empty() && flag == CV_CONV_FAILURE) {
         message = fmt::format(
             "the corrector did not converge, the step fell to {:.3g} (least allowed {:.3g})", h,
-            options_.min_step);
+            *options_.min_step);
     } else if (message.empty()) {
         message = messages_.text();
     }

@@ -44,8 +44,8 @@ double GslAdaptive::first_step() {
         size = std::max(size, std::abs(y[k]) / allowed);
         rate = std::max(rate, std::abs(f[k]) / allowed);
     }
-    const double h = size > 0.0 && rate > 0.0 ? 0.01 * size / rate : 1e-6;
-    return std::max(multistep_ ? 0.01 * h : h, options_.min_step);
+    const double h = size > 0.0 && rate > 0.0 ? 0.01 * size / rate : 1e-6 * ode_.time_scale;
+    return std::max(multistep_ ? 0.01 * h : h, *options_.min_step);
 }
 
 void GslAdaptive::estimate_errors() {
@@ -59,13 +59,14 @@ void GslAdaptive::estimate_errors() {
 void GslAdaptive::reject(bool meaningful, double tried) {
     ++statistics_.rejected_steps;
     if (!meaningful) h_ = 0.5 * tried;
-    if (h_ >= options_.min_step && h_ < tried) return;
+    if (h_ >= *options_.min_step && h_ < tried) return;
     const std::string reason = ode_.failure();
     if (!reason.empty()) throw GuardStop(fmt::format("{} at t = {:.6g}", reason, t_));
     if (!meaningful) guard(std::as_const(z_).span(), t_ + tried);
     estimate_errors();
     throw GuardStop(fmt::format("{} at t = {:.6g} (GSL)",
-                                rejected_too_often(h_, options_.min_step, shares_.in_words()), t_));
+                                rejected_too_often(h_, *options_.min_step, shares_.in_words()),
+                                t_));
 }
 
 /// Takes a step from (t, y) into z, as long as the control allows.

@@ -58,14 +58,14 @@ void validate_control(const IntegratorOptions& options) {
     if (options.safety && !(*options.safety > 0.0 && *options.safety < 1.0))
         throw InputError(fmt::format("safety: {} must be above 0 and below 1; try --safety 0.9",
                                      *options.safety));
-    require_positive("min-step", options.min_step, "try --min-step 1e-12");
+    if (options.min_step) require_positive("min-step", *options.min_step, "try --min-step 1e-12");
     for (const auto& [option, value] : {std::pair{"max-step", options.max_step},
                                         std::pair{"initial-step", options.initial_step}}) {
         if (!value) continue;
         require_positive(option, *value, "give a time");
-        if (*value < options.min_step)
+        if (options.min_step && *value < *options.min_step)
             throw InputError(fmt::format("{}: {} is below --min-step {}; make one of them fit",
-                                         option, *value, options.min_step));
+                                         option, *value, *options.min_step));
     }
     if (options.max_step && options.initial_step && *options.initial_step > *options.max_step)
         throw InputError(
@@ -99,8 +99,7 @@ std::string IntegratorOptions::describe() const {
     if (!controller.empty()) more += ", controller " + controller;
     if (safety) more += fmt::format(", safety {:g}", *safety);
     if (initial_step) more += fmt::format(", first step {:g}", *initial_step);
-    if (min_step != IntegratorOptions{}.min_step)
-        more += fmt::format(", least step {:g}", min_step);
+    if (min_step) more += fmt::format(", least step {:g}", *min_step);
     if (max_step) more += fmt::format(", longest step {:g}", *max_step);
     if (relaxation) more += ", rescaled to keep the energy";
     return fmt::format("{}, adaptive, rtol = {:g}, atol = {:g} x field scale{}{}", method, rtol,

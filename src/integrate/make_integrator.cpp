@@ -59,6 +59,10 @@ std::unique_ptr<Integrator> make_integrator(const IntegratorOptions& options, co
     if (options.relaxation) require_energy(ode);
     IntegratorOptions resolved = options;
     resolved.method = method.name;
+    if (!resolved.min_step)  // what is asked for goes first
+        resolved.min_step =
+            std::min({1e-12 * ode.time_scale, options.max_step.value_or(ode.time_scale),
+                      options.initial_step.value_or(ode.time_scale)});
     auto integrator = make(resolved, ode, y, t0, context);
     if (options.max_steps) integrator->allow_steps(*options.max_steps);
     return integrator;

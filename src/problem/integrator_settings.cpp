@@ -69,7 +69,8 @@ void IntegratorSettings::add_to(Options& options) {
                    "safety factor of ARKODE's step-size controller (default 0.96)", positive());
     options.number(
         "min-step", min_step_,
-        "smallest adaptive step; the run stops where it would need a smaller one (default 1e-12)",
+        "smallest adaptive step; the run stops where it would need a smaller one (default: 1e-12 of "
+        "the time in which the fastest particle or sound passes a spacing)",
         positive());
     options.number("max-step", max_step_, "largest adaptive step", positive());
     options.number("initial-step", initial_step_, "first adaptive step", positive());
@@ -112,7 +113,7 @@ void IntegratorSettings::fill(IntegratorOptions& integrator) {
             integrator.field_atol.push_back({std::string(fields[k].name()), *atol});
     integrator.controller = controller_;
     integrator.safety = safety_;
-    if (min_step_) integrator.min_step = *min_step_;
+    integrator.min_step = min_step_;
     integrator.relaxation = relaxation_;
     integrator.max_step = max_step_;
     integrator.initial_step = initial_step_;
@@ -126,11 +127,13 @@ bool IntegratorSettings::prefer_step(double dt, const Options& options) {
 }
 
 void refuse_endless(const IntegratorOptions& integrator, double t_end) {
-    if (integrator.dt && !(t_end / *integrator.dt <= 1e9))
-        throw InputError(fmt::format(
-            "dt: {} would take {:.0e} steps to t = {:g}; end earlier (t-end), or choose "
-            "a larger dt where the motion allows it",
-            *integrator.dt, t_end / *integrator.dt, t_end));
+    for (const auto& [option, step] :
+         {std::pair{"dt", integrator.dt}, std::pair{"max-step", integrator.max_step}})
+        if (step && !(t_end / *step <= 1e9))
+            throw InputError(fmt::format(
+                "{}: {} would take {:.0e} steps to t = {:g}; end earlier (t-end), or choose a "
+                "larger {} where the motion allows it",
+                option, *step, t_end / *step, t_end, option));
 }
 
 IntegratorOptions IntegratorSettings::resolve(Options& options) {

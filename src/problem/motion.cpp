@@ -40,6 +40,7 @@ Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pai
             return fmt::format("{} of element {}", name, entry.number);
         return fmt::format("{} of particle {}", name, model.particles().id[entry.number]);
     };
+    ode.time_scale = model.time_scale();
     ode.events = model.events();
     if (model.settles())
         ode.settle = [&model](double t, std::span<double> y) { return model.settle(t, y); };

@@ -51,11 +51,9 @@ std::vector<double> fluid_start(Model<Dim>& model, const LawOf& law_of, const Po
         most = std::max(most, std::abs(e));
         mean += rho[i] / static_cast<double>(rho.size());
     }
-    if (!(fastest > 0.0)) fastest = 1.0;
-    model.layout().set_scale(Field::position, model.particles().spacing);
-    model.layout().set_scale(Field::velocity, fastest);
+    if (!(fastest > 0.0)) fastest = 1.0;  // nothing moves, and nothing will but by externals
+    model.set_scales({model.particles().spacing, fastest, mean, mean * fastest * fastest});
     model.layout().set_scale(Field::energy, std::max(most, fastest * fastest));
-    if (state.has(Field::density)) model.layout().set_scale(Field::density, mean);
     return y;
 }
 

@@ -61,8 +61,16 @@ class Constitution {
     virtual std::optional<double> sound_speed(double density) const = 0;
     /// Of particle i after prepare(); for fluids.
     virtual double sound_speed_of(std::size_t) const { return 0.0; }
-    /// Term::fastest_damping() of friction and conduction.
-    virtual double damping(const GeneralWeight<Dim>&, const RestingBody&) const { return 0.0; }
+    /// The fastest at these densities and energies, of a solid at rest.
+    virtual double fastest_sound(const RestingBody& rest, std::span<const double> /*rho*/,
+                                 std::span<const double> /*e*/) const {
+        return sound_speed(rest.density).value_or(0.0);
+    }
+    /// Term::fastest_damping() of friction and conduction at these densities and energies.
+    virtual double damping(const GeneralWeight<Dim>&, const RestingBody&,
+                           std::span<const double> /*rho*/, std::span<const double> /*e*/) const {
+        return 0.0;
+    }
     /// Term::conducts()
     virtual bool conducts() const { return false; }
     /// Term::neighbour_forces() of the stress, by the spacing.
@@ -101,7 +109,10 @@ class FluidConstitution final : public Constitution<Dim> {
     void set_constants(PassConstants& constants) const override;
     std::optional<double> sound_speed(double density) const override;
     double sound_speed_of(std::size_t i) const override;
-    double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest) const override;
+    double fastest_sound(const RestingBody& rest, std::span<const double> rho,
+                         std::span<const double> e) const override;
+    double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest,
+                   std::span<const double> rho, std::span<const double> e) const override;
     bool conducts() const override {
         const auto does = [](const Fluid& f) { return f.conduction && f.conduction->kappa > 0.0; };
         return std::any_of(fluids_.begin(), fluids_.end(), does);

@@ -2,7 +2,6 @@
 #include "constitution.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/kernel/weight_integrals.hpp>
 #include <spam/physics/fluid_record.hpp>
 #include <spam/physics/mean_density.hpp>
 
@@ -55,6 +54,23 @@ void check_work(const std::vector<Fluid>& fluids, const Scheme& scheme) {
         fluids.front().state.describe()));
 }
 
+/// Whether its forces have parts across r_ij.
+bool has_shear(const Fluid& fluid) {
+    const auto& newton = fluid.viscosity;
+    return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
+}
+
+/// <v> changes the angular momentum, and without shear the torques that are to make up for it are rounding
+/// errors.
+void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
+    if (!scheme.balances_torques() || scheme.transport != Transport::average) return;
+    if (std::any_of(fluids.begin(), fluids.end(), has_shear)) return;
+    throw InputError(fmt::format(
+        "angular-momentum: {} scales what of the forces acts across r_ij, of which a fluid without friction "
+        "has nothing; use --angular-momentum free, or --transport plain or monaghan, which keep it",
+        to_string(scheme.angular_momentum)));
+}
+
 void check_fluid(const Fluid& fluid, int dim) {
     const auto refuse_negative = [](const char* name, double value) {
         if (!(value >= 0.0) || !std::isfinite(value))
@@ -104,6 +120,7 @@ void FluidConstitution<Dim>::check(const Scheme& scheme) const {
     check_pairs(fluids_, scheme);
     check_shifting(fluids_, scheme);
     check_work(fluids_, scheme);
+    check_torques(fluids_, scheme);
 }
 
 /// What neither friction and conduction nor the scheme ask for is left out.
@@ -131,12 +148,8 @@ std::string FluidConstitution<Dim>::describe() const {
 /// shifting without regard to where they go.
 template <int Dim>
 bool FluidConstitution<Dim>::central(const Scheme& scheme) const {
-    const bool stresses = std::any_of(fluids_.begin(), fluids_.end(), [](const Fluid& fluid) {
-        const auto& newton = fluid.viscosity;
-        return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
-    });
-    return !stresses && scheme.transport != Transport::average &&
-           scheme.transport != Transport::shifting;
+    return std::none_of(fluids_.begin(), fluids_.end(), has_shear) &&
+           scheme.transport != Transport::average && scheme.transport != Transport::shifting;
 }
 
 template <int Dim>
@@ -300,29 +313,6 @@ std::optional<double> FluidConstitution<Dim>::sound_speed(double density) const 
 template <int Dim>
 double FluidConstitution<Dim>::sound_speed_of(std::size_t i) const {
     return of(i).state.sound_speed(rho_[i], e_[i]);
-}
-
-/// By the shortest waves felt: momentum diffuses at (2 eta + lambda) k^2/rho or eta k^2/rho, heat at
-/// kappa k^2/(rho c_v), c_v = D/2 of a unit mass. By pairs neighbours that move against each other are
-/// stopped: at twice the sum of F over them.
-template <int Dim>
-double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight,
-                                       const RestingBody& rest) const {
-    const double k = steepest_wave<Dim>(weight);
-    double diffusion = 0.0, of_pairs = 0.0;
-    for (const Fluid& fluid : fluids_) {
-        double& most = fluid.by_pairs ? of_pairs : diffusion;
-        if (const auto& newton = fluid.viscosity; newton && fluid.by_pairs)
-            most = std::max(most, newton->eta - newton->lambda +
-                                      (Dim + 2.0) / Dim * (newton->lambda + newton->eta));
-        else if (newton)
-            most = std::max({most, newton->eta, 2.0 * newton->eta + newton->lambda});
-        if (fluid.conduction)
-            most =
-                std::max(most, 2.0 / Dim * fluid.conduction->kappa * (fluid.by_pairs ? 2.0 : 1.0));
-    }
-    return diffusion * k * k / rest.density +
-           2.0 * of_pairs * rest.slope / (rest.density * rest.density);
 }
 
 template <int Dim>

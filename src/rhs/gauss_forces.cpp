@@ -10,7 +10,7 @@ Vec<2> vector_at(const double* field, std::size_t i) { return {{field[2 * i], fi
 
 }  // namespace
 
-void GaussForces::measure(const Groups& groups, const double* x, const double* v) {
+void GaussForces::measure(const Groups& groups, const double* x, const double* u, const double* v) {
     sums_.assign(groups.count, Sums{});
     const auto each = [&](const auto& body) {
         for (std::size_t i = 0; i < groups.mass.size(); ++i)
@@ -20,6 +20,7 @@ void GaussForces::measure(const Groups& groups, const double* x, const double* v
         s.mass += m;
         for (std::size_t a = 0; a < 2; ++a) {
             s.x[a] += m * x[2 * i + a];
+            s.u[a] += m * u[2 * i + a];
             s.v[a] += m * v[2 * i + a];
         }
     });
@@ -33,11 +34,12 @@ void GaussForces::measure(const Groups& groups, const double* x, const double* v
 
 void GaussForces::constrain(const Groups& groups, const double* x, const double* u, const double* v,
                             double* v_dot) {
-    measure(groups, x, v);
+    measure(groups, x, u, v);
     for (std::size_t i = 0; i < groups.mass.size(); ++i) {
         Sums& s = sums_[static_cast<std::size_t>(groups.group[i])];
-        s.L_dot += groups.mass[i] * (cross(vector_at(u, i), vector_at(v, i)) +
-                                     cross(vector_at(x, i) - s.centre(), vector_at(v_dot, i)));
+        const Vec<2> r = vector_at(x, i) - s.centre(), r_dot = vector_at(u, i) - s.transport(),
+                     w = vector_at(v, i) - s.velocity();
+        s.L_dot += groups.mass[i] * (cross(r_dot, w) + cross(r, vector_at(v_dot, i)));
     }
     multipliers_.clear();
     for (const Sums& s : sums_)

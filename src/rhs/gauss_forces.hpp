@@ -20,11 +20,12 @@ class GaussForces {
 
   private:
     struct Sums {
-        CompensatedSum mass, x[2], v[2], inertia, L, twice_K, L_dot;
+        CompensatedSum mass, x[2], u[2], v[2], inertia, L, twice_K, L_dot;
         Vec<2> centre() const { return {{x[0] / mass, x[1] / mass}}; }
+        Vec<2> transport() const { return {{u[0] / mass, u[1] / mass}}; }
         Vec<2> velocity() const { return {{v[0] / mass, v[1] / mass}}; }
     };
-    void measure(const Groups& groups, const double* x, const double* v);
+    void measure(const Groups& groups, const double* x, const double* u, const double* v);
 
     std::vector<Sums> sums_;
     std::vector<GaussMultipliers> multipliers_;

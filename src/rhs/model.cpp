@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/dimensions.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <fmt/format.h>
@@ -67,6 +68,22 @@ std::string Model<Dim>::inseparable() const {
             block.field != Field::velocity)
             return fmt::format("{} in y changes with the velocity", block.field.name());
     return {};
+}
+
+/// Length, speed and density are the units; where forces are meant, stress in place of density speed^2.
+template <int Dim>
+void Model<Dim>::set_scales(const TypicalValues& typical) {
+    for (const auto& block : layout_.blocks()) {
+        const Dimensions d = dimensions_of(block.field.unit(), Dim);
+        const bool force = d.mass == 1 && d.time == -2;
+        layout_.set_scale(block.field,
+                          whole_power(typical.length, d.length + d.time + Dim * d.mass) *
+                              (force ? typical.stress
+                                     : whole_power(typical.density, d.mass) *
+                                           whole_power(typical.speed, -d.time)));
+    }
+    const double sound = std::sqrt(typical.stress / typical.density);
+    time_scale_ = typical.length / std::max(typical.speed, sound);
 }
 
 template class Model<1>;

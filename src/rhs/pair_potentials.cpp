@@ -45,12 +45,14 @@ PairLaw<Dim> law_of(const CohesivePotential& potential) {
 }
 
 template <int Dim>
-PairLaw<Dim> lucys_law(const Particles<Dim>& particles, double range) {
-    return {
+PairLaw<Dim> lucys_law(const Particles<Dim>& particles, double range, double a) {
+    PairLaw<Dim> law{
         best_sweeps([](auto level) { return lucy_potential_sweeps<Dim, level>(); }),
         valid_range<Dim>(range, particles.spacing, particles.size()),
         fmt::format("molecular dynamics, Lucy's weight function of range {:g} as pair potential",
                     range)};
+    law.constants.core_energy = a;
+    return law;
 }
 
 }  // namespace
@@ -64,8 +66,8 @@ Cohesion<Dim>::Cohesion(const Selection<Dim>& among, const CohesivePotential& po
     : PairTerm<Dim>(among, law_of<Dim>(potential)) {}
 
 template <int Dim>
-LucyPairPotential<Dim>::LucyPairPotential(const Selection<Dim>& among, double range)
-    : PairTerm<Dim>(among, lucys_law<Dim>(among.particles(), range)) {}
+LucyPairPotential<Dim>::LucyPairPotential(const Selection<Dim>& among, double range, double a)
+    : PairTerm<Dim>(among, lucys_law<Dim>(among.particles(), range, a)) {}
 
 template class Core<1>;
 template class Core<2>;

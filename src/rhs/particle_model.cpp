@@ -261,9 +261,9 @@ bool ParticleModel<Dim>::settles_seldom() const {
 }
 
 template <int Dim>
-double ParticleModel<Dim>::fastest_damping() const {
+double ParticleModel<Dim>::fastest_damping(std::span<const double> y) const {
     double damping = 0.0;
-    for (const auto& term : terms_) damping += term->fastest_damping();
+    for (const auto& term : terms_) damping += term->fastest_damping(y);
     for (const auto& external : externals_) damping += external->damping();
     return damping;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How fast viscosity and shifting act, before anything has moved.
+// How fast friction, conduction and shifting act in a state.
 #include "constitution.hpp"
 #include "resting_body.hpp"
 #include "shifting_coefficient.hpp"
@@ -9,38 +9,101 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace spam {
 
-/// Of the body at rest, at its mean density. By the artificial viscosity neighbours that move against
-/// each other, v_ij = 2 v_i, lose their velocity at the rate (2/D) (alpha c l/rho) sum m |w'|/r in the
-/// mean over directions, by half of the pairs: those that approach.
+/// Once: the artificial viscosity's constants, the coefficient of shifting, and the body at rest, at its mean
+/// density, that what is damped is judged by.
 template <int Dim>
-void SmoothParticles<Dim>::estimate_damping() {
-    const GeneralWeight<Dim> general(scheme_.kernel, scheme_.range);
+void SmoothParticles<Dim>::prepare_damping() {
     const Matter matter = constitution_->matter(scheme_);
     const bool friction = matter == Matter::rubbing || sweeps_->gradient != nullptr;
     const bool shifted = scheme_.transport == Transport::shifting;
     if (!(scheme_.viscosity > 0.0) && !friction && !shifted) return;
-    const RestingBody rest = resting_body(this->particles(), this->box(), general);
-    damping_ = constitution_->damping(general, rest);
-    const auto c = constitution_->sound_speed(rest.density);
-    if (shifted) {
-        shifting_ = shifting_coefficient(this->among(), scheme_, rest.density, c);
-        damping_ += shifting_ * fastest_diffusion<Dim>(general);
-    }
+    const GeneralWeight<Dim> weight(scheme_.kernel, scheme_.range);
+    rest_ =
+        std::make_unique<const RestingBody>(resting_body(this->particles(), this->box(), weight));
+    const auto c = constitution_->sound_speed(rest_->density);
+    if (shifted) shifting_ = shifting_coefficient(this->among(), scheme_, rest_->density, c);
     if (!(scheme_.viscosity > 0.0)) return;
     if (!c)
         throw InputError(fmt::format(
             "viscosity: {} needs a sound speed, and the material ({}) has none; give it a "
             "sound_speed(density), or leave --viscosity out",
             scheme_.viscosity, constitution_->describe()));
-    const double length = 0.5 * scheme_.range;
-    damping_ += scheme_.viscosity * *c * length / Dim * rest.slope / rest.density;
-    viscosity_ = {scheme_.viscosity, *c, length};
+    viscosity_ = {scheme_.viscosity, *c, 0.5 * scheme_.range};
 }
 
-template void SmoothParticles<1>::estimate_damping();
-template void SmoothParticles<2>::estimate_damping();
-template void SmoothParticles<3>::estimate_damping();
+/// By the artificial viscosity neighbours that move against each other, v_ij = 2 v_i, lose their velocity
+/// at the rate (2/D) (alpha c l/rho) sum m |w'|/r in the mean over directions, by half of the pairs: those
+/// that approach.
+template <int Dim>
+double SmoothParticles<Dim>::fastest_damping(std::span<const double> y) const {
+    if (!rest_) return 0.0;
+    const GeneralWeight<Dim> weight(scheme_.kernel, scheme_.range);
+    const std::size_t n = this->particles().size();
+    std::vector<double> rho(n, rest_->density), e(n, 0.0);
+    if (!y.empty()) {
+        const auto energy = this->state_of(y).energy();
+        rho = this->densities(y);
+        e.assign(energy.data(), energy.data() + n);
+    }
+    double damping = constitution_->damping(weight, *rest_, rho, e);
+    if (shifting_ > 0.0) damping += shifting_ * fastest_diffusion<Dim>(weight);
+    if (viscosity_.alpha > 0.0)
+        damping += viscosity_.alpha * constitution_->fastest_sound(*rest_, rho, e) *
+                   viscosity_.length / Dim * rest_->slope / rest_->density;
+    return damping;
+}
+
+template <int Dim>
+double FluidConstitution<Dim>::fastest_sound(const RestingBody&, std::span<const double> rho,
+                                             std::span<const double> e) const {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < rho.size(); ++i)
+        fastest = std::max(fastest, of(i).state.sound_speed(rho[i], e[i]));
+    return fastest;
+}
+
+/// By the shortest waves felt: momentum diffuses at (2 eta + lambda) k^2/rho or eta k^2/rho, heat at
+/// kappa k^2/(rho c_v). By pairs neighbours that move against each other are stopped: at twice the sum of F
+/// over them.
+template <int Dim>
+double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, const RestingBody& rest,
+                                       std::span<const double> rho,
+                                       std::span<const double> e) const {
+    const double k = steepest_wave<Dim>(weight);
+    double diffusion = 0.0, of_pairs = 0.0;
+    for (const Fluid& fluid : fluids_) {
+        double& most = fluid.by_pairs ? of_pairs : diffusion;
+        if (const auto& newton = fluid.viscosity; newton && fluid.by_pairs)
+            most = std::max(most, newton->eta - newton->lambda +
+                                      (Dim + 2.0) / Dim * (newton->lambda + newton->eta));
+        else if (newton)
+            most = std::max({most, newton->eta, 2.0 * newton->eta + newton->lambda});
+    }
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+        const Fluid& fluid = of(i);
+        if (!fluid.conduction) continue;
+        const double per_heat = 1.0 / fluid.state.heat_capacity(rho[i], e[i]);
+        double& most = fluid.by_pairs ? of_pairs : diffusion;
+        most = std::max(most, per_heat * fluid.conduction->kappa * (fluid.by_pairs ? 2.0 : 1.0));
+    }
+    return diffusion * k * k / rest.density +
+           2.0 * of_pairs * rest.slope / (rest.density * rest.density);
+}
+
+#define SPAM_INSTANTIATE(D)                                                                    \
+    template void SmoothParticles<D>::prepare_damping();                                       \
+    template double SmoothParticles<D>::fastest_damping(std::span<const double>) const;        \
+    template double FluidConstitution<D>::fastest_sound(                                       \
+        const RestingBody&, std::span<const double>, std::span<const double>) const;           \
+    template double FluidConstitution<D>::damping(const GeneralWeight<D>&, const RestingBody&, \
+                                                  std::span<const double>,                     \
+                                                  std::span<const double>) const;
+SPAM_INSTANTIATE(1)
+SPAM_INSTANTIATE(2)
+SPAM_INSTANTIATE(3)
 
 }  // namespace spam

@@ -74,7 +74,7 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
         torques_ = std::make_unique<TorqueFactors>(n, law);
         if (sweeps_->gradient != nullptr) heat_.resize(n);
     }
-    estimate_damping();
+    prepare_damping();
     set_bodies();
 }
 

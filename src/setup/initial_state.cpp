@@ -2,6 +2,7 @@
 #include <spam/setup/initial_state.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace spam {
 
@@ -20,12 +21,8 @@ std::vector<double> initial_state(Model<Dim>& model, double density, double modu
     }
     if (state.has(Field::density)) state.density().setConstant(density);
 
-    const double speed_scale = speed > 0.0 ? speed : 1.0;
-    model.layout().set_scale(Field::position, model.particles().spacing);
-    model.layout().set_scale(Field::velocity, speed_scale);
-    model.layout().set_scale(Field::density, density);
-    model.layout().set_scale(Field::stress, modulus);
-    model.layout().set_scale(Field::energy, speed_scale * speed_scale);
+    const double sound = std::sqrt(modulus / density);
+    model.set_scales({model.particles().spacing, speed > 0.0 ? speed : sound, density, modulus});
     return y;
 }
 

@@ -19,6 +19,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 using namespace spam;
 using spam::test::effort;
@@ -68,6 +69,22 @@ TotalLagrangianModel<2> hexagon(double penalty) {
     return {make_particles<2>(triangular_hexagon(8), 1.0),
             StVenantKirchhoff::like(ElasticSolid::triangular_lattice()),
             {std::sqrt(4.0 / 3.0), 3.0, penalty}};
+}
+
+/// The penalty measured in lambda, which vanishes with Poisson's ratio.
+struct MeasuredInLambda : StVenantKirchhoff {
+    double stiffness() const { return lambda; }
+};
+
+/// The closest pair of a block of 16 x 16 particles that were given velocities of 0.02 at random.
+template <class Law>
+double closest_of_shaken(const Law& law, double t_end) {
+    TotalLagrangianModel<2> model(make_particles<2>(triangular_block(16, 16), 1.0), law,
+                                  {std::sqrt(4.0 / 3.0), 3.0, 0.1});
+    std::mt19937_64 random(11);
+    std::normal_distribution<double> g(0.0, 0.02 / std::numbers::sqrt2);
+    const auto shaken = [&](const Point<2>&) { return Point<2>(g(random), g(random)); };
+    return run<2>(model, shaken, 0.25, t_end).smallest("closest_pair");
 }
 
 /// Simple cubic, those within `radius` of the middle.
@@ -129,4 +146,17 @@ BOOST_AUTO_TEST_CASE(a_ball_in_space_that_turns_and_rings) {
     BOOST_TEST(h.largest("p") < 1e-12);
     BOOST_TEST(h.largest("L") < 1e-9);
     BOOST_TEST(h.largest("energy") < 1e-7);  // of the ringing, which RK4 damps
+}
+
+// Cork, foam and rods have small Poisson ratios, and some foams negative ones.
+BOOST_AUTO_TEST_CASE(motions_without_strain_are_held_whatever_poissons_ratio_is) {
+    const double end = effort(400.0, 200.0), eta = 0.43;
+    for (const double lambda : {eta, 0.02 * eta, 0.002 * eta, 0.0, -0.3 * eta}) {
+        const double closest = closest_of_shaken(StVenantKirchhoff{lambda, eta}, end);
+        BOOST_TEST_MESSAGE("lambda/eta = " << lambda / eta << ": closest pair " << closest);
+        BOOST_TEST(closest > 0.8);
+    }
+    const double free = closest_of_shaken(MeasuredInLambda{{0.002 * eta, eta}}, end);
+    BOOST_TEST_MESSAGE("measured in lambda: " << free);
+    BOOST_TEST(free < 0.7);
 }

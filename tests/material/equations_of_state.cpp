@@ -57,7 +57,7 @@ double isentrope(const Law& law, double rho_0, double e_0, double rho) {
     return e;
 }
 
-/// The largest error of e(rho, T(rho, e)) = e, 1/T = ds/de, P = rho^2 de/d rho and c^2 = dP/d rho at
+/// The largest error of e(rho, T(rho, e)) = e, c_v = de/dT, 1/T = ds/de, P = rho^2 de/d rho and c^2 = dP/d rho at
 /// constant s, over random states.
 template <ThermalEquationOfState Law>
 double thermal_error(const Law& law, double most_dense) {
@@ -72,8 +72,10 @@ double thermal_error(const Law& law, double most_dense) {
         const double work = rho * rho * derivative(on_isentrope, rho);
         const double slope =
             derivative([&](double x) { return law.pressure(x, on_isentrope(x)); }, rho);
+        const double heating = derivative([&](double x) { return law.temperature(rho, x); }, e);
         worst =
             std::max({worst, std::abs(law.temperature(rho, e) - T), std::abs(coldness * T - 1.0),
+                      std::abs(heating * law.heat_capacity(rho, e) - 1.0),
                       std::abs(law.pressure(rho, e) - work) / (1.0 + std::abs(work)),
                       std::abs(law.sound_speed_squared(rho, e) - slope) / (1.0 + slope)});
     }
@@ -84,7 +86,7 @@ double thermal_error(const Law& law, double most_dense) {
 template <class Law>
 struct Mutated {
     Law law;
-    double P = 1.0, c2 = 1.0, T = 1.0;
+    double P = 1.0, c2 = 1.0, T = 1.0, c_v = 1.0;
 
     double pressure(double rho, double e) const { return P * law.pressure(rho, e); }
     double sound_speed_squared(double rho, double e) const {
@@ -101,6 +103,9 @@ struct Mutated {
     }
     double entropy(double rho, double e) const requires ThermalEquationOfState<Law> {
         return law.entropy(rho, e);
+    }
+    double heat_capacity(double rho, double e) const requires ThermalEquationOfState<Law> {
+        return c_v * law.heat_capacity(rho, e);
     }
     std::string describe() const { return "wrong"; }
 };
@@ -127,6 +132,7 @@ void check_thermal(const Law& law, double most_dense) {
         BOOST_TEST(thermal_error(Mutated<Law>{.law = law, .P = 1.001}, most_dense) > 1e-4);
         BOOST_TEST(thermal_error(Mutated<Law>{.law = law, .c2 = 1.001}, most_dense) > 1e-4);
         BOOST_TEST(thermal_error(Mutated<Law>{.law = law, .T = 1.001}, most_dense) > 1e-4);
+        BOOST_TEST(thermal_error(Mutated<Law>{.law = law, .c_v = 1.001}, most_dense) > 1e-4);
         for (const double rho : {0.0, -1.0, std::nan("")}) {
             BOOST_TEST(std::isnan(law.pressure(rho, 1.0)));
             BOOST_TEST(std::isnan(law.sound_speed_squared(rho, 1.0)));

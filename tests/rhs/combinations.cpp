@@ -49,8 +49,8 @@ BOOST_AUTO_TEST_CASE(no_term_and_no_external_is_left_out) {
 }
 
 BOOST_AUTO_TEST_CASE(every_scheme_with_every_further_term_keeps_its_promises_or_is_refused) {
-    const auto all_at_once = [](ParticleModel<2>& m) {
-        for (const char* name : {"Gravity", "Friction", "Drag"}) externals.at(name)(m);
+    const std::function<void(Sample&)> all_at_once = [](Sample& s) {
+        for (const char* name : {"Gravity", "Friction", "Drag"}) externals.at(name)(s);
     };
     int ran = 0, refused = 0, not_turning = 0;
     for (const auto& law : with_scheme)

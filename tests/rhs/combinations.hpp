@@ -2,6 +2,7 @@
 // Laws of matter, further terms, choices of scheme and externals, and what becomes of any combination of them.
 #pragma once
 
+#include <spam/core/dimensions.hpp>
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/clamp.hpp>
@@ -42,25 +43,49 @@ namespace spam::test {
 
 inline const double site_density = 2.0 / std::sqrt(3.0);
 
-/// A model on the way, and how its y begins.
+/// A model on the way, and how its y begins. Numbers of laws are those of units in which particles have mass
+/// and spacing 1; of `units` they are given in others.
 struct Sample {
     /// In a periodic box particles fill it.
-    explicit Sample(const Box<2>& box = {})
-        : model(box.periodic() ? make_particles<2>(triangular_block(8, 6), 1.0, 1.0, box)
-                               : make_particles<2>(triangular_block(8, 5), 1.0),
+    explicit Sample(const Box<2>& box = {}, const Units& in = {})
+        : units(in),
+          model(make_particles<2>(triangular_block(8, box.periodic() ? 6 : 5, in.length), in.mass,
+                                  in.length, box),
                 box) {}
+    Units units;
     ParticleModel<2> model;
     std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};
+    double speed = 1.0;  ///< times the velocities at the start
+
+    double of(const char* unit) const { return units.of(unit, 2); }
+    double length(double x) const { return x * units.length; }
+    double time(double x) const { return x * units.time; }
+    double velocity(double x) const { return x * of("l/t"); }
+    double acceleration(double x) const { return x * of("l/t^2"); }
+    double stress(double x) const { return x * of("m/t^2"); }
+    double viscosity(double x) const {
+        return x * of("m/t");
+    }  ///< and kappa, where T is energy by mass
+    double energy(double x) const { return x * of("m l^2/t^2"); }
+    double temperature(double x) const { return x * of("l^2/t^2"); }
+    double density() const { return site_density * of("m/l^2"); }
+    Scheme scheme(Scheme s) const {
+        s.range = length(s.range);
+        s.closest_approach = length(s.closest_approach);
+        return s;
+    }
 
     std::vector<double> start() {
         const Points<2>& x = model.particles().reference_position;
         Points<2> v(2, x.cols());
         for (Eigen::Index i = 0; i < x.cols(); ++i) {
-            v(0, i) = x(0, i) < 1.2 ? 0.0 : 0.02 * std::sin(0.7 * x(0, i)) - 0.01 * x(1, i);
-            v(1, i) = x(0, i) < 1.2 ? 0.0 : 0.01 * x(0, i) + 0.02 * std::cos(0.9 * x(1, i));
+            const Point<2> X = x.col(i) / units.length;
+            v(0, i) = X[0] < 1.2 ? 0.0 : 0.02 * std::sin(0.7 * X[0]) - 0.01 * X[1];
+            v(1, i) = X[0] < 1.2 ? 0.0 : 0.01 * X[0] + 0.02 * std::cos(0.9 * X[1]);
         }
+        v *= velocity(speed);
         if (fluid) return fluid(x, v);
-        auto y = initial_state<2>(model, site_density, 0.43,
+        auto y = initial_state<2>(model, density(), stress(0.43),
                                   [](const Point<2>&) { return Point<2>::Zero().eval(); });
         State<2>(model.layout(), y).velocity() = v;
         return y;
@@ -71,19 +96,23 @@ using Build = std::function<void(Sample&, const Scheme&)>;
 
 inline void add_fluid(Sample& s, const Fluid& fluid, const Scheme& scheme) {
     auto& law = s.model.add_term<SmoothParticles<2>>(fluid, scheme);
-    s.fluid = [&law](const Points<2>& x, const Points<2>& v) { return law.start(x, v, 0.2); };
+    s.fluid = [&law, T = s.temperature(0.2)](const Points<2>& x, const Points<2>& v) {
+        return law.start(x, v, T);
+    };
 }
 
 /// Laws that a scheme belongs to.
 inline const std::map<std::string, Build> with_scheme{
     {"SmoothParticles, solid",
      [](Sample& s, const Scheme& scheme) {
-         s.model.add_term<SmoothParticles<2>>(ElasticSolid{0.43, 0.43}, scheme);
+         s.model.add_term<SmoothParticles<2>>(ElasticSolid{s.stress(0.43), s.stress(0.43)}, scheme);
      }},
     {"SmoothParticles, solid that yields",
      [](Sample& s, const Scheme& scheme) {
          s.model.add_term<SmoothParticles<2>>(
-             YieldingSolid<PlaneStrainVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}), scheme);
+             YieldingSolid<PlaneStrainVonMises>({s.stress(0.43), s.stress(0.43)},
+                                                LinearHardening{s.stress(1e-3), s.stress(0.1)}),
+             scheme);
      }},
     {"SmoothParticles, gas",
      [](Sample& s, const Scheme& scheme) { add_fluid(s, {IdealGas{}}, scheme); }},
@@ -93,8 +122,18 @@ inline const std::map<std::string, Build> with_scheme{
          add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}}, scheme);
      }},
     {"SmoothParticles, fluid with friction and conduction", [](Sample& s, const Scheme& scheme) {
-         add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}, FourierConduction{0.2}}, scheme);
+         add_fluid(s,
+                   {IdealGas{}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)},
+                    FourierConduction{s.viscosity(0.2)}},
+                   scheme);
      }}};
+
+inline void add_lucy(Sample& s, double range) {
+    s.model.add_term<LucyPairPotential<2>>(s.length(range), s.of("l^4/t^2") / s.units.mass);
+}
+inline void add_springs(Sample& s) {
+    s.model.add_term<Springs<2>>(HarmonicSpring{s.stress(1.0), s.length(1.0)});
+}
 
 /// Between the rows of triangular_block(8, ...), whose numbers are the ids.
 inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
@@ -112,82 +151,112 @@ inline const std::map<std::string, Build> without_scheme{
     {"OwnRanges",
      [](Sample& s, const Scheme&) {
          auto& law = s.model.add_term<OwnRanges<2>>(Fluid{IdealGas{}}, VariableRangeScheme{});
-         s.fluid = [&law](const Points<2>& x, const Points<2>& v) { return law.start(x, v, 0.2); };
+         s.fluid = [&law, T = s.temperature(0.2)](const Points<2>& x, const Points<2>& v) {
+             return law.start(x, v, T);
+         };
      }},
     {"DensityPotentialTerm",
      [](Sample& s, const Scheme&) {
-         s.model.add_term<DensityPotentialTerm<2>>(
-             DensityPotentials{.state = EmbeddedAtom{1.0, site_density}});
+         s.model.add_term<DensityPotentialTerm<2>>(DensityPotentials{
+             .state = EmbeddedAtom{s.stress(1.0), s.density()}, .range = s.length(3.0)});
      }},
     {"Elements",
      [](Sample& s, const Scheme&) {
          s.model.add_term<Elements>(
              mesh_of(s.model.particles()),
              std::vector<Elements::Material>{
-                 {YieldingSolid<PlaneVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}),
-                  site_density,
+                 {YieldingSolid<PlaneVonMises>({s.stress(0.43), s.stress(0.43)},
+                                               LinearHardening{s.stress(1e-3), s.stress(0.1)}),
+                  s.density(),
                   {0.1, 0.1}}});
      }},
-    {"Cohesion", [](Sample& s, const Scheme&) { s.model.add_term<Cohesion<2>>(); }},
-    {"LucyPairPotential",
-     [](Sample& s, const Scheme&) { s.model.add_term<LucyPairPotential<2>>(3.0); }},
+    {"Cohesion",
+     [](Sample& s, const Scheme&) {
+         s.model.add_term<Cohesion<2>>(CohesivePotential{s.energy(1.0), s.length(1.0)});
+     }},
+    {"LucyPairPotential", [](Sample& s, const Scheme&) { add_lucy(s, 3.0); }},
     {"TotalLagrangian",
      [](Sample& s, const Scheme&) {
-         s.model.add_term<TotalLagrangian<2>>(StVenantKirchhoff{0.43, 0.43},
-                                              TotalLagrangianScheme{site_density});
+         s.model.add_term<TotalLagrangian<2>>(StVenantKirchhoff{s.stress(0.43), s.stress(0.43)},
+                                              TotalLagrangianScheme{s.density(), s.length(3.0)});
      }},
     {"TotalLagrangian, solid that yields",
      [](Sample& s, const Scheme&) {
          s.model.add_term<TotalLagrangian<2>>(
-             HenckySolid<PlaneVonMises>({0.43, 0.43}, LinearHardening{1e-3, 0.1}),
-             TotalLagrangianScheme{site_density});
+             HenckySolid<PlaneVonMises>({s.stress(0.43), s.stress(0.43)},
+                                        LinearHardening{s.stress(1e-3), s.stress(0.1)}),
+             TotalLagrangianScheme{s.density(), s.length(3.0)});
      }},
     {"MaterialVectors",
      [](Sample& s, const Scheme&) {
-         s.model.add_term<MaterialVectors<2>>(PolynomialSolid{0.43, 0.43},
-                                              MaterialVectorScheme{site_density});
+         s.model.add_term<MaterialVectors<2>>(PolynomialSolid{s.stress(0.43), s.stress(0.43)},
+                                              MaterialVectorScheme{s.density(), s.length(3.0)});
      }},
-    {"Springs", [](Sample& s, const Scheme&) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }}};
+    {"Springs", [](Sample& s, const Scheme&) { add_springs(s); }}};
 
 /// What is put on top.
 inline const std::map<std::string, std::function<void(Sample&)>> further{
     {"", [](Sample&) {}},
     {"Core",
      [](Sample& s) {
-         s.model.add_term<Core<2>>(CorePotential{0.1, 1.1});
+         s.model.add_term<Core<2>>(CorePotential{s.energy(0.1), s.length(1.1)});
      }},
     {"Contact",
-     [](Sample& s) { s.model.add_term<Contact<2>>(ContactScheme{.folds_beyond = 1.2}); }},
-    {"Springs", [](Sample& s) { s.model.add_term<Springs<2>>(HarmonicSpring{}); }},
-    {"LucyPairPotential", [](Sample& s) { s.model.add_term<LucyPairPotential<2>>(2.5); }},
+     [](Sample& s) {
+         s.model.add_term<Contact<2>>(
+             ContactScheme{s.energy(0.2), s.length(1.0), .folds_beyond = s.length(1.2)});
+     }},
+    {"Springs", [](Sample& s) { add_springs(s); }},
+    {"LucyPairPotential", [](Sample& s) { add_lucy(s, 2.5); }},
     {"DensityPotentialTerm", [](Sample& s) {
          s.model.add_term<DensityPotentialTerm<2>>(
-             DensityPotentials{.surface_tension = 0.02, .kernel = Kernel::w4});
+             DensityPotentials{.surface_tension = 0.02 * s.of("l^8/t^2") / s.units.mass,
+                               .kernel = Kernel::w4,
+                               .range = s.length(3.0)});
      }}};
 
-inline const std::map<std::string, std::function<void(ParticleModel<2>&)>> externals{
+inline const std::map<std::string, std::function<void(Sample&)>> externals{
     {"", [](auto&) {}},
-    {"Gravity", [](auto& m) { m.add(std::make_unique<Gravity<2>>(Point<2>(0.003, -0.01))); }},
-    {"Friction", [](auto& m) { m.add(std::make_unique<Friction<2>>(0.1)); }},
-    {"Drag", [](auto& m) { m.add(std::make_unique<Drag<2>>(0.5, 1.0, Point<2>(0.1, 0.0))); }},
-    {"Thermostat", [](auto& m) { m.add(std::make_unique<Thermostat<2>>(1e-3, 0.3)); }},
+    {"Gravity",
+     [](Sample& s) {
+         s.model.add(std::make_unique<Gravity<2>>(s.acceleration(1.0) * Point<2>(0.003, -0.01)));
+     }},
+    {"Friction", [](Sample& s) { s.model.add(std::make_unique<Friction<2>>(0.1 / s.units.time)); }},
+    {"Drag",
+     [](Sample& s) {
+         s.model.add(std::make_unique<Drag<2>>(0.5 / s.units.length, s.velocity(1.0),
+                                               s.velocity(1.0) * Point<2>(0.1, 0.0)));
+     }},
+    {"Thermostat",
+     [](Sample& s) {
+         s.model.add(std::make_unique<Thermostat<2>>(s.energy(1e-3), 0.3 / s.units.time));
+     }},
     {"Load",
-     [](auto& m) {
-         m.add(std::make_unique<Load<2>>([](double t) { return Point<2>(0.01 * t, 0.02); }));
+     [](Sample& s) {
+         s.model.add(
+             std::make_unique<Load<2>>([a = s.acceleration(1.0), T = s.units.time](double t) {
+                 return Point<2>(a * Point<2>(0.01 * t / T, 0.02));
+             }));
      }},
     {"DistributedLoad",
-     [](auto& m) {
-         m.add(std::make_unique<DistributedLoad<2>>([](double t) { return 0.01 + 0.02 * t; },
-                                                    m.particles().reference_position));
+     [](Sample& s) {
+         s.model.add(std::make_unique<DistributedLoad<2>>(
+             [a = 1.0 / (s.units.time * s.units.time), T = s.units.time](double t) {
+                 return a * (0.01 + 0.02 * t / T);
+             },
+             s.model.particles().reference_position));
      }},
     {"RigidWall",
-     [](auto& m) {
-         m.add(std::make_unique<RigidWall<2>>(
-             Point<2>(0.9, 0.4), [](double t) { return 0.1 * t - 0.2; }, 0.2, 1.0));
+     [](Sample& s) {
+         s.model.add(std::make_unique<RigidWall<2>>(
+             Point<2>(0.9, 0.4),
+             [L = s.units.length, T = s.units.time](double t) { return L * (0.1 * t / T - 0.2); },
+             s.energy(0.2), s.length(1.0)));
      }},
-    {"Clamp", [](auto& m) {
-         m.add(std::make_unique<Clamp<2>>(
-             select<2>(m.particles(), [](const Point<2>& x) { return x.x() < 1.2; })));
+    {"Clamp", [](Sample& s) {
+         s.model.add(std::make_unique<Clamp<2>>(
+             select<2>(s.model.particles(),
+                       [most = s.length(1.2)](const Point<2>& x) { return x.x() < most; })));
      }}};
 
 /// What a combination came to.
@@ -231,12 +300,12 @@ inline Row run(Sample& sample) {
 }
 
 inline Row combine(const Build& law, const std::function<void(Sample&)>& more, const Scheme& scheme,
-                   const std::function<void(ParticleModel<2>&)>& external, const Box<2>& box = {}) {
+                   const std::function<void(Sample&)>& external, const Box<2>& box = {}) {
     Sample sample(box);
     try {
         law(sample, scheme);
         more(sample);
-        external(sample.model);
+        external(sample);
         sample.model.events();
     } catch (const InputError& e) {
         return {.refused = e.what()};

@@ -287,4 +287,12 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
     BOOST_TEST(says(why_refused({IdealGas{}, NewtonViscosity{-2.0, 1.0}}, {}), "bulk viscosity"));
     BOOST_TEST(why_refused({IdealGas{}, NewtonViscosity{-1.0, 1.0}}, {}).empty());
     BOOST_TEST(says(why_refused({IdealGas{}, {}, FourierConduction{-1.0}}, {}), "conductivity"));
+    // All its forces are central: the torques that would be balanced are rounding errors.
+    for (const auto law : {AngularMomentum::torque_pair, AngularMomentum::torque_particle}) {
+        Scheme balanced{.transport = Transport::average, .angular_momentum = law, .viscosity = 1.0};
+        BOOST_TEST(says(why_refused(gas, balanced), "has nothing"));
+        BOOST_TEST(why_refused({IdealGas{}, NewtonViscosity{0.0, 1.0}}, balanced).empty());
+        balanced.transport = Transport::monaghan;
+        BOOST_TEST(why_refused(gas, balanced).empty());
+    }
 }

@@ -4,6 +4,7 @@
 #include "diffusion_waves/diffusion_waves.hpp"
 #include "support/random_state.hpp"
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/gamma_gas.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
@@ -34,11 +35,16 @@ struct Lattice {
     }
     double factor() const { return exact().factor; }
 
-    FluidModel<2> fluid(double kappa, double eta) const {
+    FluidModel<2> fluid(double kappa, double eta,
+                        const AnyEquationOfState& state = IdealGas{2, 1.0},
+                        bool by_pairs = false) const {
+        return of({state, NewtonViscosity{-eta, eta}, FourierConduction{kappa}, by_pairs}, 0.0);
+    }
+    FluidModel<2> of(const Fluid& fluid, double viscosity) const {
         const Box<2> box({1.0 * cells, 1.0 * cells});
         return {make_particles<2>(square_lattice<2>({cells, cells}), 1.0, 1.0, box),
-                {IdealGas{2, 1.0}, NewtonViscosity{-eta, eta}, FourierConduction{kappa}},
-                {.kernel = kernel, .range = range},
+                fluid,
+                {.viscosity = viscosity, .kernel = kernel, .range = range},
                 box};
     }
 };
@@ -179,6 +185,29 @@ double fastest_decay(FluidModel<2>& model, Field what) {
     return rate;
 }
 
+/// At temperature 1 and rest.
+void check_announced(FluidModel<2>& model, double fastest, double least, double most,
+                     double T = 1.0) {
+    const auto& x = model.particles().reference_position;
+    const auto y = model.state(x, Points<2>::Zero(2, x.cols()), T);
+    const double announced = model.fastest_damping(y);
+    BOOST_TEST_CONTEXT(model.describe()
+                       << ", T = " << T << ": " << fastest << ", announced " << announced) {
+        BOOST_TEST(fastest > 0.0);
+        BOOST_TEST(announced > least * fastest);
+        BOOST_TEST(announced < most * fastest);
+    }
+}
+
+/// A law that does not tell its heat capacity, 0.4.
+struct OfTemperature {
+    double pressure(double rho, double e) const { return rho * e; }
+    double sound_speed_squared(double, double e) const { return 2.0 * e; }
+    double temperature(double, double e) const { return 2.5 * e; }
+    double energy(double, double T) const { return T / 2.5; }
+    std::string describe() const { return "own law"; }
+};
+
 }  // namespace
 
 // What the model announces decides whether rk4 is refused: near the fastest rate there is, and not below
@@ -188,12 +217,19 @@ BOOST_AUTO_TEST_CASE(the_fastest_damping_is_announced) {
         for (const Field what : {Field::energy, Field::velocity}) {
             const bool heat = what == Field::energy;
             auto model = lattice.fluid(heat ? 0.7 : 0.0, heat ? 0.0 : 0.7);
-            const double fastest = fastest_decay(model, what);
-            BOOST_TEST_MESSAGE(model.describe()
-                               << ": " << fastest << ", announced " << model.fastest_damping());
-            BOOST_TEST(fastest > 0.0);
-            BOOST_TEST(model.fastest_damping() > fastest);
-            BOOST_TEST(model.fastest_damping() < 2.0 * fastest);
+            check_announced(model, fastest_decay(model, what), 1.0, 2.0);
+        }
+}
+
+// Heat decays with the heat capacity of the law: D/2 by mass of molecules of mass 1 alone.
+BOOST_AUTO_TEST_CASE(the_fastest_conduction_is_announced_of_every_gas) {
+    const Lattice lattice{12, Kernel::lucy, 3.0};
+    for (const AnyEquationOfState& gas :
+         {AnyEquationOfState(IdealGas{2, 7.0}), AnyEquationOfState(GammaGas{1.4}),
+          AnyEquationOfState(GammaGas{3.0}), AnyEquationOfState(OfTemperature{})})
+        for (const bool by_pairs : {false, true}) {
+            auto model = lattice.fluid(0.7, 0.0, gas, by_pairs);
+            check_announced(model, fastest_decay(model, Field::energy), 0.99, 2.0);
         }
 }
 
@@ -201,7 +237,7 @@ namespace {
 
 /// The same of a solid without stress and its artificial viscosity. That acts on those who approach: no
 /// matrix, but changes still tend towards what decays fastest.
-double fastest_decay(SmoothParticleModel<2>& model, std::vector<double> y) {
+double fastest_decay(Model<2>& model, std::vector<double> y) {
     const State<2> state(model.layout(), y);
     std::mt19937_64 random(5);
     std::normal_distribution<double> g;
@@ -229,11 +265,21 @@ BOOST_AUTO_TEST_CASE(the_fastest_damping_of_a_solid_is_announced) {
             ElasticSolid::triangular_lattice(),
             {.density = Density::summed, .viscosity = 0.7, .kernel = kernel, .range = 3.0}, box);
         const auto y = initial_state<2>(model, 1.3, 1.0, at_rest<2>());
-        const double fastest = fastest_decay(model, y);
-        BOOST_TEST_MESSAGE(model.describe()
-                           << ": " << fastest << ", announced " << model.fastest_damping());
+        const double fastest = fastest_decay(model, y), announced = model.fastest_damping(y);
+        BOOST_TEST_MESSAGE(model.describe() << ": " << fastest << ", announced " << announced);
         BOOST_TEST(fastest > 0.0);
-        BOOST_TEST(model.fastest_damping() > 0.9 * fastest);
-        BOOST_TEST(model.fastest_damping() < 1.3 * fastest);
+        BOOST_TEST(announced > 0.9 * fastest);
+        BOOST_TEST(announced < 1.3 * fastest);
     }
+}
+
+// A gas is viscous by the sound of the state it is in: without heat there is none.
+BOOST_AUTO_TEST_CASE(the_fastest_damping_of_a_hot_gas_is_announced) {
+    auto model = Lattice{12, Kernel::lucy, 3.0}.of({GammaGas{1.4}}, 0.7);
+    const auto& x = model.particles().reference_position;
+    for (const double T : {0.01, 1.0, 100.0}) {
+        const auto y = model.state(x, Points<2>::Zero(2, x.cols()), T);
+        check_announced(model, fastest_decay(model, y), 0.9, 1.3, T);
+    }
+    BOOST_TEST(model.fastest_damping({}) == 0.0);  // no state, no heat
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Laws and schemes in boxes: every kind of wall with every law is accounted for or refused, and fluids that are
 // shifted keep what they promise. No kind of wall is forgotten: the header is looked at.
-#include "rhs/combinations.hpp"
+#include "rhs/walled.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -9,33 +9,6 @@
 
 using namespace spam;
 using namespace spam::test;
-
-namespace {
-
-/// Walls of one kind on all sides, outside the body, and further apart than any range.
-const std::map<std::string, Wall<2>> walls{
-    {"mirror", {WallKind::mirror, 0.0, {0, 0}, {}}},
-    {"mirror of a temperature", {WallKind::mirror, 0.0, {0, 0}, 0.3}},
-    {"no_slip", {WallKind::no_slip, 0.0, {0, 0}, {}}},
-    {"no_slip of a temperature", {WallKind::no_slip, 0.0, {0, 0}, 0.3}},
-    {"no_slip that moves", {WallKind::no_slip, 0.0, {0.02, 0.02}, {}}},
-    {"rigid", {WallKind::rigid, 0.0, {0, 0}, {}}}};
-
-Box<2> walled_by(Wall<2> wall) {
-    const Points<2> x = triangular_block(8, 5);
-    const Point<2> along = wall.velocity;
-    Box<2> box;
-    for (int a = 0; a < 2; ++a)
-        for (const bool upper : {false, true}) {
-            wall.at = upper ? x.row(a).maxCoeff() + 1.5 : x.row(a).minCoeff() - 0.5;
-            wall.velocity = along;
-            wall.velocity[a] = 0.0;
-            box.set_wall(a, upper, wall);
-        }
-    return box;
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(no_kind_of_wall_is_left_out) {
     std::ifstream in(std::filesystem::path(SPAM_SOURCE) / "include/spam/neighbors/wall.hpp");

@@ -26,7 +26,7 @@ enum class LagrangianMutation {
 /// X_ij = X_i - X_j, W_ij = w(|X_ij|), V the reference volume, kappa the penalty:
 ///     A_i = sum_j V_j (x_j - x_i) (x) grad_i W_ij,  K_i = A_i^-1 at the reference,  F_i = A_i K_i
 ///     E_i = (F^t F - 1)/2,   P_i = F_i (lambda tr(E_i) 1 + 2 eta E_i)
-///     d_ij = x_ij - (F_i + F_j) X_ij/2,   k_ij = kappa lambda V_i V_j W_ij/|X_ij|^2
+///     d_ij = x_ij - (F_i + F_j) X_ij/2,   k_ij = kappa mu V_i V_j W_ij/|X_ij|^2
 ///     M_i = sum_j k_ij d_ij (x) X_ij/2,   P_i -> P_i - M_i/V_i
 ///     m v_dot_i = sum_j V_i V_j (P_i K_i^t + P_j K_j^t) . grad_i W_ij - sum_j k_ij d_ij
 template <int Dim>
@@ -140,8 +140,8 @@ class LagrangianOracle final : public Model<Dim> {
     }
     double k(int i, int j) const {
         if (i == j) return 0.0;
-        return scheme_.penalty * volume(i) * volume(j) * weight(X(i, j).norm()) * law_.lambda /
-               X(i, j).squaredNorm();
+        return scheme_.penalty * volume(i) * volume(j) * weight(X(i, j).norm()) *
+               std::max(law_.lambda, law_.eta) / X(i, j).squaredNorm();
     }
     V d(std::span<const double> y, const std::vector<M>& F, int i, int j) const {
         if (mutation_ == LagrangianMutation::fixed_axes) return x(y, i, j) - X(i, j);

@@ -293,23 +293,25 @@ class OracleModel final : public Model<Dim> {
     void gauss(const State<Dim>& rate) const {
         for (int group = 0; group < groups(); ++group) {
             double mass = 0.0, I = 0.0, L = 0.0, K = 0.0, L_dot = 0.0;
-            V X = V::Zero(), U = V::Zero();
+            V X = V::Zero(), U = V::Zero(), transport = V::Zero();
             for (int i = 0; i < n_; ++i)
                 if (in(i, group)) {
                     mass += m(i);
                     X += m(i) * x_[at(i)];
                     U += m(i) * v_[at(i)];
+                    transport += m(i) * u_[at(i)];
                 }
             X /= mass;
             U /= mass;
+            transport /= mass;
             for (int i = 0; i < n_; ++i)
                 if (in(i, group)) {
                     const V r = x_[at(i)] - X, v = v_[at(i)] - U;
                     I += m(i) * r.squaredNorm();
                     L += m(i) * cross(r, v);
                     K += m(i) * v.squaredNorm() / 2.0;
-                    L_dot +=
-                        m(i) * (cross(u_[at(i)], v_[at(i)]) + cross(r, V(rate.velocity().col(i))));
+                    L_dot += m(i) * (cross(V(u_[at(i)] - transport), v) +
+                                     cross(r, V(rate.velocity().col(i))));
                 }
             double beta = -L_dot / (I - L * L / (2.0 * K));
             if (mutation_ == Mutation::printed_multipliers) beta = -beta;

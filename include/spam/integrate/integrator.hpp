@@ -26,6 +26,8 @@ struct Ode {
     std::function<std::string(std::size_t k)> entry_name;
     /// Absolute tolerance of every entry of y; used by adaptive methods. Infinite: no say in the steps.
     std::vector<double> absolute_tolerance;
+    /// How long something takes, in the unit of t: what is a tiny step is told by it.
+    double time_scale = 1.0;
     /// What changes y at single times.
     std::vector<Event> events{};
     /// After every accepted step (events applied): may change y, and returns whether it did; the integrator
@@ -70,7 +72,8 @@ struct IntegratorOptions {
     };
     /// Fields with an absolute tolerance of their own, in their units.
     std::vector<FieldTolerance> field_atol{};
-    double min_step = 1e-12;               ///< an adaptive step below this stops the run
+    /// An adaptive step below this stops the run; unset: 1e-12 of Ode::time_scale.
+    std::optional<double> min_step{};
     std::optional<double> max_step{};      ///< no adaptive step is longer
     std::optional<double> initial_step{};  ///< the first one; unset: the method's own choice
     std::string controller{};        ///< of ARKODE's steps, one of arkode_controllers(); empty: pid

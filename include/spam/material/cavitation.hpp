@@ -32,6 +32,9 @@ struct Cavitating {
     double energy(double rho, double T) const requires ThermalEquationOfState<Law> {
         return law.energy(rho, T);
     }
+    double heat_capacity(double rho, double e) const requires ThermalEquationOfState<Law> {
+        return law.heat_capacity(rho, e);
+    }
     std::string describe() const {
         return fmt::format("{}, tension at most {:.6g}", law.describe(), tension_limit);
     }

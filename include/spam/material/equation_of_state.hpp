@@ -27,13 +27,15 @@ concept ColdEquationOfState = EquationOfState<Law> && requires(const Law law, do
 };
 
 /// One with a temperature: `energy` is the inverse of `temperature`, e(rho, T), and `entropy` per mass
-/// (up to a constant) has ds = (de - P/rho^2 d rho)/T. Boltzmann's constant is 1.
+/// (up to a constant) has ds = (de - P/rho^2 d rho)/T; `heat_capacity` is c_v by mass, de/dT at this density.
+/// Boltzmann's constant is 1.
 template <class Law>
 concept ThermalEquationOfState = EquationOfState<Law> &&
     requires(const Law law, double rho, double x) {
     { law.temperature(rho, x) } -> std::same_as<double>;
     { law.energy(rho, x) } -> std::same_as<double>;
     { law.entropy(rho, x) } -> std::same_as<double>;
+    { law.heat_capacity(rho, x) } -> std::same_as<double>;
 };
 
 /// For steps and artificial viscosity: 0 where the fluid is unstable, NaN outside the law.

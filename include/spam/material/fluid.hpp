@@ -5,6 +5,7 @@
 #include <spam/material/fourier_conduction.hpp>
 #include <spam/material/newton_viscosity.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -40,6 +41,8 @@ class AnyEquationOfState {
     double pressure(double rho, double e) const { return loop_->pressure(rho, e); }
     double sound_speed(double rho, double e) const { return loop_->sound_speed(rho, e); }
     double temperature(double rho, double e) const { return loop_->temperature(rho, e); }
+    /// c_v by mass; precondition: thermal. By a difference where the law does not tell it.
+    double heat_capacity(double rho, double e) const { return loop_->heat_capacity(rho, e); }
     /// Energy per mass at density rho and temperature T; of a cold law whatever T is. 0 where the law
     /// says neither (a clamped one may: it is work from there on).
     double starting_energy(double rho, double T) const { return loop_->starting_energy(rho, T); }
@@ -61,6 +64,7 @@ class AnyEquationOfState {
         virtual double pressure(double rho, double e) const = 0;
         virtual double sound_speed(double rho, double e) const = 0;
         virtual double temperature(double rho, double e) const = 0;
+        virtual double heat_capacity(double rho, double e) const = 0;
         virtual double starting_energy(double rho, double T) const = 0;
         virtual double cold_energy(double rho) const = 0;
         virtual std::string describe() const = 0;
@@ -86,6 +90,14 @@ class AnyEquationOfState {
         double temperature(double rho, double e) const override {
             if constexpr (has_temperature<Law>) return law.temperature(rho, e);
             return nan;
+        }
+        double heat_capacity(double rho, double e) const override {
+            if constexpr (requires { law.heat_capacity(rho, e); })
+                return law.heat_capacity(rho, e);
+            else {
+                const double d = std::max(1e-6 * std::abs(e), std::numeric_limits<double>::min());
+                return d / (temperature(rho, e + d) - temperature(rho, e));
+            }
         }
         double starting_energy(double rho, double T) const override {
             if constexpr (requires { law.energy(rho, T); })

@@ -27,6 +27,7 @@ struct GammaGas {
     double energy(double rho, double T) const {
         return only_where(rho > 0.0 && T >= 0.0, T / (gamma - 1.0));
     }
+    double heat_capacity(double, double) const { return 1.0 / (gamma - 1.0); }
     double entropy(double rho, double e) const {
         return std::log(temperature(rho, e)) / (gamma - 1.0) - std::log(rho);
     }

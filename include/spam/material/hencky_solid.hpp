@@ -119,7 +119,7 @@ class HenckySolid {
         flow_.validate();
     }
 
-    double stiffness() const { return surface_.lambda; }
+    double stiffness() const { return penalty_modulus(surface_.lambda, surface_.eta); }
     std::string describe() const {
         return fmt::format("logarithmic strain, yielding {}, lambda = {:.6g}, eta = {:.6g}, {}",
                            Surface::name(), surface_.lambda, surface_.eta, flow_.describe());

@@ -4,12 +4,19 @@
 #include <spam/core/state.hpp>
 #include <spam/core/tensor.hpp>
 
+#include <algorithm>
 #include <concepts>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace spam {
+
+/// The modulus in which penalties on motions that the deformation does not see are measured. It lies between
+/// eta and lambda + 2 eta for any Poisson ratio, from -1 to 1/2: below the first, the modulus of transverse
+/// waves, such motions would be softer than any that is seen, and free where lambda vanishes; above the second,
+/// that of longitudinal waves, they would shorten stable steps.
+inline double penalty_modulus(double lambda, double eta) { return std::max(lambda, eta); }
 
 /// A law that knows the stress from the deformation alone, F_ab = d x_a / d X_b: `energy` per volume of
 /// the reference configuration, unchanged by rotations F -> Q F; `stress` its derivative, the first

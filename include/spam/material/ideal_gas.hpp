@@ -27,6 +27,7 @@ struct IdealGas {
     double energy(double rho, double T) const {
         return only_where(rho > 0.0 && T >= 0.0, 0.5 * dimensions * T / mass);
     }
+    double heat_capacity(double, double) const { return 0.5 * dimensions / mass; }
     double entropy(double rho, double e) const {
         return (0.5 * dimensions * std::log(temperature(rho, e)) - std::log(rho)) / mass;
     }

@@ -23,7 +23,7 @@ class SmoothHenckySolid {
         flow_.validate();
     }
 
-    double stiffness() const { return surface_.lambda; }
+    double stiffness() const { return penalty_modulus(surface_.lambda, surface_.eta); }
     std::string describe() const {
         return fmt::format(
             "logarithmic strain, yielding smoothly {}, lambda = {:.6g}, eta = {:.6g}, {}, width {:g}",

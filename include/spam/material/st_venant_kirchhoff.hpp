@@ -17,7 +17,7 @@ struct StVenantKirchhoff {
     /// The law with the small-strain constants of `solid`.
     static StVenantKirchhoff like(const ElasticSolid& solid) { return {solid.lambda, solid.eta}; }
 
-    double stiffness() const { return lambda; }
+    double stiffness() const { return penalty_modulus(lambda, eta); }
     std::string describe() const {
         return fmt::format("St Venant-Kirchhoff, lambda = {:.6g}, eta = {:.6g}", lambda, eta);
     }

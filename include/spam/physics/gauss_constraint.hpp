@@ -7,8 +7,9 @@
 /// masses): of all constraint forces that keep a body's angular momentum and energy the smallest are
 ///     F_i = m_i (-alpha (v_i - V) + beta z x (r_i - X)),
 ///     beta = -L_dot / (I - L^2/2K),   alpha = beta L / 2K,
-/// about the body's centre of mass X and its velocity V, so that momentum is kept as well:
-/// I = sum m r^2, L = sum m r x v, K = sum m v^2/2, L_dot the rate without the constraint. The
+/// about the body's centre of mass X and its velocity V, so that momentum is kept as well and nothing depends
+/// on the frame: I = sum m r^2, L = sum m r x v, K = sum m v^2/2 and L_dot, the rate without the constraint,
+/// are those of r - X and v - V; X moves with the mean of what moves particles. The
 /// denominator is I times the share of K that is not rigid rotation: what the rotation is to get is
 /// taken from there. It is zero in a rigid rotation, and nearly so again and again.
 namespace spam {

@@ -7,11 +7,13 @@
 
 namespace spam {
 
-/// v_dot_i = -sum_j m_j grad_i w_ij: the weight function as a pair potential, m_i m_j w_ij. Smooth
-/// particles of the gas P = rho^2/2 move like this, [HH01]: P/rho^2 is the same for all.
+/// v_dot_i = -a sum_j m_j grad_i w_ij: the weight function as a pair potential, a m_i m_j w_ij. Smooth
+/// particles of the gas P = a rho^2/2 move like this, [HH01]: P/rho^2 is the same for all.
 template <int Dim>
 struct PairPotential {
     static constexpr bool light = true;  // sweep.hpp
+    double a;                            ///< PassConstants::core_energy
+    static PairPotential with(const PassConstants& c) { return {c.core_energy}; }
 
     template <class T>
     struct Sums {
@@ -21,19 +23,24 @@ struct PairPotential {
     static void add(const Pair<Dim, T>& pair, const Record&, const Record& j, Sums<T>& sums) {
         sums.v_dot -= (j.m * pair.minus_slope) * pair.r_ji;
     }
+    template <class T, class Record>
+    Vec<Dim, T> result(const Record&, const Sums<T>& sums) const {
+        return T(a) * sums.v_dot;
+    }
     template <class To, class T>
-    static void store(const To& to, const Sums<T>& sums) {
-        to.set(to.out.v_dot, sums.v_dot);
+    static void store(const To& to, const Vec<Dim, T>& v_dot) {
+        to.set(to.out.v_dot, v_dot);
     }
 };
 
-/// Half of m_i m_j w_ij, summed over the others.
+/// Half of a m_i m_j w_ij, summed over the others.
 template <int Dim>
 struct PairPotentialEnergy {
     static constexpr bool light = true;  // sweep.hpp
-    double w_0;                          ///< what a particle would have of itself
-    static PairPotentialEnergy with(const PassConstants&, const GeneralWeight<Dim>& weight) {
-        return {weight.value(0.0)};
+    double a;
+    double w_0;  ///< what a particle would have of itself
+    static PairPotentialEnergy with(const PassConstants& c, const GeneralWeight<Dim>& weight) {
+        return {c.core_energy, weight.value(0.0)};
     }
 
     template <class T>
@@ -46,7 +53,7 @@ struct PairPotentialEnergy {
     }
     template <class T, class Record>
     T result(const Record& i, const Sums<T>& sums) const {
-        return T(0.5) * i.m * (sums.m_w - i.m * T(w_0));
+        return T(0.5 * a) * i.m * (sums.m_w - i.m * T(w_0));
     }
     template <class To, class T>
     static void store(const To& to, const T& energy) {

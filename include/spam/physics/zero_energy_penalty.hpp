@@ -8,9 +8,9 @@ namespace spam {
 
 /// What a pair's separation lacks to follow the deformation gradients of its ends,
 ///     d_ji = x_ji - (F_i + F_j) X_ji / 2 = -d_ij   bit for bit,
-/// and its share of the spring constant k_ij = kappa lambda V_i V_j W_ij / |X_ij|^2, without the
-/// factor kappa lambda V_i. The modes that F cannot see are those with d but without strain.
-/// d turns with the body, so that the penalty energy is invariant under rotations.
+/// and its share of the spring constant k_ij = kappa mu V_i V_j W_ij / |X_ij|^2, without the
+/// factor kappa mu V_i. The modes that F cannot see are those with d but without strain.
+/// mu is the law's stiffness() (material/hyperelastic_law.hpp); d turns with the body, so that the penalty energy is invariant under rotations.
 template <int Dim, class T>
 struct UnseenStretch {
     Vec<Dim, T> d_ji;
@@ -23,13 +23,13 @@ struct UnseenStretch {
           k(j.volume * pair.w / (pair.r2 + T(1e-300))) {}
 };
 
-/// Penalty force and its reaction on the deformation gradients, both by kappa lambda V_i:
+/// Penalty force and its reaction on the deformation gradients, both by kappa mu V_i:
 ///     -sum_j k_ij d_ij   and   M_i = sum_j (k_ij/2) d_ij (x) X_ij.
 template <int Dim>
 struct ZeroEnergyPenalty {
     static constexpr bool light = true;  // sweep.hpp
 
-    double stiffness = 0.0;        ///< kappa lambda
+    double stiffness = 0.0;        ///< kappa mu
     double inverse_density = 1.0;  ///< 1/rho_0
     static ZeroEnergyPenalty with(const PassConstants& c) { return {c.penalty, c.inverse_density}; }
 
@@ -62,12 +62,12 @@ struct ZeroEnergyPenalty {
     }
 };
 
-/// Half of the energies k_ij |d_ij|^2/2 of a particle's pairs, by kappa lambda V_i.
+/// Half of the energies k_ij |d_ij|^2/2 of a particle's pairs, by kappa mu V_i.
 template <int Dim>
 struct PenaltyEnergy {
     static constexpr bool light = true;  // sweep.hpp
 
-    double stiffness = 0.0;  ///< kappa lambda
+    double stiffness = 0.0;  ///< kappa mu
     static PenaltyEnergy with(const PassConstants& c) { return {c.penalty}; }
 
     template <class T>

@@ -41,7 +41,7 @@ class IntegratorSettings {
     std::array<std::optional<double>, integrated_fields.size()> field_atol_;
 };
 
-/// Throws InputError where fixed steps would take more than 1e9 of them to `t_end`.
+/// Throws InputError where fixed steps, or the longest allowed, would take more than 1e9 of them to `t_end`.
 void refuse_endless(const IntegratorOptions& integrator, double t_end);
 
 }  // namespace spam

@@ -58,7 +58,7 @@ class Elements final : public Term<2> {
         return "elements do not meet the images of their nodes; use rigid sides";
     }
     std::string describe() const override;
-    double fastest_damping() const override { return damping_; }
+    double fastest_damping(std::span<const double>) const override { return damping_; }
     /// Not of solids that begin to yield.
     bool smooth() const override {
         return std::none_of(materials_.begin(), materials_.end(),

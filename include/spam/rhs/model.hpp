@@ -23,6 +23,14 @@ struct Remark {
     void remember(Archive& archive) { archive(what, value, stop); }
 };
 
+/// What is typical of a body, in the units of the run; all positive.
+struct TypicalValues {
+    double length;   ///< between neighbours
+    double speed;    ///< of particles
+    double density;  ///< mass per volume
+    double stress;   ///< a modulus: what has the unit of a stress or of a force is measured by it
+};
+
 /// A mechanical system as an ordinary differential equation dy/dt = f(t, y): what integrators,
 /// observers and snapshots need to know of it. One virtual call per right-hand side, none per pair.
 template <int Dim>
@@ -88,9 +96,10 @@ class Model {
     /// and dv/dt depends on x alone and y holds nothing else.
     virtual std::string inseparable() const;
 
-    /// Estimate of the rate at which friction takes the fastest motion away, 0 without: explicit steps
-    /// must be short of a few times its inverse.
-    virtual double fastest_damping() const { return 0.0; }
+    /// Estimate of the rate at which friction and conduction take the fastest motion away in state y
+    /// (of bodies at rest without heat where that is empty), 0 without: explicit steps must be short of a few
+    /// times its inverse.
+    virtual double fastest_damping(std::span<const double> /*y*/) const { return 0.0; }
 
     /// Sum over all particles of the magnitudes of what their neighbours do to them, before it cancels, as
     /// energies and stresses tell: sum (m |e| + m |sigma|/rho)/spacing, or |internal energy|/spacing. Of
@@ -116,6 +125,10 @@ class Model {
     FieldLayout<Dim>& layout() { return layout_; }
     /// The same to read only.
     const FieldLayout<Dim>& layout() const { return layout_; }
+    /// Scales of all fields of the layout, by their units.
+    void set_scales(const TypicalValues& typical);
+    /// The time in which what is fastest, particles or sound, passes a typical length; 1 before set_scales().
+    double time_scale() const { return time_scale_; }
 
   protected:
     /// What is left of promises in the model's box: in a periodic one turning is no symmetry, and the
@@ -129,6 +142,7 @@ class Model {
     Particles<Dim> particles_;
     Box<Dim> box_;
     FieldLayout<Dim> layout_;
+    double time_scale_ = 1.0;
 
   protected:
     std::string failure_;

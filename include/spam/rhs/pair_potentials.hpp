@@ -33,7 +33,7 @@ class LucyPairPotential final : public PairTerm<Dim> {
   public:
     /// `range`: of the weight function, > spacing. Throws InputError for another, and for a periodic
     /// box that is narrower than a fifth of the range.
-    LucyPairPotential(const Selection<Dim>& among, double range);
+    LucyPairPotential(const Selection<Dim>& among, double range, double a = 1.0);
 };
 
 /// The latter and nothing else.

@@ -81,7 +81,7 @@ class ParticleModel : public Model<Dim> {
     /// Why leapfrog cannot advance it (Model::inseparable), externals asked as well.
     std::string inseparable() const final;
     /// The sum of those of terms and externals, 1/time.
-    double fastest_damping() const final;
+    double fastest_damping(std::span<const double> y) const final;
     /// The sum of those of the terms, mass length/time^2.
     double neighbour_forces(std::span<const double> y) const final;
     /// Whether the rates of every term are continuous.

@@ -3,6 +3,7 @@
 
 #include <spam/material/fluid.hpp>
 #include <spam/material/material.hpp>
+#include <spam/physics/torque_balance.hpp>
 #include <spam/physics/viscosity.hpp>
 #include <spam/rhs/particle_model.hpp>
 
@@ -22,7 +23,7 @@ enum class ListUse;
 struct PackedFields;
 struct Groups;
 class TorqueFactors;
-struct TorqueScale;
+struct RestingBody;
 class GaussForces;
 template <int Dim>
 class Constitution;
@@ -72,7 +73,7 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<Event> events() const override;
     Promises promises() const override;
     std::string describe() const override;
-    double fastest_damping() const override { return damping_; }
+    double fastest_damping(std::span<const double> y) const override;
     /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
     /// sets in and out, nor of solids that begin to yield.
     bool smooth() const override;
@@ -112,7 +113,7 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<double> summed_density(const PackedFields& fields) const;
     std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     void load_transport(const Now& now);
-    void estimate_damping();
+    void prepare_damping();
     Groups groups() const;
 
     std::unique_ptr<Constitution<Dim>> constitution_;
@@ -120,8 +121,8 @@ class SmoothParticles final : public Term<Dim> {
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
     ViscosityConstants viscosity_;
-    double damping_ = 0.0;   ///< friction's and that of shifting
-    double shifting_ = 0.0;  ///< its coefficient D
+    double shifting_ = 0.0;                    ///< its coefficient D
+    std::unique_ptr<const RestingBody> rest_;  ///< where something is damped
     std::vector<double> summed_density_;
     std::vector<double> heat_;         ///< by conduction, where work is found after it
     std::vector<std::int32_t> group_;  ///< per particle, what keeps its angular momentum

@@ -84,7 +84,7 @@ class Term {
         return p;
     }
     virtual std::string describe() const = 0;
-    virtual double fastest_damping() const { return 0.0; }
+    virtual double fastest_damping(std::span<const double> /*y*/) const { return 0.0; }
     virtual bool smooth() const { return true; }
     virtual std::size_t pairs() const = 0;
     virtual double reach() const = 0;

@@ -23,9 +23,10 @@ VelocityField<Dim> at_rest() {
 }
 
 /// y at the start: reference positions, the given velocities, density (where y carries it), no
-/// stress, no internal energy. Scales of the layout are set for the tolerances: position by the
-/// spacing, velocity by the largest speed (its square for the energy), density by its value, stress
-/// by `modulus`.
+/// stress, no internal energy. Scales of the layout are set for the tolerances, all by their units: position
+/// by the spacing, velocity by the largest speed (its square for the energy) or, where all are at rest, by
+/// sqrt(modulus/density), density by its value, stress and forces by `modulus`. Precondition: density and
+/// modulus are positive.
 template <int Dim>
 std::vector<double> initial_state(Model<Dim>& model, double density, double modulus,
                                   const VelocityField<Dim>& velocity);

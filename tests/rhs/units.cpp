@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every law of the library in other units of mass, length and time: the same run, bit for bit where the units are
+// powers of two, with fixed steps and adaptive ones. No number of a law, a limit, a tolerance or an estimate
+// has a unit of its own.
+#include "rhs/more_laws.hpp"
+#include "rhs/walled.hpp"
+#include <spam/integrate/methods.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace spam;
+using namespace spam::test;
+
+namespace {
+
+const Units powers_of_two{32.0, 0.125, 128.0};
+const std::vector<Units> units{powers_of_two, {7.0, 3.0, 2.0}, {1e-3, 1e6, 1e3}};
+
+/// What is put together, in units in which spacing and mass are 1.
+struct Setting {
+    Build law;
+    Scheme scheme{};
+    std::string more{}, external{};
+    std::function<Box<2>(const Units&)> box = [](const Units&) { return Box<2>(); };
+    double speed = 1.0, end = 0.2;
+    std::function<void(Sample&, std::vector<double>& y)> mutate{};
+};
+
+/// A run, and what is said of it.
+struct Course {
+    std::string refused{}, stopped{};
+    std::vector<double> y{};
+    FieldLayout<2> layout{0, {}};
+    Integrator::Statistics steps{};
+    double damping = 0.0, forces = 0.0, reach = 0.0;
+    Promises promises{};
+};
+
+IntegratorOptions fixed(const Units& u) {
+    IntegratorOptions options;
+    options.dt = 0.1 * u.time;
+    return options;
+}
+IntegratorOptions adaptive(const Units&) {
+    IntegratorOptions options;
+    options.method = "arkode:DORMAND_PRINCE_7_4_5";
+    options.rtol = 1e-6;
+    return options;
+}
+using Options = std::function<IntegratorOptions(const Units&)>;
+
+Course course_of(const Setting& setting, const Units& u, const Options& options) {
+    Course course;
+    Sample sample(setting.box(u), u);
+    sample.speed = setting.speed;
+    try {
+        setting.law(sample, sample.scheme(setting.scheme));
+        further.at(setting.more)(sample);
+        externals.at(setting.external)(sample);
+        auto y = sample.start();
+        if (setting.mutate) setting.mutate(sample, y);
+        course.layout = sample.model.layout();
+        course.damping = sample.model.fastest_damping(y);
+        course.promises = sample.model.promises();
+        course.reach = sample.model.reach();
+        Motion<2> motion(sample.model, y, options(u));
+        try {
+            motion.advance_to(setting.end * u.time);
+        } catch (const GuardStop& stop) {
+            course.stopped = stop.what();
+        }
+        course.y.assign(motion.y().begin(), motion.y().end());
+        course.steps = motion.integrator().statistics();
+        course.forces = sample.model.neighbour_forces(course.y);
+    } catch (const InputError& e) {
+        course.refused = e.what();
+    }
+    return course;
+}
+
+/// How far `in_others` is from `course`, given in these units: the largest difference of a number of y or of what is
+/// said of it, in parts of the largest of its field, or of what rounding may leave.
+double difference(const Course& course, const Course& in_others, const Units& u) {
+    constexpr double least = 1e-5;
+    double worst = 0.0;
+    const auto compare = [&](double a, double b, double unit, double size) {
+        const double off = std::abs(b / unit - a) / std::max(size, least);
+        if (!(off <= worst)) worst = off;  // NaN stays
+    };
+    compare(course.damping, in_others.damping, 1.0 / u.time, course.damping);
+    compare(course.forces, in_others.forces, u.of("m l/t^2", 2), course.forces);
+    compare(course.reach, in_others.reach, u.length, course.reach);
+    for (const auto& block : course.layout.blocks()) {
+        const double unit = u.of(block.field.unit(), 2);
+        compare(block.scale, in_others.layout.find(block.field, block.holder)->scale, unit,
+                block.scale);
+        double size = 0.0;
+        for (std::size_t k = block.offset; k < block.offset + block.size; ++k)
+            size = std::max(size, std::abs(course.y[k]));
+        for (std::size_t k = block.offset; k < block.offset + block.size; ++k)
+            compare(course.y[k], in_others.y[k], unit, size);
+    }
+    return worst;
+}
+
+/// A sentence without its numbers.
+std::string words_of(const std::string& text) {
+    return std::regex_replace(text, std::regex("[-+]?[0-9.]+(e[-+]?[0-9]+)?"), "#");
+}
+
+struct Found {
+    bool ran = false;
+    double worst = 0.0;
+};
+
+/// Checks `setting` in all units. Returns whether it ran, and the largest difference.
+Found check(const Setting& setting, const Options& options = fixed) {
+    const Course course = course_of(setting, {}, options);
+    Found found{course.refused.empty()};
+    for (const Units& u : units) {
+        const Course other = course_of(setting, u, options);
+        BOOST_TEST_CONTEXT("units " << u.mass << ", " << u.length << ", " << u.time) {
+            BOOST_TEST(words_of(other.refused) == words_of(course.refused));
+            BOOST_TEST(words_of(other.stopped) == words_of(course.stopped));
+            if (!course.refused.empty() || !other.refused.empty()) continue;
+            BOOST_TEST(other.steps.steps == course.steps.steps);
+            BOOST_TEST(other.steps.rejected_steps == course.steps.rejected_steps);
+            BOOST_TEST(other.steps.events == course.steps.events);
+            BOOST_TEST((other.promises.angular_momentum == course.promises.angular_momentum &&
+                        other.promises.energy == course.promises.energy));
+            const double off = difference(course, other, u);
+            const bool to_the_bit = &u == &units.front() && options(u).dt;
+            BOOST_TEST(off <= (to_the_bit ? 0.0 : 1e-9));
+            found.worst = std::max(found.worst, off);
+        }
+    }
+    return found;
+}
+
+/// Every law there is, by name.
+std::map<std::string, Build> all_laws() {
+    std::map<std::string, Build> laws = more_laws;
+    for (const auto* some : {&with_scheme, &without_scheme})
+        laws.insert(some->begin(), some->end());
+    return laws;
+}
+
+/// "gamma_gas" of the folder of laws as GammaGas; without what several laws share.
+std::set<std::string> names_of_laws() {
+    const std::set<std::string> shared{"equation_of_state",
+                                       "flow_stress",
+                                       "fluid",
+                                       "hyperelastic_law",
+                                       "hyperelastic_material",
+                                       "material",
+                                       "plane_stress_multiplier",
+                                       "plane_stress_return",
+                                       "plastic_fields",
+                                       "stress_law"};
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::filesystem::path(SPAM_SOURCE) / "include/spam/material")) {
+        const std::string file = entry.path().stem().string();
+        if (shared.contains(file)) continue;
+        std::string name;
+        for (std::size_t k = 0; k < file.size(); ++k)
+            if (file[k] != '_')
+                name += k == 0 || file[k - 1] == '_'
+                            ? static_cast<char>(std::toupper(static_cast<unsigned char>(file[k])))
+                            : file[k];
+        names.insert(name == "VonMises" ? "PlaneVonMises" : name);
+    }
+    return names;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(no_law_is_left_out) {
+    std::stringstream text;
+    for (const char* file : {"combinations.hpp", "more_laws.hpp"})
+        text << std::ifstream(std::filesystem::path(SPAM_SOURCE) / "tests/rhs" / file).rdbuf();
+    const auto names = names_of_laws();
+    BOOST_TEST(names.size() > 18u);
+    for (const auto& name : names) BOOST_TEST(text.str().find(name) != std::string::npos, name);
+}
+
+BOOST_AUTO_TEST_CASE(every_law_and_every_external) {
+    for (const auto& [law, build] : all_laws())
+        for (const auto& [external, add] : externals) BOOST_TEST_CONTEXT(law << ", " << external)
+    BOOST_TEST(check({.law = build, .external = external}).ran);
+}
+
+BOOST_AUTO_TEST_CASE(every_law_with_adaptive_steps_and_from_rest) {
+    for (const auto& [law, build] : all_laws())
+        for (const double speed : {1.0, 0.0}) BOOST_TEST_CONTEXT(law << ", speed " << speed)
+    BOOST_TEST(
+        check({.law = build, .external = "Gravity", .speed = speed, .end = 0.5}, adaptive).ran);
+}
+
+BOOST_AUTO_TEST_CASE(every_further_term) {
+    for (const auto& [more, add] : further)
+        for (const char* law : {"SmoothParticles, gas", "TotalLagrangian"})
+            BOOST_TEST_CONTEXT(law << " + " << more)
+    BOOST_TEST(check({.law = all_laws().at(law), .more = more}).ran);
+}
+
+BOOST_AUTO_TEST_CASE(every_scheme_and_every_weight_function) {
+    int ran = 0;
+    for (const auto& [law, build] : with_scheme) {
+        for_each_scheme([&, name = law, &build = build](const Scheme& scheme) {
+            BOOST_TEST_CONTEXT(name << ", " << scheme.describe())
+            ran += check({.law = build, .scheme = scheme}).ran;
+        });
+        for (const Kernel kernel : all_kernels())
+            for (const auto mean : {MeanDensityKind::arithmetic, MeanDensityKind::geometric})
+                BOOST_TEST_CONTEXT(law << ", " << to_string(kernel))
+        BOOST_TEST(check({.law = build, .scheme = {.mean_density = mean, .kernel = kernel}}).ran);
+    }
+    BOOST_TEST_MESSAGE(ran << " schemes ran");
+    BOOST_TEST(ran > 150);
+}
+
+BOOST_AUTO_TEST_CASE(every_wall_and_a_period) {
+    int ran = 0;
+    for (const auto& [kind, wall] : walls)
+        for (const auto& [law, build] : all_laws()) BOOST_TEST_CONTEXT(kind << ": " << law) {
+                const auto box = [&wall = wall](const Units& u) { return walled_by(wall, u); };
+                ran += check({.law = build, .external = "Gravity", .box = box}).ran;
+            }
+    BOOST_TEST(ran > 60);
+    const auto periodic = [](const Units& u) { return triangular_box(8, 6, u.length); };
+    for (const auto& [law, build] : all_laws())
+        if (law.find("lements") == std::string::npos)  // not in a box
+            BOOST_TEST_CONTEXT("periodic: " << law)
+    BOOST_TEST(check({.law = build, .box = periodic}).ran);
+    for (const auto& [law, build] : more_laws)
+        if (law.find("mbeddedAtom") != std::string::npos && !law.starts_with("D"))
+            BOOST_TEST_CONTEXT("shifted: " << law) {
+                const Scheme shifted{.transport = Transport::shifting};
+                BOOST_TEST(check({.law = build, .scheme = shifted, .box = periodic}).ran);
+            }
+}
+
+/// Pairs that come near are reflected at times that are found.
+BOOST_AUTO_TEST_CASE(reflections_of_pairs) {
+    const Scheme scheme{.closest_approach = 0.97};
+    for (const Options& options : {Options(fixed), Options(adaptive)})
+        for (const char* law : {"SmoothParticles, gas", "SmoothParticles, solid"}) {
+            const Setting setting{
+                .law = with_scheme.at(law), .scheme = scheme, .speed = 3.0, .end = 1.0};
+            BOOST_TEST(course_of(setting, {}, options).steps.events > 10u);
+            BOOST_TEST(check(setting, options).ran);
+        }
+}
+
+/// Also from rest, where none can tell how long a first step may be but by the scales of fields.
+BOOST_AUTO_TEST_CASE(every_method) {
+    for (const auto& method : integration_methods())
+        for (const bool free : {false, true}) {
+            const bool by_tolerance = method.adaptive && (free || !method.fixed);
+            const auto options = [&](const Units& u) {
+                IntegratorOptions one = by_tolerance ? adaptive(u) : fixed(u);
+                one.method = method.name;
+                return one;
+            };
+            const char* const law = method.separable ? "TotalLagrangian" : "SmoothParticles, solid";
+            for (const double speed : {1.0, 0.0})
+                BOOST_TEST_CONTEXT(method.name << (by_tolerance ? ", adaptive" : "") << ", speed "
+                                               << speed)
+            BOOST_TEST(
+                check({.law = all_laws().at(law), .external = "Gravity", .speed = speed}, options)
+                    .ran);
+        }
+}
+
+namespace {
+
+/// A gas with a pressure that is the same number in all units.
+struct AnchoredGas {
+    GammaGas gas;
+    double pressure(double rho, double e) const { return gas.pressure(rho, e) + 1e-3 * rho; }
+    double sound_speed_squared(double rho, double e) const {
+        return gas.sound_speed_squared(rho, e);
+    }
+    std::string describe() const { return "anchored"; }
+};
+
+/// Whether the difference is seen in one of the units.
+bool seen(const Setting& setting, const Options& options = fixed) {
+    const Course course = course_of(setting, {}, options);
+    return std::any_of(units.begin(), units.end(), [&](const Units& u) {
+        const Course other = course_of(setting, u, options);
+        return !(difference(course, other, u) < 1e-9) || other.steps.steps != course.steps.steps;
+    });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_hidden_unit_is_found) {
+    const Build gas = with_scheme.at("SmoothParticles, gas");
+    const Build smooth = more_laws.at("SmoothHenckySolid");
+    BOOST_TEST(!seen({.law = gas}));
+    BOOST_TEST(seen({.law = fluid_of([](const Sample&) { return AnchoredGas{GammaGas{1.4}}; })}));
+    BOOST_TEST(seen({.law = [](Sample& s, const Scheme& scheme) {
+        add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}}, scheme);
+    }}));
+    BOOST_TEST(seen({.law = solid_of([](const Sample& s) {
+                         return YieldingSolid<PlaneVonMises>(elastic<PlaneVonMises>(s),
+                                                             LinearHardening{1e-3, s.stress(0.1)});
+                     })}));
+    BOOST_TEST(seen({.law = [&](Sample& s, const Scheme& scheme) {
+        gas(s, scheme);
+        s.model.add(std::make_unique<Friction<2>>(1e-3));
+    }}));
+    // The tolerance of one field, that of a plastic work here.
+    const Setting flowing{.law = smooth, .speed = 3.0, .end = 1.0};
+    BOOST_TEST(!seen(flowing, adaptive));
+    Setting of_scale_1 = flowing;
+    of_scale_1.mutate = [](Sample& s, std::vector<double>&) {
+        s.model.layout().set_scale(field_kind::flowing_plastic_work, 1.0);
+    };
+    BOOST_TEST(seen(of_scale_1, adaptive));
+}
