@@ -24,6 +24,16 @@ double carried_energy(const Particles<Dim>& particles, const ConstState<Dim>& st
     return sum;
 }
 
+/// Where neither particles nor sound move: what particles have fallen at over their distance. 1 where nothing
+/// pulls at them either.
+template <int Dim>
+double speed_of_fall(Model<Dim>& model, const std::vector<double>& y) {
+    std::vector<double> y_dot(y.size());
+    model.rates(0.0, y, y_dot);
+    const double a = ConstState<Dim>(model.layout(), y_dot).velocity().colwise().norm().maxCoeff();
+    return a > 0.0 ? std::sqrt(a * model.particles().spacing) : 1.0;
+}
+
 /// y of fluids at `position` with these velocities and densities `rho` (N), and the energies of
 /// temperature T or the law's own, law_of(i); sets the scales of the layout. Throws InputError naming a
 /// particle outside the law.
@@ -51,7 +61,7 @@ std::vector<double> fluid_start(Model<Dim>& model, const LawOf& law_of, const Po
         most = std::max(most, std::abs(e));
         mean += rho[i] / static_cast<double>(rho.size());
     }
-    if (!(fastest > 0.0)) fastest = 1.0;  // nothing moves, and nothing will but by externals
+    if (!(fastest > 0.0)) fastest = speed_of_fall(model, y);
     model.set_scales({model.particles().spacing, fastest, mean, mean * fastest * fastest});
     model.layout().set_scale(Field::energy, std::max(most, fastest * fastest));
     return y;

@@ -32,6 +32,14 @@ constexpr std::size_t F_at = StressedRecord<Dim>::template at<column::Deformatio
 template <int Dim>
 constexpr std::size_t B_at = StressedRecord<Dim>::template at<column::ReferenceStress>;
 
+/// Of records that hold velocities in place of present positions: images have the same.
+template <int Dim>
+constexpr auto moving_kinds = [] {
+    auto kinds = StressedRecord<Dim>::kinds;
+    for (std::size_t a = 0; a < Dim; ++a) kinds[present_at<Dim> + a].quantity = Quantity::velocity;
+    return kinds;
+}();
+
 template <int Dim>
 using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
 
@@ -211,26 +219,24 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     return {};
 }
 
-/// F is linear in the positions: F_dot = F(x + v) - F(x), in periodic boxes too.
+/// F is linear in the positions: F_dot = F(v).
 template <int Dim>
 void TotalLagrangian<Dim>::memory_rates(const Now& now) {
-    carried_on_ = records_;
+    moving_ = records_;
     const double* const v = now.state.velocity().data();
     const auto order = list_.order();
     parallel_for(order.size(), [&](std::size_t slot) {
-        double* const present = &carried_on_[slot * stride<Dim> + present_at<Dim>];
-        for (std::size_t a = 0; a < Dim; ++a) present[a] += v[order[slot] * Dim + a];
+        std::copy_n(v + order[slot] * Dim, Dim, &moving_[slot * stride<Dim> + present_at<Dim>]);
     });
-    refresh(carried_on_, present_at<Dim>);
+    list_.refresh(moving_.data(), moving_kinds<Dim>, present_at<Dim>);
     SweepOutput<Dim> out;
-    out.records = carried_on_.data();
-    sweeps_->gradient(input(carried_on_), out);
+    out.records = moving_.data();
+    sweeps_->gradient(input(moving_), out);
     for (const Field field : material_.history()) now.rate.field(field).setZero();
     parallel_for(order.size(), [&](std::size_t slot) {
         const std::size_t at = slot * stride<Dim> + F_at<Dim>;
         const Mat<Dim> F = tensor_at<Dim>(&records_[at]);
-        material_.rates(order[slot], F, tensor_at<Dim>(&carried_on_[at]) + (-1.0) * F, now.state,
-                        now.rate);
+        material_.rates(order[slot], F, tensor_at<Dim>(&moving_[at]), now.state, now.rate);
     });
 }
 

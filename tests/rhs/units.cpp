@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 using namespace spam;
@@ -15,8 +16,10 @@ using namespace spam::test;
 
 namespace {
 
-const Units powers_of_two{32.0, 0.125, 128.0};
-const std::vector<Units> units{powers_of_two, {7.0, 3.0, 2.0}, {1e-3, 1e6, 1e3}};
+/// The first two are powers of two, that of the mass even: roots are taken of densities and of moduli.
+const std::vector<Units> units{
+    {64.0, 0.125, 128.0}, {0x1p-10, 0x1p20, 0x1p10}, {7.0, 3.0, 2.0}, {1e-3, 1e6, 1e3}};
+bool powers_of_two(const Units& u) { return &u < &units[2]; }
 
 /// What is put together, in units in which spacing and mass are 1.
 struct Setting {
@@ -36,6 +39,9 @@ struct Course {
     Integrator::Statistics steps{};
     double damping = 0.0, forces = 0.0, reach = 0.0;
     Promises promises{};
+    /// Whether rounding has a say in adaptive steps, by far more than its own size: errors are differences, and
+    /// where some steps are rejected or rates jump, others may be.
+    bool by_rounding = false;
 };
 
 IntegratorOptions fixed(const Units& u) {
@@ -73,6 +79,7 @@ Course course_of(const Setting& setting, const Units& u, const Options& options)
         }
         course.y.assign(motion.y().begin(), motion.y().end());
         course.steps = motion.integrator().statistics();
+        course.by_rounding = course.steps.rejected_steps > 0 || !sample.model.smooth();
         course.forces = sample.model.neighbour_forces(course.y);
     } catch (const InputError& e) {
         course.refused = e.what();
@@ -115,7 +122,8 @@ struct Found {
     double worst = 0.0;
 };
 
-/// Checks `setting` in all units. Returns whether it ran, and the largest difference.
+/// Checks `setting` in all units, where these are powers of two to the bit. Returns whether it ran, and the largest
+/// difference.
 Found check(const Setting& setting, const Options& options = fixed) {
     const Course course = course_of(setting, {}, options);
     Found found{course.refused.empty()};
@@ -125,18 +133,29 @@ Found check(const Setting& setting, const Options& options = fixed) {
             BOOST_TEST(words_of(other.refused) == words_of(course.refused));
             BOOST_TEST(words_of(other.stopped) == words_of(course.stopped));
             if (!course.refused.empty() || !other.refused.empty()) continue;
-            BOOST_TEST(other.steps.steps == course.steps.steps);
-            BOOST_TEST(other.steps.rejected_steps == course.steps.rejected_steps);
-            BOOST_TEST(other.steps.events == course.steps.events);
             BOOST_TEST((other.promises.angular_momentum == course.promises.angular_momentum &&
                         other.promises.energy == course.promises.energy));
+            const bool same_steps = powers_of_two(u) || options(u).dt || !course.by_rounding;
+            if (same_steps) {
+                BOOST_TEST(other.steps.steps == course.steps.steps);
+                BOOST_TEST(other.steps.rejected_steps == course.steps.rejected_steps);
+                BOOST_TEST(other.steps.events == course.steps.events);
+            }
             const double off = difference(course, other, u);
-            const bool to_the_bit = &u == &units.front() && options(u).dt;
-            BOOST_TEST(off <= (to_the_bit ? 0.0 : 1e-9));
+            BOOST_TEST(off <= (powers_of_two(u) ? 0.0
+                               : options(u).dt  ? 1e-9
+                               : same_steps     ? 1e-7
+                                                : 1e-4));
             found.worst = std::max(found.worst, off);
         }
     }
     return found;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
 }
 
 /// Every law there is, by name.
@@ -147,30 +166,21 @@ std::map<std::string, Build> all_laws() {
     return laws;
 }
 
-/// "gamma_gas" of the folder of laws as GammaGas; without what several laws share.
+/// What the headers of laws declare that `describe()`s itself, by name; without what laws have in common.
 std::set<std::string> names_of_laws() {
-    const std::set<std::string> shared{"equation_of_state",
-                                       "flow_stress",
-                                       "fluid",
-                                       "hyperelastic_law",
-                                       "hyperelastic_material",
-                                       "material",
-                                       "plane_stress_multiplier",
-                                       "plane_stress_return",
-                                       "plastic_fields",
-                                       "stress_law"};
+    const std::set<std::string> common{
+        "AnyEquationOfState", "Fluid",          "HyperelasticMaterial",
+        "Material",           "Failure",        "FlowState",
+        "LogarithmicStrain",  "ReturnedStress", "PlaneStressMultiplier",
+        "RadialVonMises"};
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(
              std::filesystem::path(SPAM_SOURCE) / "include/spam/material")) {
-        const std::string file = entry.path().stem().string();
-        if (shared.contains(file)) continue;
-        std::string name;
-        for (std::size_t k = 0; k < file.size(); ++k)
-            if (file[k] != '_')
-                name += k == 0 || file[k - 1] == '_'
-                            ? static_cast<char>(std::toupper(static_cast<unsigned char>(file[k])))
-                            : file[k];
-        names.insert(name == "VonMises" ? "PlaneVonMises" : name);
+        const std::string text = text_of(entry.path());
+        const std::regex law("\\n(?:struct|class) (\\w+)(?= [^;]*\\{)");
+        if (text.find("describe() const {") == std::string::npos) continue;
+        for (std::sregex_iterator it(text.begin(), text.end(), law), end; it != end; ++it)
+            if (!common.contains((*it)[1])) names.insert((*it)[1]);
     }
     return names;
 }
@@ -231,10 +241,9 @@ BOOST_AUTO_TEST_CASE(every_wall_and_a_period) {
             }
     BOOST_TEST(ran > 60);
     const auto periodic = [](const Units& u) { return triangular_box(8, 6, u.length); };
-    for (const auto& [law, build] : all_laws())
-        if (law.find("lements") == std::string::npos)  // not in a box
-            BOOST_TEST_CONTEXT("periodic: " << law)
-    BOOST_TEST(check({.law = build, .box = periodic}).ran);
+    for (const auto& [law, build] : all_laws()) BOOST_TEST_CONTEXT("periodic: " << law)
+    ran += check({.law = build, .box = periodic}).ran;
+    BOOST_TEST(ran > 85);
     for (const auto& [law, build] : more_laws)
         if (law.find("mbeddedAtom") != std::string::npos && !law.starts_with("D"))
             BOOST_TEST_CONTEXT("shifted: " << law) {
@@ -290,9 +299,9 @@ struct AnchoredGas {
 /// Whether the difference is seen in one of the units.
 bool seen(const Setting& setting, const Options& options = fixed) {
     const Course course = course_of(setting, {}, options);
-    return std::any_of(units.begin(), units.end(), [&](const Units& u) {
+    return std::any_of(units.begin(), units.begin() + 2, [&](const Units& u) {
         const Course other = course_of(setting, u, options);
-        return !(difference(course, other, u) < 1e-9) || other.steps.steps != course.steps.steps;
+        return difference(course, other, u) != 0.0 || other.steps.steps != course.steps.steps;
     });
 }
 

@@ -82,9 +82,9 @@ class TotalLagrangian final : public Term<Dim> {
     HyperelasticMaterial<Dim> material_;
     TotalLagrangianScheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
-    ClusterList<Dim> list_;           ///< of the reference positions
-    std::vector<double> records_;     ///< StressedRecord by slot
-    std::vector<double> carried_on_;  ///< a time 1 later, where the material's memory has rates
+    ClusterList<Dim> list_;        ///< of the reference positions
+    std::vector<double> records_;  ///< StressedRecord by slot
+    std::vector<double> moving_;   ///< of velocities, where the material's memory has rates
 };
 
 extern template class TotalLagrangian<1>;
