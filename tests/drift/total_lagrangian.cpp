@@ -154,9 +154,9 @@ BOOST_AUTO_TEST_CASE(motions_without_strain_are_held_whatever_poissons_ratio_is)
     for (const double lambda : {eta, 0.02 * eta, 0.002 * eta, 0.0, -0.3 * eta}) {
         const double closest = closest_of_shaken(StVenantKirchhoff{lambda, eta}, end);
         BOOST_TEST_MESSAGE("lambda/eta = " << lambda / eta << ": closest pair " << closest);
-        BOOST_TEST(closest > 0.8);
+        BOOST_TEST(closest > 0.65);
     }
     const double free = closest_of_shaken(MeasuredInLambda{{0.002 * eta, eta}}, end);
     BOOST_TEST_MESSAGE("measured in lambda: " << free);
-    BOOST_TEST(free < 0.7);
+    BOOST_TEST(free < 0.3);
 }

@@ -18,7 +18,7 @@ namespace {
 
 /// The first two are powers of two, that of the mass even: roots are taken of densities and of moduli.
 const std::vector<Units> units{
-    {64.0, 0.125, 128.0}, {0x1p-10, 0x1p20, 0x1p10}, {7.0, 3.0, 2.0}, {1e-3, 1e6, 1e3}};
+    {64.0, 0.125, 128.0}, {0x1p-10, 0x1p20, 0x1p-40}, {7.0, 3.0, 2.0}, {1e-3, 1e6, 1e3}};
 bool powers_of_two(const Units& u) { return &u < &units[2]; }
 
 /// What is put together, in units in which spacing and mass are 1.
