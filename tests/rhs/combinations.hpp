@@ -203,8 +203,7 @@ inline const std::map<std::string, std::function<void(Sample&)>> further{
      }},
     {"Contact",
      [](Sample& s) {
-         s.model.add_term<Contact<2>>(
-             ContactScheme{s.energy(0.2), s.length(1.0), s.length(1.2)});
+         s.model.add_term<Contact<2>>(ContactScheme{s.energy(0.2), s.length(1.0), s.length(1.2)});
      }},
     {"Springs", [](Sample& s) { add_springs(s); }},
     {"LucyPairPotential", [](Sample& s) { add_lucy(s, 2.5); }},
