@@ -1,44 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/dimensions.hpp>
 #include <spam/core/unit_names.hpp>
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdlib>
 
 namespace spam {
 namespace {
-
-/// Powers of mass, length and time.
-using Powers = std::array<int, 3>;
-
-/// "m l^(2-D)/t^2" in D dimensions. Grammar: factors of one letter, each with ^ and a number, D or (2-D); the
-/// one after a / divides.
-Powers powers_of(std::string_view made_of, int dim) {
-    Powers powers{};
-    int sign = 1;
-    while (!made_of.empty()) {
-        const char letter = made_of.front();
-        made_of.remove_prefix(1);
-        if (letter == '/') sign = -1;
-        const auto which = std::string_view("mlt").find(letter);
-        if (which == std::string_view::npos) continue;
-        int power = 1;
-        if (made_of.starts_with("^(2-D)")) {
-            power = 2 - dim;
-            made_of.remove_prefix(6);
-        } else if (made_of.starts_with("^D")) {
-            power = dim;
-            made_of.remove_prefix(2);
-        } else if (made_of.starts_with('^') && made_of.size() > 1) {
-            power = made_of[1] - '0';
-            made_of.remove_prefix(2);
-        }
-        powers[which] += sign * power;
-        sign = 1;
-    }
-    return powers;
-}
 
 std::string with_power(const std::string& name, int power) {
     return power == 1   ? name
@@ -50,24 +19,23 @@ std::string with_power(const std::string& name, int power) {
 }  // namespace
 
 std::string UnitNames::of(std::string_view made_of, int dim) const {
-    Powers powers = powers_of(made_of, dim);
-    if (!named() || powers == Powers{}) return {};
-    if (of_unit_thickness) powers[1] -= powers[0];
-    if (powers == Powers{1, -1, -2} && !stress.empty()) return stress;
-    if (powers == Powers{1, 2, -2} && !energy.empty()) return energy;
+    Dimensions powers = dimensions_of(made_of, dim);
+    if (!named() || powers == Dimensions{}) return {};
+    if (of_unit_thickness) powers.length -= powers.mass;
+    if (powers == Dimensions{1, -1, -2} && !stress.empty()) return stress;
+    if (powers == Dimensions{1, 2, -2} && !energy.empty()) return energy;
     std::string above, below;
     int divisors = 0;
-    const std::array names{&mass, &length, &time};
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        if (powers[k] == 0) continue;
-        std::string& side = powers[k] > 0 ? above : below;
-        if (!side.empty()) side += ' ';
-        side += with_power(*names[k], std::abs(powers[k]));
-        if (powers[k] < 0) ++divisors;
+    for (const auto& [name, power] :
+         {std::pair{&mass, powers.mass}, {&length, powers.length}, {&time, powers.time}}) {
+        if (power == 0) continue;
+        std::string& side = power > 0 ? above : below;
+        side += (side.empty() ? "" : " ") + with_power(*name, std::abs(power));
+        if (power < 0) ++divisors;
     }
     if (divisors == 0) return above;
-    return fmt::format(fmt::runtime(divisors > 1 ? "{}/({})" : "{}/{}"),
-                       above.empty() ? std::string("1") : above, below);
+    if (above.empty()) above = "1";
+    return divisors > 1 ? fmt::format("{}/({})", above, below) : fmt::format("{}/{}", above, below);
 }
 
 std::string UnitNames::axis(std::string_view quantity, std::string_view made_of, int dim) const {
