@@ -9,30 +9,9 @@ from pathlib import Path
 import python_names
 
 # Documents that are pages as they are.
-WHOLE = {"problems/README.md": "problems.md", "src/integrate/README.md": "methods.md",
-         "tests/bench/README.md": "bench.md", "src/README.md": "code.md",
+WHOLE = {"README.md": "start.md", "problems/README.md": "problems.md", "problems/material_vectors.md": "vectors.md",
+         "src/integrate/README.md": "methods.md", "tests/bench/README.md": "bench.md", "src/README.md": "code.md",
          ".github/CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md"}
-TAKE = re.compile(r"<!-- take (\S+) \"([^\"]+)\" -->")
-
-
-def slug(heading):
-    """The anchor of a heading: small letters, hyphens for blanks, no punctuation."""
-    return "".join("-" if c in " -" else c.lower() for c in heading if c.isalnum() or c in " -_")
-
-
-def section(text, heading):
-    """The section under a heading, up to the next one of its level."""
-    lines = text.splitlines()
-    starts = [n for n, line in enumerate(lines) if re.fullmatch(r"#+ " + re.escape(heading), line)]
-    if len(starts) != 1:
-        raise SystemExit(f"spam: docs: there is no section '{heading}' to take")
-    level, start, fenced = len(lines[starts[0]].split()[0]), starts[0] + 1, False
-    for end in range(start, len(lines)):
-        fenced ^= lines[end].startswith("```")
-        mark = re.match(r"#+ ", lines[end])
-        if mark and not fenced and len(mark[0].strip()) <= level:
-            return "\n".join(lines[start:end])
-    return "\n".join(lines[start:])
 
 
 def title_of(document):
@@ -47,13 +26,6 @@ class Writer:
         self.root, self.source = root, source
         self.pages = {(root / name).resolve(): page for name, page in WHOLE.items()}
         self.pages |= {file.resolve(): file.name for file in here.glob("*.md")}
-        self.sections = {}  # (document, anchor): page that has taken it
-        for file in sorted(here.glob("*.md")):
-            for name, heading in TAKE.findall(file.read_text(encoding="utf-8")):
-                document = (root / name).resolve()
-                anchors = [slug(heading)] + [slug(h) for h in re.findall(
-                    r"(?m)^#+ (.*)$", section(document.read_text(encoding="utf-8"), heading))]
-                self.sections |= {(document, anchor): file.name for anchor in anchors}
 
     def target(self, link, folder):
         """Where a link of a text from `folder` leads on the pages; None: to nothing there."""
@@ -61,12 +33,8 @@ class Writer:
             return link
         path, _, anchor = link.partition("#")
         file = (folder / path).resolve()
-        if (file, anchor) in self.sections:
-            return f"{self.sections[file, anchor]}#{anchor}"
         if file in self.pages:
             return self.pages[file] + (f"#{anchor}" if anchor else "")
-        if file == self.root / "README.md":
-            return "index.md"
         if not file.exists():
             raise SystemExit(f"spam: docs: a link leads nowhere: {link} in a text of {folder}")
         if not file.is_file() or not file.is_relative_to(self.root):
@@ -96,13 +64,8 @@ class Writer:
         (self.source / page).write_text(text, encoding="utf-8")
 
     def page_of(self, file, generated):
-        """A page of this folder with the sections that it takes, and what is generated."""
-        def take(match):
-            document = self.root / match[1]
-            return self.relinked(section(document.read_text(encoding="utf-8"), match[2]), document.parent)
-
+        """A page of this folder, with what is generated."""
         text = self.relinked(file.read_text(encoding="utf-8"), file.parent)
-        text = TAKE.sub(take, text)
         for pattern, make in generated.items():
             text = re.sub(pattern, lambda match, make=make: make(self, *match.groups()), text)
         return text

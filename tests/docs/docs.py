@@ -44,8 +44,8 @@ class Site(InFolder):
         if done.returncode == 5:
             self.skipTest(done.stderr.strip())
         self.assertEqual(done.returncode, 0, done.stderr)
-        for page in ("start", "equations", "schemes", "methods", "results", "recipes", "gallery", "problems", "numbers",
-                     "reference", "python"):
+        for page in ("start", "install", "equations", "schemes", "limits", "methods", "results", "view", "recipes", "gallery",
+                     "problems", "vectors", "numbers", "reference", "python"):
             self.assertTrue((self.folder / "html" / f"{page}.html").is_file(), page)
         equations = (self.folder / "html" / "equations.html").read_text(encoding="utf-8")
         self.assertIn("_static/mathjax/MathJax.js", equations)
@@ -179,18 +179,12 @@ class Players(InFolder):
 
 
 class Pages(InFolder):
-    def test_a_section_ends_at_the_next_heading_of_its_level(self):
-        text = "# A\n## B\none\n### C\n```sh\n# no heading\n```\ntwo\n## D\nthree\n"
-        self.assertEqual(pages.section(text, "B"), "one\n### C\n```sh\n# no heading\n```\ntwo")
-        with self.assertRaises(SystemExit):
-            pages.section(text, "E")
-
     def test_links_follow_their_text(self):
         writer = pages.Writer(ROOT, DOCS, self.folder)
-        text = "[a](../README.md#limits), [b](README.md#checkpoints), [c](../LICENSE), [d](https://example.org), " \
+        text = "[a](../README.md#limits), [b](README.md#options), [c](../LICENSE), [d](https://example.org), " \
                "[e](../include), `[f](g)` in\n```cpp\n[&](x)\n```\n[g/README.md](README.md)"
         self.assertEqual(writer.relinked(text, ROOT / "problems"),
-                         "[a](start.md#limits), [b](problems.md#checkpoints), [c](files/LICENSE.txt), "
+                         "[a](start.md#limits), [b](problems.md#options), [c](files/LICENSE.txt), "
                          "[d](https://example.org), e, `[f](g)` in\n```cpp\n[&](x)\n```\n"
                          "[*The problems*](problems.md)")
         self.assertTrue((self.folder / "files" / "LICENSE.txt").is_file())
@@ -208,12 +202,14 @@ class Pages(InFolder):
         recipes = (DOCS / "recipes.md").read_text(encoding="utf-8")
         compiled = (ROOT / "tests" / "tests.cmake").read_text(encoding="utf-8")
         included = re.findall(r"literalinclude} (\S+)\.cpp", recipes)
+        self.assertEqual(included, re.findall(r"\[The file]\(\.\./\.\./tests/(\S+)\.cpp\)", recipes))
         self.assertGreaterEqual(len(included), 5)
         for example in included:
             self.assertTrue((ROOT / "tests" / f"{example}.cpp").is_file(), example)
             self.assertIn(f"spam_test({example} ", compiled)
-        code = re.sub(r"```\{literalinclude}.*?```", "", recipes, flags=re.DOTALL)
-        self.assertNotIn("```", code, "code that no test has seen")
+        for page in DOCS.glob("*.md"):  # scripts of Python are run by tests/python/test_readme.py
+            languages = re.findall(r"(?m)^```(.*)$", page.read_text(encoding="utf-8"))[::2]
+            self.assertEqual([one for one in languages if one != "python" and not one.startswith("{")], [], page)
 
 
 if __name__ == "__main__":

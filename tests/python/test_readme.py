@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The script of the README, word for word."""
+"""The scripts of the documents, word for word: every block of Python in the README and in the pages of ./spam docs."""
 import importlib.util
 import os
 import pathlib
@@ -13,29 +13,41 @@ import numpy as np
 from compiled import python_processes
 from results_of import work
 
-readme = (pathlib.Path(os.environ["SPAM_SOURCE"]) / "README.md").read_text()
-
+source = pathlib.Path(os.environ["SPAM_SOURCE"])
 NUMBER = r"\d+\.\d+"
+BLOCK = re.compile(r"^```python\n(.*?)^```$", re.S | re.M)
+
+
+def scripts():
+    """(names, blocks, numbers) of every section with a script: the file names in `backquotes` in its text, its blocks,
+    and what the lines of its text with 'L/L0 =' promise that the script prints."""
+    for document in [source / "README.md", *sorted((source / "src" / "docs").glob("*.md"))]:
+        for section in re.split(r"(?m)^##+ ", document.read_text(encoding="utf-8")):
+            blocks, text = BLOCK.findall(section), BLOCK.sub("", section)
+            if blocks:
+                promised = [line for line in text.splitlines() if "L/L0 =" in line]
+                yield re.findall(r"`(\w+\.py)`", text), blocks, re.findall(NUMBER, " ".join(promised))
 
 
 class Readme(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
-    def test_its_script(self):
-        section = readme[readme.index("## From Python") :]
-        script = re.search(r"```python\n(.*?)```", section, re.S)[1]
-        self.assertLessEqual(script.count("\n"), 25)
-        promised = re.findall(r"^    (\w+, \w+: L/L0 = .*)$", section, re.M)
-        self.assertEqual(len(promised), 3)
-        folder = work("readme")
-        folder.mkdir()
-        (folder / "hexagon.py").write_text(script)
-        with python_processes():
-            ended = subprocess.run([sys.executable, "hexagon.py"], cwd=folder, text=True, capture_output=True,
-                                   env={**os.environ, "MPLBACKEND": "Agg"})
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        for line, expected in zip(ended.stdout.splitlines(), promised, strict=True):
-            self.assertEqual(re.sub(NUMBER, "", line), re.sub(NUMBER, "", expected))
-            numbers = [[float(one) for one in re.findall(NUMBER, text)] for text in (line, expected)]
-            # Clumps of the plain scheme follow the last digits, which an instruction set has of its own.
-            np.testing.assert_allclose(*numbers, rtol=0.1 if "plain" in line else 0, atol=0.015)
-        self.assertGreater((folder / "hexagon.png").stat().st_size, 10000)
+    def test_every_script(self):
+        found = list(scripts())
+        self.assertGreaterEqual(len(found), 3)
+        self.assertTrue(any(promised for _, _, promised in found))
+        for names, blocks, promised in found:
+            self.assertEqual((len(names), len(blocks)), (1, 1), f"one script a section, and its file's name: {names}")
+            name, script = names[0], blocks[0]
+            with self.subTest(name):
+                folder = work("readme_" + name)
+                folder.mkdir()
+                (folder / name).write_text(script, encoding="utf-8")
+                with python_processes():
+                    ended = subprocess.run([sys.executable, name], cwd=folder, text=True, capture_output=True,
+                                           env={**os.environ, "MPLBACKEND": "Agg"})
+                self.assertEqual(ended.returncode, 0, ended.stderr)
+                printed = re.findall(NUMBER, ended.stdout)
+                # Clumps of the plain scheme follow the last digits, which an instruction set has of its own.
+                np.testing.assert_allclose(*[np.array(numbers, dtype=float) for numbers in (printed, promised)], atol=0.025)
+                for picture in re.findall(r'savefig\("(\w+\.png)"', script):
+                    self.assertGreater((folder / picture).stat().st_size, 10000)

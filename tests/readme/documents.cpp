@@ -69,6 +69,15 @@ std::string anchor_of(const std::string& heading) {
     return anchor;
 }
 
+/// Words for persons that a text uses of particles and programs.
+Words persons_in(const std::string& text) {
+    static const std::regex person("\\b([Ww]hoever|[Nn]obody|[Ss]omebody|[Aa]nybody)\\b");
+    Words found;
+    for (std::sregex_iterator it(text.begin(), text.end(), person), end; it != end; ++it)
+        found.push_back((*it)[1]);
+    return found;
+}
+
 std::set<std::string> anchors_of(const fs::path& document) {
     std::set<std::string> anchors;
     for (const std::string& line : lines_of(contents_of(document)))
@@ -183,6 +192,12 @@ BOOST_AUTO_TEST_CASE(sources_cite_documents_that_exist) {
     BOOST_TEST(sources > 100U);
 }
 
+BOOST_AUTO_TEST_CASE(documents_do_not_take_particles_for_persons) {
+    for (const auto& document : files_ending_in(".md"))
+        for (const auto& word : persons_in(contents_of(document)))
+            BOOST_TEST(false, document << ": '" << word << "'");
+}
+
 BOOST_AUTO_TEST_CASE(every_picture_is_shown) {
     std::string all;
     for (const auto& document : files_ending_in(".md")) all += contents_of(document);
@@ -224,6 +239,7 @@ BOOST_AUTO_TEST_CASE(the_checks_can_fail) {
     BOOST_TEST(broken_links("[a](nowhere.md) [b](src/README.md#rooms)", document).size() == 1U);
     BOOST_TEST(broken_links("[a](src/README.md#no-such-heading)", document).size() == 1U);
     BOOST_TEST(absent_documents("as README.md and notes.md say").size() == 1U);
+    BOOST_TEST(persons_in("Whoever is near, and nobody's neighbours").size() == 2U);
     BOOST_TEST(anchor_of("Sources, licence, how to cite") == "sources-licence-how-to-cite");
     const std::map<std::string, std::set<std::string>> options{{"drop", {"cells"}}};
     BOOST_TEST(unknown_in("./spam run drop --cells 3", options).empty());

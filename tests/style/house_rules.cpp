@@ -139,4 +139,6 @@ BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
 BOOST_AUTO_TEST_CASE(files_stay_readable) {
     for (const auto& path : sources({"include", "src", "problems", "tests"}))
         BOOST_TEST(lines_of(path).size() <= 350U, path << " is longer than 350 lines");
+    const auto front = lines_of(fs::path(SPAM_SOURCE) / "README.md").size();
+    BOOST_TEST(front <= 150U, "README.md has " << front << " lines: more than five minutes");
 }
