@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Everything a problem of one's own needs.
+/// What a problem with smooth particles or springs needs: options, session, lattices, states, the elastic solid and
+/// two gases. Externals, further materials and terms have headers of their own, which src/docs/recipes.md lists.
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/shape.hpp>
