@@ -223,11 +223,12 @@ int main(int argc, char** argv) {
                     between(1, 200));
     options.number("speed", p.speed, "speed of the corners of the hexagon", between(1e-6, 1e3));
     options.number("turns", p.turns, "largest number of nominal turns", at_least(1.0));
-    options.number("range", p.range, "range h of Lucy's weight function", positive());
+    options.number("range", p.range, "range h of Lucy's weight function", between(1.1, 20.0));
     options.number("viscosity", p.viscosity, "coefficient alpha of the combinations with viscosity",
-                   positive());
+                   between(1e-6, 100.0));
     options.number("closest-approach", p.closest_approach,
-                   "distance of closest approach of the combinations with reflection", positive());
+                   "distance of closest approach of the combinations with reflection",
+                   between(0.01, 1.0));
     options.integer("jobs", p.jobs, "number of combinations computed at the same time",
                     between(1, 1024));
     options.exclude_from_case({"jobs"});

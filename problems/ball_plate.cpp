@@ -72,7 +72,7 @@ void compute(Session& session, const Parameters& p) {
 void add_options(Problem& problem, Parameters& p) {
     Options& options = problem.options();
     options.number("speed", p.speed, "speed of the ball (that of sound is 1.06, of molecules 12)",
-                   positive());
+                   between(1e-3, 20.0));
     options.flag("compare", p.compare, "compute the four speeds of the lecture");
     options.exclude("compare", {"speed"},
                     "has no effect with {by}, which has the speeds of the lecture; leave one out");
@@ -98,7 +98,8 @@ void add_options(Problem& problem, Parameters& p) {
             "out");
     const auto repel = [&p] { return p.repulsion().has_value(); };
     const std::string why = "has no meaning without a contact; give --contact repulsive";
-    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive())
+    options
+        .number("contact-energy", p.contact.energy, "energy e_c of the contact", between(1e-3, 1e3))
         .only_when({"contact", "model"}, repel, why);
     options
         .number("contact-range", p.contact.range,
@@ -115,7 +116,8 @@ void add_options(Problem& problem, Parameters& p) {
 
 int main(int argc, char** argv) {
     spam::Problem problem("ball_plate", "a ball that hits a plate, [HH07] 13", 0.1,
-                          "0.05, of molecules 0.0025, of embedded atoms 0.0125");
+                          "0.05, of molecules 0.0025, of embedded atoms 0.0125; shorter where "
+                          "cores, contact or speed need it");
     problem.units(spam::lattice_units());
     ball_plate::Parameters p;
     ball_plate::add_options(problem, p);

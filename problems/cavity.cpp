@@ -177,7 +177,8 @@ void run(Session& session, const Parameters& p) {
         flows.push_back(make_flow(p, cells, session.common().dry_run));
         if (p.compare) flows.back().label = fmt::format("{}", cells);
     }
-    session.prefer_step(stirred::step_of(p, p.viscosity(sizes.front())));
+    session.prefer_step(
+        stirred::step_of(p, p.viscosity(sizes.front()), flows.front().model->box()));
     std::vector<Case<2>> cases;
     for (auto& flow : flows)
         cases.push_back({flow.model, flow.y0, plan_of(session, p, flow), flow.label});

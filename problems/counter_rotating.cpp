@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
     problem.options().integer("size", size,
                               "n: the corners are n spacings from the centre of each hexagon",
                               between(1, 1000));
-    problem.options().number("speed", speed, "speed of the corners", positive());
+    problem.options().number("speed", speed, "speed of the corners", between(1e-6, 1e3));
     problem.options().number("turns", turns, "number of nominal turns", positive());
     problem.options().one_of({"turns", "t-end"}, "the end of the run");
     problem.use_scheme(

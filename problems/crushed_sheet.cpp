@@ -17,6 +17,7 @@
 // on plastic flow. When the walls are gone nobody touches anybody: folds that were pressed together do not
 // stick.
 #include "reduced_units.hpp"
+#include "stiffness.hpp"
 #include <spam/core/error.hpp>
 #include <spam/external/rigid_wall.hpp>
 #include <spam/material/hencky_solid.hpp>
@@ -104,8 +105,10 @@ void report(Session& session, const Parameters& p, const RunRecord& run) {
     const bool known =
         session.when_default({"columns", "rows", "speed", "width", "yield-stress", "hardening",
                               "amplitude", "range", "penalty", "contact-energy", "contact-range"});
-    session.check({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
-                   "no two particles that touch are nearer than half a spacing"});
+    session.claim({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
+                   "no two particles that touch are nearer than half a spacing"},
+                  !session.given("contact-energy") && !session.given("contact-range") &&
+                      !session.given("speed"));
     if (crushed)
         session.claim({"touched", h.largest("contact_energy") > 0.0 ? 1.0 : 0.0, 1.0, 0.0,
                        "the sheet has folded upon itself"},
@@ -194,17 +197,21 @@ void add_options(Options& options, Parameters& p) {
     options.integer("columns", p.columns, "particles along the sheet", between(10, 1000));
     options.integer("rows", p.rows, "layers of particles", between(2, 100));
     options.number("speed", p.speed, "speed of each wall", between(1e-4, 1.0));
-    options.number("width", p.width, "distance of the walls where they turn back", positive());
+    options.number("width", p.width, "distance of the walls where they turn back",
+                   between(1.0, 1e4));
     options.number("yield-stress", p.yield_stress,
-                   "stress difference at which the sheet yields; its moduli are 0.433", positive());
+                   "stress difference at which the sheet yields; its moduli are 0.433",
+                   between(1e-6, 1e6));
     options.number("hardening", p.hardening, "growth of the yield stress with plastic strain",
-                   non_negative());
-    options.number("amplitude", p.amplitude, "speed across the sheet at the start", non_negative());
+                   between(0.0, 1e3));
+    options.number("amplitude", p.amplitude, "speed across the sheet at the start",
+                   between(0.0, 1.0));
     options.number("range", p.range, "distance at which Lucy's weight function vanishes",
                    between(1.2, 6.0));
     options.number("penalty", p.penalty, "penalty kappa against zero-energy modes",
                    between(0.0, 100.0));
-    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive());
+    options.number("contact-energy", p.contact.energy, "energy e_c of the contact",
+                   between(1e-3, 1e3));
     options.number("contact-range", p.contact.range,
                    "distance at which folds of the sheet touch, at most a spacing", positive());
 }
@@ -212,7 +219,8 @@ void add_options(Options& options, Parameters& p) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Problem problem("crushed_sheet", "a plastic sheet crushed between two walls");
+    Problem problem("crushed_sheet", "a plastic sheet crushed between two walls", 0.1,
+                    "0.1, shorter with a stiffer contact");
     problem.units(lattice_units());
     Parameters p;
     add_options(problem.options(), p);
@@ -226,6 +234,7 @@ int main(int argc, char** argv) {
             throw InputError(fmt::format(
                 "width: the walls begin {:g} apart and cannot come in to {:g}; give a smaller --width",
                 2.0 * p.start(), p.width));
+        session.prefer_step(0.1 * relative_step(p.contact, Parameters{}.contact));
         const auto model = make_model(p);
         auto y0 = initial_state<2>(*model, rho, p.yield_stress, slight_bend(p));
         model->layout().set_scale(Field::velocity, p.speed);

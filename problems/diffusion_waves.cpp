@@ -219,26 +219,27 @@ int main(int argc, char** argv) {
                     between(4, 2000));
     options.number("amplitude", p.amplitude, "initial amplitude of the temperature or velocity",
                    between(1e-7, 1e3));
-    options.number("temperature", p.temperature, "initial temperature of the fluid", positive());
+    options.number("temperature", p.temperature, "initial temperature of the fluid",
+                   between(1e-6, 1e6));
     options.choice<Matter>("equation-of-state", p.matter,
                            {Matter::ideal_gas, Matter::van_der_waals},
                            "equation of state of the fluid");
     options.number("attraction", p.attraction, "constant a of van der Waals' equation",
-                   non_negative());
+                   between(0.0, 1e6));
     options.number("excluded", p.excluded,
-                   "constant b of van der Waals' equation, a volume per mass", non_negative());
+                   "constant b of van der Waals' equation, a volume per mass", between(0.0, 1e3));
     options.only_when(
         {"attraction", "excluded"}, {"equation-of-state"},
         [&p] { return p.matter == Matter::van_der_waals; },
         "an ideal gas has none; add --equation-of-state van_der_waals, or leave it "
         "out");
-    options.number("conductivity", p.conductivity, "heat conductivity kappa", positive())
+    options.number("conductivity", p.conductivity, "heat conductivity kappa", between(1e-6, 1e6))
         .only_when(
             {"wave"}, [&p] { return p.wave != Wave::shear; },
             "has no part in a shear wave; leave it out");
     options
         .number("viscosity", p.viscosity, "shear viscosity eta (there is no bulk viscosity)",
-                positive())
+                between(1e-6, 1e6))
         .only_when(
             {"wave"}, [&p] { return p.wave != Wave::thermal; },
             "has no part in a thermal wave; leave it out");

@@ -25,6 +25,7 @@
 #include "drop/roundness.hpp"
 #include "kernels/lattices.hpp"
 #include "reduced_units.hpp"
+#include "stiffness.hpp"
 #include <spam/external/friction.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/picture/draw.hpp>
@@ -44,6 +45,7 @@ using namespace spam;
 
 constexpr double longest_range = 1000.0;   // rho0 is a sum over its square sites
 constexpr double tension_of_figure = 0.1;  // where both are run
+constexpr double usual_core = 1.0;         // which the usual step resolves
 
 struct Parameters {
     int cells = 20;
@@ -201,16 +203,17 @@ void refuse_impossible(const Parameters& p) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Problem problem("drop", "a square drop of an embedded-atom fluid, [HH07] 7 and 8");
+    Problem problem("drop", "a square drop of an embedded-atom fluid, [HH07] 7 and 8", 0.1,
+                    "0.1, shorter with stiffer cores");
     problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("cells", p.cells, "the drop is cells x cells particles", between(2, 1000));
     options.number("surface-tension", p.surface_tension,
                    "strength s_g of the surface tension; 0 for none (default: both 0 and 0.1)",
-                   non_negative());
+                   between(0.0, 100.0));
     options.number("core", p.core, "energy of the core that keeps two particles apart; 0 for none",
-                   non_negative());
+                   between(0.0, 1e3));
     options.number("core-range", p.core_range, "distance at which cores touch", positive())
         .only_when(
             {"core"}, [&p] { return p.core > 0.0; },
@@ -221,13 +224,15 @@ int main(int argc, char** argv) {
         .only_when(
             {"disorder"}, [&p] { return p.disorder > 0.0; },
             "has no meaning without disorder; give --disorder 0.1, or leave it out");
-    options.number("damping", p.damping, "rate of the friction, gamma", positive());
+    options.number("damping", p.damping, "rate of the friction, gamma", between(1e-6, 100.0));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_impossible(p);
         if (session.common().smoke && !session.given("cells")) p.cells = 10;
+        session.prefer_step(
+            0.1 * relative_step({p.core, p.core_range}, {usual_core, Parameters{}.core_range}));
         auto drops = drops_of(p);
         std::vector<Case<2>> cases;
         std::vector<double> start;

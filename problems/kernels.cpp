@@ -277,6 +277,10 @@ int main(int argc, char** argv) {
         "one range is the smallest; leave it out, or give more --ranges");
     options.integer("family", p.family, "n of the third weight function, w_n", between(2, 8));
 
+    options.only_when(
+        {"threads"}, {}, [] { return false; },
+        "has no meaning: sums over one site are too short for threads; leave it out");
+
     return problem.main(argc, argv, [&](Session& session) {
         if (p.ranges > 1 && p.largest <= p.smallest)
             throw InputError(fmt::format(

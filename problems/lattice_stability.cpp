@@ -22,6 +22,7 @@
 #include "lattice_stability/strength.hpp"
 #include "reduced_units.hpp"
 #include <spam/kernel/kernel.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/spam.hpp>
 
 #include <fmt/format.h>
@@ -36,6 +37,18 @@ namespace {
 // potentials, 2e-6 until t = 600, and less than 1e-6 of all of it. dt = 0.05 would be too long.
 constexpr double step = 0.03;
 constexpr double range_of_dynamics = 3.25, range_of_one_case = 2.5;
+
+/// Steeper weights and stronger potentials make faster vibrations, whose frequency goes with k^2 w(k).
+double step_of(const Parameters& p) {
+    const Parameters standard;
+    const auto fastest = [](Kernel kernel, double range) {
+        return fastest_diffusion<2>(weight_function<2>(to_string(kernel), range));
+    };
+    const double slower = fastest(standard.kernel, range_of_dynamics) / fastest(p.kernel, *p.range);
+    const double stronger = std::max(
+        {1.0, p.strength / standard.strength, p.surface_tension / standard.surface_tension});
+    return step * std::min(1.0, slower / std::sqrt(stronger));
+}
 
 /// With --potential one lattice is analysed: nothing moves, and potentials that do not act have no
 /// strength.
@@ -96,6 +109,7 @@ void table_and_motion(Session& session, Parameters& p) {
         for (const double h : ranges) refuse_meaningless(p, lattice, Acting::both, h);
 
     refuse_narrow("block", p.lattice, p.block, *p.range);
+    session.prefer_step(step_of(p));
     std::vector<Sample> samples;
     for (const Acting acting : all_potentials) samples.push_back(make_sample(p, acting, *p.range));
     std::vector<Case<2>> cases;
@@ -141,7 +155,8 @@ void table_and_motion(Session& session, Parameters& p) {
 int main(int argc, char** argv) {
     using namespace lattice_stability;
     Problem problem("lattice_stability",
-                    "which potentials of the density hold a lattice together, [HH07] 8", step);
+                    "which potentials of the density hold a lattice together, [HH07] 8", step,
+                    "0.03, shorter with steeper weights or stronger potentials");
     problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
@@ -156,9 +171,9 @@ int main(int argc, char** argv) {
                    "range h of the weight function, in spacings (default: 2.5, 3, 3.25 and 3.5 for "
                    "the table, 3.25 for the motion, 2.5 with --potential)",
                    between(1.05, 50.0));
-    options.number("strength", p.strength, "s_c of the curvature potential", positive());
+    options.number("strength", p.strength, "s_c of the curvature potential", between(1e-6, 1e6));
     options.number("surface-tension", p.surface_tension, "s_g of the gradient potential",
-                   positive());
+                   between(1e-6, 1e6));
     options.number("misfit", p.misfit,
                    "rest density of the law, divided by the density at a site of the lattice",
                    between(0.5, 2.0));
@@ -171,7 +186,7 @@ int main(int argc, char** argv) {
                     {[](double n) { return n >= 4.0 && n <= 400.0 && std::fmod(n, 2.0) == 0.0; },
                      "an even number between 4 and 400"});
     options.number("speed", p.speed, "root mean square of the random initial velocities",
-                   positive());
+                   between(1e-6, 10.0));
     options.integer("seed", p.seed, "seed of the random initial velocities", between(0.0, 1e9));
     add_rules(options, p);
 

@@ -286,6 +286,7 @@ int main(int argc, char** argv) {
             p.sizes.hexagon = 4;
             p.sizes.bar_rows = 4;
         }
+        refuse_endless(p.sizes);
         const auto all = schemes(smoke);
         std::vector<StudyTask> tasks;
         for (const auto& scheme : all) {

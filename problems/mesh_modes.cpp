@@ -183,8 +183,9 @@ int main(int argc, char** argv) {
     options.integer("elements", p.elements, "the mesh is elements x elements", between(1, 16));
     options.number("speed", p.speed, "of the fastest node", between(1e-100, 1e-3));
     options.number("hourglass-viscosity", p.control.viscosity,
-                   "of what resists the hourglass, in parts of rho sqrt(A) c/4", non_negative());
+                   "of what resists the hourglass, in parts of rho sqrt(A) c/4",
+                   between(0.0, 100.0));
     options.number("hourglass-stiffness", p.control.stiffness,
-                   "of what resists the hourglass, in parts of rho c^2/4", non_negative());
+                   "of what resists the hourglass, in parts of rho c^2/4", between(0.0, 100.0));
     return problem.main(argc, argv, [&](Session& session) { compute(session, p); });
 }

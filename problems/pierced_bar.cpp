@@ -21,6 +21,7 @@
 //     --contact none        both are of one body: they meet as neighbours do, and what yields may stick
 #include "pierced_bar/shot.hpp"
 #include "reduced_units.hpp"
+#include "stiffness.hpp"
 
 #include <fmt/format.h>
 
@@ -31,9 +32,10 @@ void add_options(Options& options, Parameters& p) {
     add_target_options(options, p.target);
     breaking::add_flowing_options(options, p.matter);
     options.number("range", p.matter.range, "distance beyond which bonds weigh nothing",
-                   positive());
+                   between(1.1, 20.0));
     options.number("core", p.matter.core,
-                   "energy of the core that keeps two particles apart; 0 for none", non_negative());
+                   "energy of the core that keeps two particles apart; 0 for none",
+                   between(0.0, 1e3));
     options
         .number("core-range", p.matter.core_range, "distance at which cores touch",
                 between(0.01, 1.0))
@@ -44,7 +46,8 @@ void add_options(Options& options, Parameters& p) {
         "contact", p.contact_kind, {ContactKind::repulsive, ContactKind::none},
         "with repulsive, particles of projectile and bar only push each other away; with none they "
         "become neighbours like any others, and may stick");
-    options.number("contact-energy", p.contact.energy, "energy e_c of the contact", positive())
+    options
+        .number("contact-energy", p.contact.energy, "energy e_c of the contact", between(1e-3, 1e3))
         .only_when(
             {"contact"}, [&p] { return p.repulsion().has_value(); },
             "has no meaning without a contact; give --contact repulsive");
@@ -62,12 +65,18 @@ void add_options(Options& options, Parameters& p) {
 
 int main(int argc, char** argv) {
     using namespace spam;
-    Problem problem("pierced_bar", "a projectile goes through a bar that flows and breaks", 0.025);
+    Problem problem("pierced_bar", "a projectile goes through a bar that flows and breaks", 0.025,
+                    "0.025, shorter with stiffer cores or contacts");
     problem.units(lattice_units());
     pierced_bar::Parameters p;
     pierced_bar::add_options(problem.options(), p);
     return problem.main(argc, argv, [&](Session& session) {
         make_small(session, p.target);
+        const pierced_bar::Parameters usual;
+        const double contact = p.repulsion() ? relative_step(*p.repulsion(), usual.contact) : 1.0;
+        session.prefer_step(0.025 * contact *
+                            relative_step({p.matter.core, p.matter.core_range},
+                                          {usual.matter.core, usual.matter.core_range}));
         const double row_interval = session.common().output_every.value_or(0.5);
         refuse_tunnelling(session, p.target, p.matter.range, row_interval);
         pierced_bar::Shot shot = pierced_bar::make_shot(p);

@@ -304,7 +304,8 @@ int main(int argc, char** argv) {
     options.integer("cells", p.cells, "cells x cells particles (an even number)", between(4, 400));
     options.number("amplitude", p.amplitude, "largest displacement", between(1e-9, 2.0));
     options
-        .number("block", p.block, "side d of the blocks whose rotation is measured", at_least(2.0))
+        .number("block", p.block, "side d of the blocks whose rotation is measured",
+                between(2.0, 1e6))
         .only_when(
             {"polarization", "compare-sizes"}, [&] { return has_blocks(options, p); },
             "has no meaning with {by}, where no turning is measured; leave it out");

@@ -119,9 +119,10 @@ int main(int argc, char** argv) {
                    between(0.0, 0.5));
     options.number("spin", p.spin, "angular velocity w at the start", between(-0.2, 0.2));
     options.number("yield-stress", p.yield_stress,
-                   "stress difference at which the solid yields; its moduli are 0.433", positive());
+                   "stress difference at which the solid yields; its moduli are 0.433",
+                   between(1e-6, 1e6));
     options.number("hardening", p.hardening, "growth of the yield stress with plastic strain",
-                   non_negative());
+                   between(0.0, 1e3));
     options.choice<Formulation>("formulation", p.formulation,
                                 {Formulation::updated, Formulation::total_lagrangian},
                                 "sums over present neighbours, or over those of the start");

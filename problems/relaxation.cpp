@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
         "particles start at random places, or on a triangular lattice cut at the border");
     options.number("range", p.range, "range of the repulsion, in units of sqrt(area of a particle)",
                    between(1.1, 20.0));
-    options.number("damping", p.damping, "gamma of the friction -gamma v", positive());
+    options.number("damping", p.damping, "gamma of the friction -gamma v", between(1e-3, 100.0));
     options.integer("seed", p.seed, "seed of the random initial places", between(0.0, 1e9));
 
     return problem.main(argc, argv, [&](Session& session) {

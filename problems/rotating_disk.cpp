@@ -265,10 +265,10 @@ int main(int argc, char** argv) {
                           "a disk, or a hexagon with its corners at the radius");
     options.number("radius", p.radius, "distance of the outermost particles from the centre",
                    between(6, 1000));
-    options.number("speed", p.speed, "speed at the radius", positive());
+    options.number("speed", p.speed, "speed at the radius", between(1e-6, 1e3));
     options.number("damping", p.damping,
                    "rate of the friction on motion that is not rigid (default 3 c_L/radius)",
-                   non_negative());
+                   between(0.0, 1e3));
     options.choice<Which>("model", p.model, {Which::both, Which::md, Which::spam},
                           "smooth particles, molecular dynamics with springs, or both");
     Scheme standard;

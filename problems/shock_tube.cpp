@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
     options.integer("cells", p.cells, "particles along the tube", between(20, 20000));
     options.number("gamma", p.gamma, "ratio of the heat capacities", between(1.05, 5.0));
     options.number("viscosity", p.scheme.viscosity, "coefficient alpha of the artificial viscosity",
-                   non_negative());
+                   between(0.0, 100.0));
     options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
                             "density as a sum over neighbours, or by the continuity equation");
     options.choice<Work>(

@@ -26,6 +26,8 @@
 // core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
 #include "reduced_units.hpp"
 #include <spam/external/friction.hpp>
+#include <spam/kernel/lucy.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/picture/draw.hpp>
@@ -227,32 +229,46 @@ void refuse_impossible(const Parameters& p) {
             p.side, p.range, widest * p.range));
 }
 
+/// 0.1 resolves the waves and cores of the standard case; steeper ones are faster.
+double step_of(const Parameters& p) {
+    const Parameters standard;
+    const double waves =
+        relative_step<2>(weight_function<2>(to_string(p.kernel), p.range), Lucy<2>(standard.range));
+    const double core = p.core.value_or(core_energy);
+    const double cores =
+        core > 0.0 ? p.core_range / standard.core_range * std::sqrt(core_energy / core) : 1.0;
+    return 0.1 * std::min({1.0, waves, cores});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     Problem problem("string_phase",
-                    "strings of an embedded-atom fluid and their cure by cores, [HH07] 8");
+                    "strings of an embedded-atom fluid and their cure by cores, [HH07] 8", 0.1,
+                    "0.1, shorter with steeper weights or cores");
     problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
     options.integer("particles", p.particles, "number of particles, at random places in the box",
                     between(2, 1000000));
-    options.number("side", p.side, "side of the periodic box", positive());
+    options.number("side", p.side, "side of the periodic box", between(1e-3, 1e9));
     options.integer("seed", p.seed, "seed of the random places", between(0, 1000000000));
-    options.number("rho0", p.rho0, "density at which the fluid has no pressure", positive());
+    options.number("rho0", p.rho0, "density at which the fluid has no pressure",
+                   between(1e-3, 1e3));
     options.number(
         "core", p.core,
         "energy of the core that keeps two particles apart; 0 for none (default: both 0 and 0.1)",
-        non_negative());
+        between(0.0, 1e3));
     options.number("core-range", p.core_range, "distance at which cores touch", positive())
         .only_when(
             {"core"}, [&p] { return p.core != 0.0; }, "has no meaning for --core 0; leave it out");
-    options.number("damping", p.damping, "rate of the friction, gamma", positive());
+    options.number("damping", p.damping, "rate of the friction, gamma", between(1e-3, 100.0));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_impossible(p);
+        session.prefer_step(step_of(p));
         auto samples = samples_of(p);
         std::vector<Case<2>> cases;
         for (auto& sample : samples) {

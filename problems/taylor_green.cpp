@@ -81,7 +81,7 @@ void run(Session& session, const Parameters& p) {
     std::vector<Flow> flows = flows_of(p);
     // Disorder goes away fast at first.
     session.prefer_step((p.disorder > 0.0 ? 0.25 : 1.0) *
-                        stirred::step_of(p, flows.front().exact.nu));
+                        stirred::step_of(p, flows.front().exact.nu, flows.front().model->box()));
     std::vector<Case<2>> cases;
     for (auto& flow : flows)
         cases.push_back({flow.model, flow.y0, plan_of(session, flow), flow.label});

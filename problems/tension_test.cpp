@@ -84,9 +84,9 @@ void add_options(Problem& problem, Parameters& p) {
                    between(0.0, 0.5));
     options.number("load-rate", p.load_rate,
                    "growth of the load at the ends by time (default: that of the model)",
-                   positive());
+                   between(1e-9, 1e3));
     options.number("damping", p.damping, "rate of the friction, gamma (default: that of the model)",
-                   non_negative());
+                   between(0.0, 100.0));
     add_matter_options(problem, p.matter,
                        {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
                         MatterKind::material_vectors, MatterKind::elements, MatterKind::all});
@@ -98,7 +98,7 @@ void add_options(Problem& problem, Parameters& p) {
             "end-speed", p.end_speed,
             "speed at which the ends are drawn out: of elements (default 0.0469), and of material "
             "vectors in place of the load",
-            positive())
+            between(1e-6, 10.0))
         .only_when(
             {"model"},
             [&p] {

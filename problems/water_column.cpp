@@ -35,6 +35,7 @@
 //     --cavitation P  the tension is P at most (text: "P > Pc -> P = Pc", where pressure is meant to be
 //                     tension); the energy of the limited law is used, so that energy is still kept
 #include "reduced_units.hpp"
+#include "stiffness.hpp"
 #include "water_column/column.hpp"
 #include <spam/core/error.hpp>
 #include <spam/problem/remake.hpp>
@@ -154,9 +155,9 @@ void add_options(Options& options, Parameters& p) {
         "largest tension that the fluid bears (default: that of the embedded atom, 4/27)",
         between(0.0, 0.148));
     options.number("surface-tension", p.surface_tension,
-                   "strength s_g of the surface tension; 0 for none", non_negative());
+                   "strength s_g of the surface tension; 0 for none", between(0.0, 100.0));
     options.number("core", p.core, "energy of the core that keeps two particles apart; 0 for none",
-                   non_negative());
+                   between(0.0, 1e3));
     options.number("core-range", p.core_range, "distance at which cores touch", positive())
         .only_when(
             {"core"}, [&p] { return p.core > 0.0; },
@@ -164,11 +165,11 @@ void add_options(Options& options, Parameters& p) {
     options.number("damping", p.damping,
                    "rate of the friction that brings the column to rest, gamma (default: 1.6/W); "
                    "with --compare of the first column",
-                   positive());
+                   between(1e-6, 100.0));
     options.number("relaxation-time", p.relaxation_time,
                    "time in which it comes to rest (default: 12.5 W); with --compare of the first "
                    "column",
-                   positive());
+                   between(1e-3, 1e9));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 }
@@ -178,7 +179,8 @@ void add_options(Options& options, Parameters& p) {
 
 int main(int argc, char** argv) {
     spam::Problem problem("water_column",
-                          "a column of water comes to rest and collapses, [HH07] 11", 0.025);
+                          "a column of water comes to rest and collapses, [HH07] 11", 0.025,
+                          "0.025, shorter with stiffer cores");
     problem.units(spam::fluid_units());
     water_column::Parameters p;
     water_column::add_options(problem.options(), p);
@@ -193,6 +195,9 @@ int main(int argc, char** argv) {
         if (session.common().smoke && !session.given("width")) p.width = 8;
         if (session.common().smoke && !session.given("relaxation-time")) p.relaxation_time = 8.0;
         water_column::refuse_impossible(p);
+        const water_column::Parameters usual;
+        session.prefer_step(
+            0.025 * spam::relative_step({p.core, p.core_range}, {usual.core, usual.core_range}));
         water_column::compute(session, p);
     });
 }

@@ -2,6 +2,7 @@
 #include "impact.hpp"
 
 #include "../breaking/pieces.hpp"
+#include "../stiffness.hpp"
 #include "elements.hpp"
 #include <spam/external/clamp.hpp>
 #include <spam/picture/draw.hpp>
@@ -113,8 +114,15 @@ std::vector<double> speeds_of(MatterKind kind) {
 }
 
 double step_of(const Parameters& p) {
-    if (p.matter.kind == MatterKind::embedded_atom) return 0.0125;
-    return p.matter.kind == MatterKind::pair_md ? 0.0025 : 0.05;
+    const MatterKind kind = p.matter.kind;
+    const bool molecules = kind == MatterKind::pair_md;
+    double step = molecules ? 0.0025 : kind == MatterKind::embedded_atom ? 0.0125 : 0.05;
+    const Parameters usual;
+    if (const auto contact = p.repulsion()) step *= relative_step(*contact, usual.contact);
+    if (!molecules && kind != MatterKind::elements)
+        step *= relative_step({p.matter.core, p.matter.core_range},
+                              {usual.matter.core, usual.matter.core_range});
+    return step * (p.compare ? 1.0 : relative_step(p.speed, molecules ? 20.0 : 2.0));
 }
 
 /// The finite-element twin, which meets by a contact and whose elements are removed where they break.

@@ -9,9 +9,9 @@ namespace breaking {
 
 void add_flowing_options(Options& options, FlowingMatter& matter) {
     options.number("yield-stress", matter.yield_stress, "stress Y at which the solid yields",
-                   positive());
+                   between(1e-6, 1e6));
     options.number("tension-limit", matter.tension_limit,
-                   "largest mean tension, beyond which the solid tears", positive());
+                   "largest mean tension, beyond which the solid tears", between(1e-6, 1e6));
     options.number("penalty", matter.penalty,
                    "penalty kappa against motion that no deformation gradient sees",
                    between(0.0, 100.0));

@@ -138,11 +138,13 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         "molecular dynamics with a pair potential, or with potentials of the density; or smooth "
         "particles, without or with material vectors, or finite elements of a solid that yields");
     options.number("yield-stress", matter.yield_stress,
-                   "stress Y at which a solid yields (default: 0.05)", positive());
+                   "stress Y at which a solid yields (default: 0.05)", between(1e-6, 1e6));
     options.number("hardening", matter.hardening,
-                   "how fast Y grows with the plastic strain, H; 0 for not at all", non_negative());
+                   "how fast Y grows with the plastic strain, H; 0 for not at all",
+                   between(0.0, 1e3));
     options.number("failure-strain", matter.failure_strain,
-                   "plastic strain at which a solid breaks (default: it does not)", positive());
+                   "plastic strain at which a solid breaks (default: it does not)",
+                   between(1e-6, 1e6));
     only_of({"yield-stress"},
             {MatterKind::spam, MatterKind::material_vectors, MatterKind::elements},
             "molecules yield by themselves");
@@ -152,7 +154,7 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         options.number("tension-limit", matter.tension_limit,
                        "largest mean tension, beyond which material vectors tear (default: the "
                        "yield stress)",
-                       positive());
+                       between(1e-6, 1e6));
         options.number("penalty", matter.penalty,
                        "penalty kappa of material vectors against motion that no deformation "
                        "gradient sees",
@@ -163,15 +165,19 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         only_of(of_vectors, {MatterKind::material_vectors}, "it is of material vectors");
     }
     options.number("strength", matter.strength,
-                   "strength s_c of the curvature, which makes embedded atoms a solid", positive());
+                   "strength s_c of the curvature, which makes embedded atoms a solid",
+                   between(1e-6, 1e3));
     options.number("surface-tension", matter.surface_tension,
                    "strength s_g of the surface tension of embedded atoms; 0 for none",
-                   non_negative());
+                   between(0.0, 100.0));
     only_of({"strength", "surface-tension"}, {MatterKind::embedded_atom},
             "it is of embedded atoms");
     options.number("core", matter.core,
-                   "energy of the core that keeps two particles apart; 0 for none", non_negative());
-    options.number("core-range", matter.core_range, "distance at which cores touch", positive())
+                   "energy of the core that keeps two particles apart; 0 for none",
+                   between(0.0, 1e3));
+    options
+        .number("core-range", matter.core_range, "distance at which cores touch",
+                between(0.01, 1.0))
         .only_when(
             {"core"}, [&matter] { return matter.core > 0.0; },
             "has no meaning without a core; give --core 1, or leave it out");

@@ -43,13 +43,14 @@ Bar make_bar(const Parameters& p, const Scheme& scheme, bool vectors) {
                 std::make_unique<BodyLedger>()};
     }
     const bool pair = scheme.angular_momentum == AngularMomentum::torque_pair;
+    const bool balanced = pair || scheme.angular_momentum == AngularMomentum::torque_particle;
     std::string label = scheme.transport == Transport::plain ? "plain" : "monaghan";
     if (pair) label += "_torque_pair";
     return {title_of(scheme),
             std::move(label),
             std::make_shared<SmoothParticleModel<2>>(std::move(particles),
                                                      ElasticSolid::triangular_lattice(), scheme),
-            pair || scheme.angular_momentum == AngularMomentum::torque_particle,
+            balanced && scheme.balance == Balance::body,
             pair ? 1e-9 : 1e-5,
             HUGE_VAL,
             std::make_unique<BodyLedger>()};

@@ -35,7 +35,7 @@ void add_target_options(Options& options, Target& target) {
     options.integer("projectile", target.projectile, "size n of the hexagonal projectile",
                     between(1, 100));
     options.number("speed", target.speed, "speed of the projectile (the speed of sound is 1.06)",
-                   positive());
+                   between(1e-3, 1e6));
     options.number("offset", target.offset, "height of the impact above the middle of the bar",
                    between(-1e6, 1e6));
 }

@@ -19,6 +19,7 @@ namespace {
 using std::numbers::pi;
 
 const IntegratorOptions leapfrog{.method = "leapfrog", .dt = 0.3};
+const IntegratorOptions of_shot{.method = "rk4", .dt = 0.1};
 
 /// Nothing where it was interrupted.
 std::optional<RunRecord> finished(Case<2> one, const IntegratorOptions& integrator) {
@@ -67,10 +68,14 @@ std::optional<History> history_of(const Points<2>& sites, double omega, double t
 
 }  // namespace
 
+void refuse_endless(const Sizes& sizes) {
+    spam::refuse_endless(leapfrog, sizes.turning_time());
+    spam::refuse_endless(of_shot, sizes.shot_time);
+}
+
 std::optional<Turned> turn_hexagon(const MaterialVectorScheme& scheme, const Sizes& sizes) {
-    constexpr double speed = 0.4;
-    const auto h = history_of(triangular_hexagon(sizes.hexagon), speed / sizes.hexagon,
-                              sizes.turns * 2.0 * pi * sizes.hexagon / speed, scheme);
+    const auto h = history_of(triangular_hexagon(sizes.hexagon), Sizes::speed / sizes.hexagon,
+                              sizes.turning_time(), scheme);
     if (!h) return {};
     return Turned{h->smallest("closest_pair"), h->largest("shape_error"),
                   h->relative_drift("energy")};
@@ -141,8 +146,7 @@ std::optional<Shot> shoot(const MaterialVectorScheme& scheme, const Sizes& sizes
     plan.snapshot_every = plan.t_end;
     plan.observe({.columns = {closest_pair_column<2>()}});
     const Model<2>& last = *model;
-    const auto run =
-        finished({model, std::move(y0), std::move(plan)}, {.method = "rk4", .dt = 0.1});
+    const auto run = finished({model, std::move(y0), std::move(plan)}, of_shot);
     if (!run) return {};
     const History& h = run->history;
     const auto body =

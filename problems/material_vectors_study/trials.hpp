@@ -7,6 +7,7 @@
 #include <spam/spam.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,9 @@ struct Sizes {
     int hexagon = 8, beam_rows = 12, bar_rows = 8;
     double turns = 5.0;       // at a corner speed of 0.4
     double shot_time = 60.0;  // of the projectile
+
+    static constexpr double speed = 0.4;  // of the hexagon's corners
+    double turning_time() const { return turns * 2.0 * std::numbers::pi * hexagon / speed; }
 };
 
 // ---- lattice.cpp: linear stability ----
@@ -33,6 +37,9 @@ double tension_borne(const MaterialVectorScheme& scheme);
 double lowest_frequency(const MaterialVectorScheme& scheme);
 
 // ---- motion.cpp: runs by leapfrog and rk4; nothing where a signal interrupted one ----
+
+/// Throws InputError where turns or the shot would take too many steps.
+void refuse_endless(const Sizes& sizes);
 
 struct Turned {
     double closest_pair, shape_error, energy_drift;

@@ -39,9 +39,13 @@ void set_pressure(const Model<2>& model, std::vector<double>& y,
     }
 }
 
-double step_of(const Parameters& p, double nu) {
-    return std::min(
-        {0.1 * p.scheme.range, 0.4 / nu, 0.5 * p.scheme.range / (4.0 * p.scheme.shifting)});
+double step_of(const Parameters& p, double nu, const Box<2>& box) {
+    bool free_edges = false;
+    for (const int a : {0, 1})
+        for (const bool upper : {false, true})
+            free_edges = free_edges || (!box.periodic(a) && !box.wall(a, upper).has_images());
+    return std::min({(free_edges ? 0.025 : 0.1) * p.scheme.range, 0.4 / nu,
+                     0.5 * p.scheme.range / (4.0 * p.scheme.shifting)});
 }
 
 void add_options(Options& options, Parameters& p, const std::string& speed_of_what) {

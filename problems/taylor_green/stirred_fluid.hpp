@@ -38,14 +38,16 @@ std::unique_ptr<FluidModel<2>> make_model(const Parameters& p, int cells, const 
 void set_pressure(const Model<2>& model, std::vector<double>& y,
                   const std::function<double(const Point<2>&)>& pressure);
 
-/// Step of rk4: friction and sound are resolved, and shifting, which all scale with the particles.
-double step_of(const Parameters& p, double nu);
+/// Step of rk4: friction and sound are resolved, and shifting, which all scale with the particles; and what happens
+/// at free edges, which draw together at once.
+double step_of(const Parameters& p, double nu, const Box<2>& box);
 
 /// --cells, --speed, --reynolds, --transport, --shifting, --density, --friction, --kernel, --range, --compare.
 void add_options(Options& options, Parameters& p, const std::string& speed_of_what);
 
 /// Of --help: step_of() in words, and what sides need.
-constexpr const char* step_words = "0.1 h, or shorter where friction or shifting are strong";
+constexpr const char* step_words =
+    "0.1 h, or shorter where friction or shifting are strong, 0.025 h beside open or rigid sides";
 constexpr const char* sides_remark = "open and rigid sides need --transport plain";
 
 /// Where these are the defaults, something is known.

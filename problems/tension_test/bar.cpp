@@ -2,6 +2,7 @@
 #include "bar.hpp"
 
 #include "../breaking/pieces.hpp"
+#include "../stiffness.hpp"
 #include <spam/external/distributed_load.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/picture/draw.hpp>
@@ -117,7 +118,12 @@ PulledBar make_bar(const Session& session, const Parameters& p, const Matter& ma
     const Known known = known_of(matter.kind);
     const double shorter = 60.0 / p.columns;  // the stress in the middle is as load times length
     const double rate = p.load_rate.value_or(shorter * known.load_rate);
-    PulledBar bar{matter.kind, rate, known.step, shorter * known.largest_load / rate,
+    const Matter usual;
+    const bool cores = matter.kind != MatterKind::pair_md && matter.kind != MatterKind::elements;
+    const double step = known.step * (cores ? relative_step({matter.core, matter.core_range},
+                                                            {usual.core, usual.core_range})
+                                            : 1.0);
+    PulledBar bar{matter.kind, rate, step, shorter * known.largest_load / rate,
                   make_model(session, matter, {tapered_block(p)})};
     add_load(*bar.model, p, rate, p.damping.value_or(known.damping));
     Points<2> x = bar.model->particles().reference_position;

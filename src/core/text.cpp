@@ -70,7 +70,7 @@ std::string suggestion(std::string_view word, std::span<const std::string> candi
 std::string one_line(std::string_view text) {
     std::string line;
     for (const char c : text) {
-        if (line.size() > 600) return line + " ...";
+        if (line.size() > 1000) return line + " ...";
         const auto code = static_cast<unsigned char>(c);
         if (c == '\n')
             line += "\\n";

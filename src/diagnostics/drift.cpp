@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spam {
 namespace {
@@ -42,13 +43,19 @@ double largest_change(const std::vector<WatchedChange>& all, const std::string& 
     return largest;
 }
 
-/// `exchanged`: between neighbours during the run. A change of rounding * exchanged is at the limit.
+/// `exchanged`: between neighbours during the run. A change of rounding * exchanged is at the limit. `swing`:
+/// what is allowed in any case.
 Drift drift_of(const char* name, Promise promise, double change, double size, double exchanged,
-               double integrator_limit) {
-    const double limit = allowed_change(promise, integrator_limit);
+               double integrator_limit, double swing) {
+    double limit = allowed_change(promise, integrator_limit);
     double scale = std::max(size, rounding / limit * exchanged);
-    if (!(scale > 0.0)) scale = 1.0;
-    return {name, promise, change == 0.0 ? 0.0 : change / scale, limit, scale};
+    if (scale == 0.0) scale = 1.0;
+    if (promise == Promise::integrator_error) limit = std::max(limit, swing / scale);
+    // Beside what has overflowed every change would be nothing.
+    const double part = !std::isfinite(scale) ? std::numeric_limits<double>::infinity()
+                        : change == 0.0       ? 0.0
+                                              : change / scale;
+    return {name, promise, part, limit, scale};
 }
 
 }  // namespace
@@ -71,8 +78,14 @@ void DriftScales::add(double t, const InvariantScales& now) {
     before_ = now;
 }
 
+/// E begins with what it is off by at the start, so that twice that much is a change.
+void DriftScales::add_swing(double dt, double by_square) {
+    const double now = 2.0 * dt * dt * by_square;
+    if (std::isfinite(now)) swing = std::max(swing, now);
+}
+
 void DriftScales::remember(Archive& archive) {
-    archive(momentum, angular_momentum, impulse, torque, work, t_, begun_);
+    archive(momentum, angular_momentum, impulse, torque, work, swing, t_, begun_);
     archive(before_.momentum, before_.angular_momentum, before_.force, before_.torque,
             before_.power);
 }
@@ -103,16 +116,18 @@ std::vector<Drift> measure_drifts(const History& history, const Promises& promis
     if (history.rows().empty()) return {};
     const auto changes = watched_changes(history);
     std::vector<Drift> drifts;
-    const auto add = [&](const char* name, Promise promise, double size, double exchanged) {
+    const auto add = [&](const char* name, Promise promise, double size, double exchanged,
+                         double swing = 0.0) {
         drifts.push_back(drift_of(name, promise, largest_change(changes, name), size, exchanged,
-                                  integrator_limit));
+                                  integrator_limit, swing));
     };
     add("mass", promises.mass, history.first("mass"), 0.0);
     add("momentum", promises.momentum, scales.momentum, scales.impulse);
     if (history.has("angular_momentum") || history.has("angular_momentum_z"))
         add("angular momentum", promises.angular_momentum, scales.angular_momentum, scales.torque);
     add("energy", promises.energy,
-        std::max(std::abs(history.first("energy")), history.largest("kinetic")), scales.work);
+        std::max(std::abs(history.first("energy")), history.largest("kinetic")), scales.work,
+        scales.swing);
     return drifts;
 }
 

@@ -32,7 +32,11 @@ void validate_steps(const IntegratorOptions& options, const IntegrationMethod& m
                 ? fmt::format("integrator: {} has no embedded error estimate and cannot choose its "
                               "steps; add --dt",
                               method.name)
-                : fmt::format("dt: {} needs a fixed step, e.g. --dt 0.1", method.name));
+                : fmt::format("dt: {} needs a fixed step, e.g. --dt 0.1{}", method.name,
+                              method.separable ? ", and forces that depend on positions alone "
+                                                 "(springs, total Lagrangian, material vectors, "
+                                                 "potentials of the density)"
+                                               : ""));
 }
 
 void validate_tolerances(const IntegratorOptions& options) {

@@ -66,10 +66,9 @@ std::string why_not(std::string_view name) {
             name, prefix == "gsl:" ? "gsl:msadams or gsl:rk8pd" : "cvode:adams");
     if (prefix == "gsl:") return listed("the GSL has no stepper");
     if (prefix == "cvode:") return listed("CVODE has no method");
-    return fmt::format(
-        "'{}' is unknown; use rk4, leapfrog, cvode:adams, gsl:<stepper>, e.g. gsl:rk8pd, or "
-        "arkode:<table>, e.g. arkode:DORMAND_PRINCE_7_4_5",
-        name);
+    const auto all = names_of("");
+    return fmt::format("'{}' is unknown{} There are: {}", name, suggestion(name, all),
+                       fmt::join(all, ", "));
 }
 
 }  // namespace

@@ -32,6 +32,24 @@ toml::table table_of(const std::string& text, const std::string& path) {
     }
 }
 
+/// What is wrong with a value that is no number, no text or neither true nor false where it should be.
+/// `text`: the value, of a string.
+template <class Entry>
+std::string wrong_type(const std::string& name, const toml::node& node, const std::string& text,
+                       const Entry& entry) {
+    const toml::table* table = node.as_table();
+    if (table != nullptr && !table->is_inline())
+        return fmt::format("{0}: [{0}] begins a table, and options lie in none; write {0} = {1}",
+                           name, entry.is_text ? "\"...\"" : "...");
+    const bool number = entry.type == "INTEGER" || entry.type == "NUMBER";
+    if (node.is_string() && (number || entry.is_flag))
+        return fmt::format("{}: {} must be {}, without quotes ({})", name, toml_string(text),
+                           number ? "a number" : "true or false", entry.allowed);
+    std::ostringstream value;  // as TOML writes it
+    node.visit([&](const auto& v) { value << v; });
+    return fmt::format("{}: {} must be {}", name, value.str(), entry.allowed);
+}
+
 }  // namespace
 
 std::string toml_string(const std::string& text) {
@@ -119,13 +137,9 @@ void Options::read_case(const std::string& text_of_case, const std::string& path
             text = b->get() ? "true" : "false";
             fits = entry.is_flag;
         }
-        if (!fits) {
-            std::ostringstream value;  // as TOML writes it
-            node.visit([&](const auto& v) { value << v; });
-            if (node.is_string()) value.str(toml_string(text));
-            throw InputError(fmt::format("config: {} line {}: {}: {} must be {}", path, line, name,
-                                         value.str(), entry.allowed));
-        }
+        if (!fits)
+            throw InputError(fmt::format("config: {} line {}: {}", path, line,
+                                         wrong_type(name, node, text, entry)));
         try {
             const std::string before = entry.get();
             entry.set(text);

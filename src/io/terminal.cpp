@@ -107,14 +107,22 @@ void Terminal::warn(std::string_view text) {
     log(text);
 }
 
+/// Of a short run few tenths: lines are read no faster than they come.
+bool Terminal::line_due(double fraction) const {
+    if (fraction < 0.1 * next_tenth_) return false;
+    return fraction >= 1.0 ||
+           std::chrono::steady_clock::now() - written_ >= std::chrono::milliseconds(400);
+}
+
 bool Terminal::progress_due(double fraction) {
-    if (!is_terminal_ || quiet_) return fraction >= 0.1 * next_tenth_;
+    if (!is_terminal_ || quiet_) return line_due(fraction);
     return std::chrono::steady_clock::now() - drawn_ >= std::chrono::milliseconds(100);
 }
 
 void Terminal::progress(double fraction, std::string_view text) {
-    if (fraction >= 0.1 * next_tenth_) {
+    if (line_due(fraction)) {
         while (fraction >= 0.1 * next_tenth_) ++next_tenth_;
+        written_ = std::chrono::steady_clock::now();
         log(text);
         if (!is_terminal_ && !quiet_) {
             print(stdout, std::string(text) + '\n');
@@ -126,7 +134,10 @@ void Terminal::progress(double fraction, std::string_view text) {
     line_open_ = true;
 }
 
-void Terminal::begin_progress() { next_tenth_ = 1; }
+void Terminal::begin_progress() {
+    next_tenth_ = 1;
+    written_ = std::chrono::steady_clock::now();
+}
 
 void Terminal::end_progress() {
     if (!line_open_) return;

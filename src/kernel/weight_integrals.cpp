@@ -75,6 +75,11 @@ double fastest_diffusion(const AnyWeight<Dim>& weight) {
     return largest_wave(weight, [](double k) { return k; });
 }
 
+template <int Dim>
+double relative_step(const AnyWeight<Dim>& weight, const AnyWeight<Dim>& standard) {
+    return std::min(1.0, steepest_wave(standard) / steepest_wave(weight));
+}
+
 template double moment(const AnyWeight<1>&, int);
 template double moment(const AnyWeight<2>&, int);
 template double moment(const AnyWeight<3>&, int);
@@ -84,5 +89,8 @@ template double steepest_wave(const AnyWeight<3>&);
 template double fastest_diffusion(const AnyWeight<1>&);
 template double fastest_diffusion(const AnyWeight<2>&);
 template double fastest_diffusion(const AnyWeight<3>&);
+template double relative_step(const AnyWeight<1>&, const AnyWeight<1>&);
+template double relative_step(const AnyWeight<2>&, const AnyWeight<2>&);
+template double relative_step(const AnyWeight<3>&, const AnyWeight<3>&);
 
 }  // namespace spam

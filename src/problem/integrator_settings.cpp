@@ -129,11 +129,11 @@ bool IntegratorSettings::prefer_step(double dt, const Options& options) {
 void refuse_endless(const IntegratorOptions& integrator, double t_end) {
     for (const auto& [option, step] :
          {std::pair{"dt", integrator.dt}, std::pair{"max-step", integrator.max_step}})
-        if (step && !(t_end / *step <= 1e9))
+        if (step && !(t_end / *step <= most_steps))
             throw InputError(fmt::format(
-                "{}: {} would take {:.0e} steps to t = {:g}; end earlier (t-end), or choose a "
-                "larger {} where the motion allows it",
-                option, *step, t_end / *step, t_end, option));
+                "{0}: {1} would take {2:.0e} steps to t = {3:g}, of {4:.0e} at most; give an "
+                "earlier end, or a larger --{0} where the motion allows it",
+                option, *step, t_end / *step, t_end, most_steps));
 }
 
 IntegratorOptions IntegratorSettings::resolve(Options& options) {

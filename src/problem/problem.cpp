@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checkpoint.hpp"
 #include "dry_run.hpp"
+#include "why_stopped.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/text.hpp>
 #include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
+#include <spam/kernel/weight_integrals.hpp>
 #include <spam/problem/session.hpp>
 
 #include <fcntl.h>
@@ -124,8 +126,11 @@ const std::vector<std::string>& Problem::scheme_option_names() {
 
 void Problem::use_scheme(const Scheme& standard) {
     scheme_ = standard;
+    standard_kernel_ = standard.kernel;
     options_.group("Weight function");
-    options_.choice<Kernel>("kernel", scheme_.kernel, all_kernels(), "weight function");
+    options_.choice<Kernel>("kernel", scheme_.kernel, all_kernels(),
+                            "weight function; where it is steeper than the default, so is the "
+                            "default step shorter");
     options_.number("range", scheme_.range, "distance at which the weight function vanishes",
                     positive());
     options_.group("Scheme");
@@ -183,6 +188,11 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         options_.settle();
+        if (scheme_.kernel != standard_kernel_) {
+            const auto weight = [](Kernel k) { return weight_function<2>(to_string(k), 1.0); };
+            relative_step_ = relative_step<2>(weight(scheme_.kernel), weight(standard_kernel_));
+            integrator_.shorten_default(relative_step_);
+        }
         IntegratorOptions integrator;
         std::exception_ptr refused;  // of no account where nothing is integrated
         try {
@@ -196,6 +206,11 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
             body(session);
         } catch (const DryRunDone&) {
             return 0;
+        } catch (...) {
+            // Once there are results the input has been accepted: what fails then is the run.
+            const std::string reason = session.folder_ ? why_a_run_stops() : "";
+            if (reason.empty()) throw;
+            throw GuardStop(reason);
         }
         return session.finish();
     } catch (const InputError& error) {

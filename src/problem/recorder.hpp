@@ -47,7 +47,11 @@ class Recorder {
         if (csv_) csv_->add(row);
         history_.add(std::move(row));
         scales_.add(t, measure_scales(model_, y));
+        if (swing_) swing_->add_to(scales_, t, y);
     }
+
+    /// Of a method that is symplectic with steps dt; `model`: that of the rows.
+    void expect_swing(double dt, Model<Dim>& model) { swing_.emplace(Swing{dt, model}); }
 
     const History& history() const { return history_; }
 
@@ -91,6 +95,37 @@ class Recorder {
         return all;
     }
 
+    /// What a symplectic method makes of the energy. Leapfrog keeps E + dt^2 (v . E'' v/12 - sum m |v_dot|^2/24),
+    /// E'' the second derivatives in positions, but for higher orders; other methods are nearer to E. The first term
+    /// follows from how forces change in a step along v.
+    struct Swing {
+        double dt;
+        Model<Dim>& model;
+
+        void add_to(DriftScales& scales, double t, std::span<const double> y) const {
+            const auto v = ConstState<Dim>(model.layout(), y).velocity();
+            const Points<Dim> after = accelerations(0.5 * dt, t, y),
+                              before = accelerations(-0.5 * dt, t, y);
+            double squares = 0.0, bent = 0.0;
+            for (Eigen::Index i = 0; i < v.cols(); ++i) {
+                const double m = model.particles().mass[static_cast<std::size_t>(i)];
+                squares += 0.5 * m * (after.col(i).squaredNorm() + before.col(i).squaredNorm());
+                bent += m * v.col(i).dot(before.col(i) - after.col(i)) / dt;
+            }
+            scales.add_swing(dt, std::abs(bent) / 12.0 + squares / 24.0);
+        }
+
+      private:
+        /// Where the particles would be after so long a time without forces.
+        Points<Dim> accelerations(double drift, double t, std::span<const double> y) const {
+            std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
+            const State<Dim> state(model.layout(), moved);
+            state.position() += drift * state.velocity();
+            model.rates(t, moved, y_dot);
+            return ConstState<Dim>(model.layout(), y_dot).velocity();
+        }
+    };
+
     /// What externals and walls have given.
     std::vector<typename FieldLayout<Dim>::Block> accounts() const {
         std::vector<typename FieldLayout<Dim>::Block> accounts;
@@ -129,6 +164,7 @@ class Recorder {
     History history_;
     std::optional<CsvWriter> csv_;
     DriftScales scales_;
+    std::optional<Swing> swing_;
     std::vector<std::string> empty_;  ///< columns that have had empty cells
 };
 

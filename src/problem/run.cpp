@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run.hpp"
 
+#include "why_stopped.hpp"
 #include <spam/core/error.hpp>
 #include <spam/problem/run_in_memory.hpp>
 
@@ -19,6 +20,7 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
     one.y0 = {};  // the motion holds it from now on
+    if (const auto dt = symplectic_step(options)) recorder_.expect_swing(*dt, *one.model);
     record_.label = one.label;
     record_.statistics.particles = one.model->particles().size();
     if (folder != nullptr) events_ = *folder / "events.csv";
@@ -222,12 +224,13 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         const int signal = spam::drive(motion_.integrator(), schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
-    } catch (const GuardStop& stop) {
-        reason = record_.statistics.stopped = stop.what();
     } catch (const OutputError& error) {
         record_.statistics.stopped = error.what();
         complete();
         throw;
+    } catch (...) {
+        reason = record_.statistics.stopped = why_a_run_stops();
+        if (reason.empty()) throw;
     }
     complete();
     return reason;

@@ -4,7 +4,9 @@
 #include "checkpoint.hpp"
 #include "recorder.hpp"
 #include <spam/integrate/driver.hpp>
+#include <spam/integrate/methods.hpp>
 #include <spam/problem/motion.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -78,13 +80,22 @@ class Run {
     bool resumed_ = false;
 };
 
+/// The step of a method that keeps an energy of its own: those that advance velocity and position in turn.
+inline std::optional<double> symplectic_step(const IntegratorOptions& options) {
+    return integration_method(options.method).separable ? options.dt : std::nullopt;
+}
+
 /// The change that 'to integrator error' allows. With fixed steps a method keeps its order only where
 /// rates are smooth; and where externals drive or damp the motion, steps are chosen for what it comes to,
-/// not for the rough start that the balance of energy and work remembers.
+/// not for the rough start that the balance of energy and work remembers. Rigid walls of a box are none of these:
+/// they turn velocities back, which costs no energy.
 template <int Dim>
 double promise_limit(const IntegratorOptions& options, const Model<Dim>& model) {
     if (options.adaptive()) return std::max(1e-12, 1e3 * std::max(options.rtol, options.atol));
-    return model.smooth() && !model.layout().has(Field::work) ? 1e-6 : 1e-4;
+    const auto* const particles = dynamic_cast<const ParticleModel<Dim>*>(&model);
+    const bool left_alone =
+        particles != nullptr && particles->externals().empty() && !model.box().has_images();
+    return model.smooth() && (left_alone || !model.layout().has(Field::work)) ? 1e-6 : 1e-4;
 }
 
 }  // namespace spam

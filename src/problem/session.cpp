@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,6 +42,7 @@ Session::Session(Problem& problem, const IntegratorOptions& integrator, std::exc
 Session::~Session() = default;
 
 void Session::prefer_step(double dt) {
+    dt *= problem_.relative_step_;
     if (problem_.integrator_.prefer_step(dt, problem_.options_)) integrator_.dt = dt;
 }
 
@@ -240,11 +242,16 @@ void Session::print_checks() {
             claim = fmt::format(" (expected {:.6g} +- {:.2g})", *check.expected, check.tolerance);
         else if (!check.holds())
             claim = " (no finite number)";
-        terminal_.say(fmt::format("{:<6}{} = {:.6g}{}",
-                                  !check.holds()    ? "FAIL"
-                                  : !check.expected ? "-"
-                                                    : "ok",
-                                  check.name, check.value, claim));
+        const auto line = fmt::format("{:<6}{} = {:.6g}{}",
+                                      !check.holds()    ? "FAIL"
+                                      : !check.expected ? "-"
+                                                        : "ok",
+                                      check.name, check.value, claim);
+        // What decides the exit status is an error, which --quiet prints.
+        if (common().quiet && !check.holds())
+            terminal_.warn(problem_.name_ + ": " + line);
+        else
+            terminal_.say(line);
     }
 }
 
@@ -273,6 +280,15 @@ void Session::evaluate(const std::function<void()>& computation) {
     computation();
 }
 
+/// Of several cases, which have a folder each.
+std::string Session::where_rows_are() const {
+    std::vector<std::string> folders;
+    for (const CaseMemory& one : memory_->cases)
+        if (!one.label.empty()) folders.push_back(one.label + "/");
+    if (folders.empty()) return {};
+    return fmt::format(", the rows of each case (invariants.csv) in {}", fmt::join(folders, ", "));
+}
+
 /// Completes the results and decides the exit status.
 int Session::finish() {
     if (!folder_) return 0;
@@ -280,7 +296,7 @@ int Session::finish() {
     write_results_so_far();
     const int signal = InterruptWatch::received();
     if (signal == 0 && guard_reason_.empty()) print_checks();
-    terminal_.say(fmt::format("results in {}", folder_->path().string()));
+    terminal_.say(fmt::format("results in {}{}", folder_->path().string(), where_rows_are()));
     if (signal != 0) {
         terminal_.warn(fmt::format("{}: interrupted by signal {}; the results so far are complete",
                                    problem_.name_, signal));

@@ -51,13 +51,18 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
         throw InputError(fmt::format("t-end: {} must be a number above 0", plan.t_end));
     // Times closer than this would not be told apart, or never be reached.
     const auto limit = [&](const char* name, double interval, const char* what) {
-        if (!(plan.t_end / interval <= 1e9))
+        if (!(plan.t_end / interval <= most_steps))
             throw InputError(
                 fmt::format("{}: {}{} would take {:.0e} {} to t = {:g}; choose a larger one", name,
                             interval, given(name) ? "" : ", which this case chooses,",
                             plan.t_end / interval, what, plan.t_end));
     };
-    refuse_endless(integrator_of(plan), plan.t_end);
+    spam::refuse_endless(integrator_of(plan), plan.t_end);
+    if (given("dt") && integrator_.dt && *integrator_.dt > plan.t_end)
+        throw InputError(
+            fmt::format("dt: {:g} is longer than the run, which ends at t = {:g}; give a "
+                        "shorter step",
+                        *integrator_.dt, plan.t_end));
     plan.output_every = settled(common.output_every, &PlanMemory::output_every, plan.output_every,
                                 plan.t_end / 240.0);
     plan.snapshot_every = settled(common.snapshot_every, &PlanMemory::snapshot_every,
@@ -75,30 +80,6 @@ void Session::settle_plan(Plan<Dim>& plan, std::size_t number) {
     if (Dim == 1 && common.guard.angular_momentum)
         throw InputError(
             "limit-angular-momentum: there is no angular momentum in one dimension; leave it out");
-}
-
-/// What balances every body or all together: the same where there is one body, and always will be.
-template <int Dim>
-void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
-    for (const auto& one : cases)
-        if (one.model->particles().bodies() > 1 || one.plan.may_change()) return;
-    if (given("balance"))
-        throw InputError("balance: both choices are the same for one body; leave it out");
-    leave_out_of_case({"balance"});
-}
-
-/// Classical Runge-Kutta damps what decays at a rate below 2.785/dt, and makes what decays faster grow.
-template <int Dim>
-void Session::refuse_unstable(const Case<Dim>& one) const {
-    constexpr double limit = 2.785;
-    const double rate = one.model->fastest_damping(one.y0);
-    const IntegratorOptions own = integrator_of(one.plan);
-    if (own.method != "rk4" || *own.dt * rate < limit) return;
-    const auto name = problem_.options_.first_given({"damping", "viscosity", "conductivity"});
-    throw InputError(fmt::format(
-        "dt: damping ({}) acts on fast motion at a rate of about {:.3g}, for which rk4 is stable "
-        "with steps below {:.2g} only, not {:g}; choose a smaller --dt or less damping",
-        name.empty() ? "of the model" : "--" + name, rate, limit / rate, *own.dt));
 }
 
 template <int Dim>
@@ -120,6 +101,10 @@ void Session::describe(const Case<Dim>& one) {
         fmt::format("checkpoints every {:.6g}, and at the end", one.plan.checkpoint_every));
     terminal_.say(fmt::format("guard       {}", one.plan.guard.describe(drifts_at_start(
                                                     p, Dim, promise_limit(own, *one.model)))));
+    if (symplectic_step(own))
+        terminal_.say(
+            "note        the energy swings by what the step makes of accelerations, which goes "
+            "with dt^2; twice that much is allowed");
     for (const auto& [name, interval] : {std::pair{"output-every", one.plan.output_every},
                                          std::pair{"snapshot-every", one.plan.snapshot_every}})
         if (given(name) && interval > one.plan.t_end)
@@ -155,8 +140,11 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     integrator();  // first of all, where its options mean nothing
     for (auto& one : cases) settle_plan(one.plan, memory_->plans.size());
     refuse_idle_balance(cases);
-    for (auto& one : cases) {  // finds out about what cannot be before anything is written
+    for (const auto& one : cases) {
         refuse_unstable(one);
+        refuse_endless(one);
+    }
+    for (auto& one : cases) {  // finds out about what cannot be before anything is written
         Recorder<Dim>(*one.model, one.plan, nullptr);  // columns of one name
         // Vectors as long as y show that there is room for them; a dry run does without.
         std::size_t unused = 0, numbers = one.model->layout().size();
@@ -253,7 +241,8 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
         save_checkpoint();
     };
     watchers.last = [this, number](CaseMemory&& state) { save_last(number, std::move(state)); };
-    watchers.step = [this, &run, t_end = one.plan.t_end](double t) {
+    const bool adaptive = integrator_of(one.plan).adaptive();
+    watchers.step = [this, &run, adaptive, t_end = one.plan.t_end](double t) {
         const double fraction = t / t_end;
         if (!terminal_.progress_due(fraction)) return;
         std::string drifts;
@@ -262,13 +251,14 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
                 drifts +=
                     fmt::format("  d{} {:.0e}", drift.name == "energy" ? "E" : "L", drift.change);
         const auto& s = run.statistics();
-        const std::string limiting = run.limiting();
+        std::string steps;  // fixed ones are in the banner
+        if (adaptive)
+            steps = fmt::format("  dt {:.3g}  rejected {}", s.last_step, s.rejected_steps);
+        if (const std::string limiting = run.limiting(); !limiting.empty())
+            steps += "  limit " + limiting;
         terminal_.progress(
-            fraction,
-            fmt::format("{:3.0f} %  t {:.5g}  left {}{}  dt {:.3g}  rejected {}{}",
-                        100.0 * fraction, t, duration(run.seconds() * (1.0 / fraction - 1.0)),
-                        drifts, s.last_step, s.rejected_steps,
-                        limiting.empty() ? "" : "  limit " + limiting));
+            fraction, fmt::format("{:3.0f} %  t {:.5g}  left {}{}{}", 100.0 * fraction, t,
+                                  duration(run.seconds() * (1.0 / fraction - 1.0)), drifts, steps));
     };
     watchers.remark = [this](double t, const Remark& remark) {
         const auto text = fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value);

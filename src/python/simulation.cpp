@@ -149,6 +149,7 @@ void Simulation<Dim>::run(const RunRequest& request) {
                            }});
     plan_.record(std::move(columns));
     recorder_ = std::make_unique<Recorder<Dim>>(*held_->model, plan_, nullptr);
+    if (const auto dt = symplectic_step(options_)) recorder_->expect_swing(*dt, *held_->model);
     remarks_.clear();
     Signals signals;
     const Schedule schedule{.t_end = request.t_end,

@@ -19,10 +19,11 @@ ContactScheme validated(const ContactScheme& scheme, const Particles<Dim>& parti
             fmt::format("contact: energy {:g} must be above 0, or bodies would pass through each "
                         "other; try 0.2",
                         scheme.energy));
-    if (!(scheme.range > 0.0) || !(scheme.range <= particles.spacing))
+    // What passes midway between two neighbours is half a spacing away from both.
+    if (!(scheme.range >= 0.5 * particles.spacing) || !(scheme.range <= particles.spacing))
         throw InputError(fmt::format(
-            "contact-range: {:g} must be above 0 and not above the spacing {:g}, at which particles "
-            "of one body lie; 0.9 to 1 spacings are usual",
+            "contact-range: {:g} must be at least half the spacing {:g}, or particles would pass "
+            "between those of another body, and not above the spacing; 0.9 to 1 spacings are usual",
             scheme.range, particles.spacing));
     if (scheme.folds_beyond != 0.0 &&
         (!(scheme.folds_beyond > scheme.range) || !std::isfinite(scheme.folds_beyond)))

@@ -202,6 +202,35 @@ Drift energy_drift(double E0, double K, const DriftScales& scales) {
 
 }  // namespace
 
+/// Beside what has overflowed nothing would count as a change.
+BOOST_AUTO_TEST_CASE(a_scale_that_is_not_finite_keeps_nothing) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    BOOST_TEST(!energy_drift(infinite, 1.0, {}).kept());
+    BOOST_TEST(!energy_drift(0.0, infinite, {}).kept());
+    DriftScales worked;
+    worked.work = infinite;
+    BOOST_TEST(!energy_drift(0.0, 1.0, worked).kept());
+    BOOST_TEST(std::isinf(energy_drift(0.0, infinite, {}).change));
+    BOOST_TEST(energy_drift(0.0, 1.0, {}).kept());
+}
+
+/// Of a symplectic method what dt^2 makes of accelerations, and no less than of others.
+BOOST_AUTO_TEST_CASE(a_swing_that_goes_with_the_step_is_allowed) {
+    DriftScales swinging;
+    swinging.add_swing(0.1, 2.5e-5);
+    swinging.add_swing(0.1, 1e-5);
+    BOOST_TEST(swinging.swing == 5e-7, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(energy_drift(0.0, 0.01, swinging).limit == 5e-5,
+               boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(energy_drift(0.0, 0.01, swinging).kept());
+    BOOST_TEST(!energy_drift(0.0, 0.01, {}).kept());
+    swinging.swing = 0.5e-7;
+    BOOST_TEST(!energy_drift(0.0, 0.01, swinging).kept());
+    BOOST_TEST(energy_drift(0.0, 100.0, swinging).limit == 1e-6);
+    swinging.add_swing(0.1, std::numeric_limits<double>::infinity());
+    BOOST_TEST(swinging.swing == 0.5e-7);
+}
+
 BOOST_AUTO_TEST_CASE(what_energies_and_small_momenta_are_compared_with) {
     // The start, the largest kinetic energy where that is larger, or a 1e-15th of the work done.
     const auto tolerance = boost::test_tools::tolerance(1e-7);

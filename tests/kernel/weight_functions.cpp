@@ -248,6 +248,12 @@ BOOST_AUTO_TEST_CASE(integrals_over_weight_functions) {
         largest = std::max(largest, sum);
     }
     BOOST_TEST(std::abs(steepest_wave<2>(w) - largest) < 1e-3 * largest);
+    // Sound of the steeper weight is faster, and its step shorter, never longer, whatever the range.
+    const double steeper = steepest_wave<2>(Wn<2, 8>(1.0)) / steepest_wave<2>(Lucy<2>(1.0));
+    BOOST_TEST(steeper > 1.6);
+    BOOST_TEST(std::abs(relative_step<2>(Wn<2, 8>(3.0), Lucy<2>(3.0)) * steeper - 1.0) < 1e-12);
+    BOOST_TEST((relative_step<2>(Wn<2, 2>(3.0), Lucy<2>(3.0))) == 1.0);
+    BOOST_TEST(relative_step<2>(Lucy<2>(3.0), Lucy<2>(3.0)) == 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(constants_as_they_are_written) {

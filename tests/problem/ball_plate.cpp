@@ -74,8 +74,10 @@ BOOST_AUTO_TEST_CASE(ends_that_are_held) {
 
 BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
     const std::vector<Refused> all{
-        {{"--failure-strain", "0"}, {"failure-strain", "0", "above 0"}},
+        {{"--failure-strain", "0"}, {"failure-strain", "0", "between"}},
         {{"--contact", "repulsive", "--contact-range", "1.2"}, {"contact-range: 1.2", "spacing"}},
+        {{"--contact", "repulsive", "--contact-range", "1e-9"},
+         {"contact-range: 1e-09", "half the spacing", "pass between"}},
         {{"--contact-range", "0.9"}, {"contact-range", "without a contact"}},
         {{"--contact-energy", "2"}, {"contact-energy", "without a contact"}},
         {{"--contact", "repulsive", "--contact-energy", "-1"}, {"contact-energy", "-1"}},
@@ -83,7 +85,7 @@ BOOST_AUTO_TEST_CASE(impacts_without_meaning_are_refused) {
         {{"--contact", "none", "--model", "elements"}, {"contact", "--model elements"}},
         {{"--transport", "average"}, {"transport", "core", "--transport plain"}},
         {{"--compare", "--speed", "2"}, {"speed", "compare"}},
-        {{"--speed", "0"}, {"speed", "0", "above 0"}},
+        {{"--speed", "0"}, {"speed", "0", "between"}},
         {{"--gap", "0"}, {"gap", "0", "between 0.5"}},
         {{"--ends", "glued"}, {"ends", "glued", "held"}},
         {{"--model", "all"}, {"model", "all", "spam"}},

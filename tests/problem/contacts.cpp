@@ -75,7 +75,8 @@ BOOST_AUTO_TEST_CASE(a_sheet_that_does_not_yield_keeps_no_fold) {
 BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
     const std::vector<Refused> all{
         {{"--contact-range", "1.2"}, {"contact-range: 1.2", "not above the spacing"}},
-        {{"--contact-energy", "0"}, {"contact-energy", "above 0"}},
+        {{"--contact-range", "1e-9"}, {"contact-range: 1e-09", "half the spacing"}},
+        {{"--contact-energy", "0"}, {"contact-energy", "between"}},
         {{"--inner-radius", "15.9"}, {"inner-radius", "no ring"}},
         {{"--inner-radius", "17"}, {"inner-radius", "no ring"}},
         {{"--range", "1"}, {"range: 1"}},

@@ -6,6 +6,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <set>
+
 using namespace spam::test;
 using Words = std::vector<std::string>;
 
@@ -30,7 +32,9 @@ std::map<std::string, std::string> invariants(const std::filesystem::path& folde
 
 void check_checks(const nlohmann::json& results) {
     std::size_t claimed = 0;
+    std::set<std::string> names;
     for (const auto& item : results) {
+        BOOST_TEST(names.insert(item.at("name")).second, "two checks are " << item.at("name"));
         BOOST_TEST(item.at("value").is_number(), item.at("name") << " is no number");
         BOOST_TEST(item.at("holds").get<bool>(), item.at("name") << " does not hold");
         if (!item.at("expected").is_null()) ++claimed;

@@ -71,6 +71,25 @@ BOOST_AUTO_TEST_CASE(a_figure_settles_the_scheme_and_the_end) {
     }
 }
 
+/// What the paper says of the standard case stands beside what the scheme promises.
+BOOST_AUTO_TEST_CASE(checks_have_names_of_their_own) {
+    for (const Words& words :
+         {Words{"--figure", "6"}, Words{"--formulation", "total_lagrangian"}}) {
+        const Scratch folder;
+        Words arguments{"--no-plots", "--out", "out"};
+        arguments.insert(arguments.end(), words.begin(), words.end());
+        BOOST_TEST(run(problem("rotating_hexagon", arguments), {folder.path()}).status == 0);
+        std::map<std::string, int> times;
+        for (const auto& item : json_of(folder / "out/result.json")) ++times[item.at("name")];
+        for (const auto& [name, n] : times)
+            BOOST_TEST(n == 1, name << " is there " << n << " times");
+        const bool figure = words.front() == "--figure";
+        BOOST_TEST(times.count(figure ? "average_energy_change_final" : "energy_change_largest") ==
+                   1U);
+        BOOST_TEST(times.count(figure ? "average_energy_drift" : "energy_drift") == 1U);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(other_options_still_work) {
     const Scratch folder;
     const Words arguments{"--figure", "4", "--speed", "0.2", "--dt", "0.2", "--no-plots"};

@@ -17,14 +17,22 @@ using namespace spam::test;
 
 namespace {
 
-std::vector<std::string> options_of(const std::string& program) {
-    std::vector<std::string> names;
+struct Option {
+    std::string name;
+    bool has_value;  ///< in --help a word in capitals, or words to choose from, follows
+};
+
+std::vector<Option> options_of(const std::string& program) {
+    std::vector<Option> options;
     for (const auto& line : split(run(problem(program, {"--help"})).out, '\n')) {
         const auto at = line.find_first_not_of(' ');
         if (at == std::string::npos || at > 8 || line.compare(at, 2, "--") != 0) continue;
-        names.push_back(line.substr(at + 2, line.find_first_of(" ,", at) - at - 2));
+        const auto end = line.find_first_of(" ,", at);
+        const bool value = end != std::string::npos && end + 1 < line.size() && line[end] == ' ' &&
+                           line[end + 1] != ' ';
+        options.push_back({line.substr(at + 2, end - at - 2), value});
     }
-    return names;
+    return options;
 }
 
 struct Ran {
@@ -86,19 +94,38 @@ class Comparisons {
     std::map<Words, Ran> ran_;
 };
 
+/// The value to try; of an option that takes one there is one.
+std::string value_of(const std::string& program, const std::string& option) {
+    const auto own = own_value.find({program, option});
+    if (own != own_value.end()) return own->second;
+    const auto another = another_value.find(option);
+    BOOST_REQUIRE_MESSAGE(another != another_value.end(),
+                          program << " --" << option << ": no value to try");
+    return another->second;
+}
+
+/// Whether the value was refused, whatever else is given, so that nothing was tried.
+bool about_the_value(const std::string& refusal) {
+    for (const char* words : {" must be ", "is unknown", "is missing", "finite number"})
+        if (refusal.find(words) != std::string::npos) return true;
+    return false;
+}
+
 void check_option(const std::string& program, Words words, Comparisons& comparisons,
-                  const std::string& option) {
+                  const Option& one) {
+    const std::string& option = one.name;
     if (beside.contains(option))
         words.insert(words.end(), beside.at(option).begin(), beside.at(option).end());
     const Words base = words;
     words.push_back("--" + option);
-    if (another_value.contains(option)) words.push_back(another_value.at(option));
+    if (one.has_value) words.push_back(value_of(program, option));
     const Ran ran = run_with(program, words);
     std::string shown = program;
     for (const auto& word : words) shown.append(" ").append(word);
     BOOST_TEST_CONTEXT(shown) {
         if (ran.outcome.status == 2) {
             BOOST_TEST(ran.outcome.err.find(option) != std::string::npos, ran.outcome.err);
+            BOOST_TEST(!about_the_value(ran.outcome.err), ran.outcome.err);
             return;
         }
         BOOST_TEST(ran.case_toml.find("\n" + option + " = ") != std::string::npos);
@@ -126,8 +153,9 @@ BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
         const Ran& before = comparisons.with(base);
         BOOST_REQUIRE_MESSAGE(before.outcome.status == 0, program << before.outcome.err);
         for (const auto& option : options_of(program)) {
-            const bool given = std::find(base.begin(), base.end(), "--" + option) != base.end();
-            if (given || no_part_of_the_case.contains(option)) continue;
+            const bool given =
+                std::find(base.begin(), base.end(), "--" + option.name) != base.end();
+            if (given || no_part_of_the_case.contains(option.name)) continue;
             check_option(program, base, comparisons, option);
             ++tried;
         }

@@ -173,6 +173,9 @@ inline const std::map<std::string, std::string> another_value{
     {"end-speed", "0.3"},
 };
 
+/// Where that is no value of an option, or no other than the case has.
+inline const std::map<std::pair<std::string, std::string>, std::string> own_value{};
+
 /// Cases of problems that leave different options without effect.
 inline const std::vector<std::pair<std::string, Words>> cases{
     {"rotating_hexagon", {}},

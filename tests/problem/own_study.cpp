@@ -169,23 +169,77 @@ BOOST_AUTO_TEST_CASE(methods_that_do_not_exist_are_refused) {
     BOOST_TEST(folder.listing().empty());
 }
 
+namespace {
+
+/// Exit status of a problem with this body, and what it says on standard error.
+std::pair<int, std::string> told(const std::function<void(Session&)>& body) {
+    const Scratch folder;
+    std::string file = folder / "err", out = "--out=" + (folder / "out").string();
+    std::fflush(stderr);
+    const int own = dup(2), to = open(file.c_str(), O_CREAT | O_WRONLY, 0600);
+    dup2(to, 2);
+    Problem problem("mine", "a problem");
+    char name[] = "mine", quiet[] = "--quiet", no_plots[] = "--no-plots";
+    char* words[] = {name, quiet, no_plots, out.data()};
+    const int status = problem.main(4, words, body);
+    dup2(own, 2);
+    close(own);
+    close(to);
+    return {status, spam::test::contents_of(file)};
+}
+
+/// The same where something is thrown at a row in the middle of a run, or after it.
+std::pair<int, std::string> told_of_a_run(
+    const std::function<void(double t)>& at_row, const std::function<void()>& afterwards = [] {}) {
+    return told([&](Session& session) {
+        auto start = chain();
+        Plan<1> plan{.t_end = 2.0, .output_every = 0.5};
+        plan.observe(
+            {.on_row = [&](double t, const Model<1>&, std::span<const double>) { at_row(t); }});
+        session.run<1>(*start.model, start.y0, std::move(plan));
+        afterwards();
+    });
+}
+
+}  // namespace
+
+/// Status 2 says that nothing was written: what fails later is the run, and says what it was.
+BOOST_AUTO_TEST_CASE(what_fails_in_the_middle_of_a_run_is_no_bad_input) {
+    const auto one_line_with = [](const std::string& text, const std::string& words) {
+        return text.find(words) != std::string::npos &&
+               std::count(text.begin(), text.end(), '\n') == 1;
+    };
+    const std::pair<std::function<void()>, std::string> all[] = {
+        {[] { throw std::bad_alloc(); }, "stopped: not enough memory to go on"},
+        {[] { throw std::length_error("vector::reserve"); }, "(vector::reserve)"},
+        {[] { throw InputError("range: too short"); }, "range: too short"}};
+    for (const auto& [thrown, words] : all) {
+        const auto [status, text] = told_of_a_run([thrown = thrown](double t) {
+            if (t > 0.9) thrown();
+        });
+        BOOST_TEST(status == 3);
+        BOOST_TEST(one_line_with(text, words), text);
+        const auto [status_after, text_after] = told_of_a_run([](double) {}, thrown);
+        BOOST_TEST(status_after == 3);
+        BOOST_TEST(one_line_with(text_after, words), text_after);
+    }
+    BOOST_TEST(told_of_a_run([](double) {}).first == 0);
+}
+
+/// --quiet prints errors, and what decides the exit status is one.
+BOOST_AUTO_TEST_CASE(a_check_that_fails_is_said_though_quiet) {
+    const auto [status, text] = told([](Session& session) {
+        auto start = chain();
+        session.run<1>(*start.model, start.y0, {.t_end = 1.0});
+        session.check({"speed_of_sound", 2.0, 1.0, 0.5, "springs"});
+        session.check({"mass", 8.0, 8.0, 0.0, "eight of one"});
+    });
+    BOOST_TEST(status == 1);
+    BOOST_TEST(text == "mine: FAIL  speed_of_sound = 2 (expected 1 +- 0.5)\n");
+}
+
 /// Status 4 says that results could not be written: what is neither that nor bad input says so.
 BOOST_AUTO_TEST_CASE(an_unexpected_exception_is_called_a_defect) {
-    const auto told = [](const std::function<void(Session&)>& body) {
-        const Scratch folder;
-        const std::string file = folder / "err";
-        std::fflush(stderr);
-        const int own = dup(2), to = open(file.c_str(), O_CREAT | O_WRONLY, 0600);
-        dup2(to, 2);
-        Problem problem("mine", "a problem");
-        char name[] = "mine";
-        char* words[] = {name};
-        const int status = problem.main(1, words, body);
-        dup2(own, 2);
-        close(own);
-        close(to);
-        return std::pair(status, spam::test::contents_of(file));
-    };
     const auto [status, text] = told([](Session&) { throw std::bad_cast(); });
     BOOST_TEST(status == 4);
     BOOST_TEST(text.starts_with("mine: a defect of this program"), text);

@@ -74,8 +74,8 @@ BOOST_AUTO_TEST_CASE(a_bar_that_does_not_yield_does_not_part) {
 
 BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
     const std::vector<Refused> all{
-        {{"--failure-strain", "-1"}, {"failure-strain", "-1", "above 0"}},
-        {{"--yield-stress", "0"}, {"yield-stress", "0", "above 0"}},
+        {{"--failure-strain", "-1"}, {"failure-strain", "-1", "between"}},
+        {{"--yield-stress", "0"}, {"yield-stress", "0", "between"}},
         {{"--hardening", "-0.1"}, {"hardening", "-0.1"}},
         {{"--transport", "monaghan"}, {"transport", "core", "--transport plain"}},
         {{"--core-range", "0.001"}, {"core-range", "hundredth"}},
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
         {{"--model", "material_vectors", "--end-speed", "0.4", "--damping", "0.1"},
          {"damping", "end-speed"}},
         {{"--taper", "0.6"}, {"taper", "0.6", "between 0 and 0.5"}},
-        {{"--load-rate", "0"}, {"load-rate", "0", "above 0"}},
+        {{"--load-rate", "0"}, {"load-rate", "0", "between"}},
         {{"--damping", "1e3"}, {"dt", "damping", "smaller --dt"}},
         {{"--columns", "4"}, {"columns", "4", "between 8 and"}},
     };

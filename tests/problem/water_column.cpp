@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(columns_without_meaning_are_refused) {
         {{"--aspect", "-2"}, {"aspect", "-2"}},
         {{"--gravity", "0"}, {"gravity", "0", "between 0.01 and 2"}},
         {{"--range", "1"}, {"range: 1", "above the particle spacing"}},
-        {{"--relaxation-time", "0"}, {"relaxation-time", "0", "above 0"}},
+        {{"--relaxation-time", "0"}, {"relaxation-time", "0", "between"}},
         {{"--damping", "-0.1"}, {"damping", "-0.1"}},
         {{"--damping", "1000"}, {"dt", "damping", "smaller --dt"}},
         {{"--cavitation", "0.2"}, {"cavitation", "0.2", "0.148"}},

@@ -267,6 +267,8 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
         BOOST_TEST(says(refused({.range = bad}, bodies), "contact-range: "));
     }
     BOOST_TEST(says(refused({.range = 1.01}, bodies), "contact-range: 1.01"));
+    BOOST_TEST(says(refused({.range = 0.49}, bodies), "contact-range: 0.49"));
+    BOOST_CHECK_NO_THROW(Touching<2>(bodies, {.energy = 0.3, .range = 0.5}));
     BOOST_TEST(says(refused({.range = 0.9, .folds_beyond = 0.8}, bodies), "0.8 apart"));
     BOOST_TEST(says(refused({.folds_beyond = -1.0}, bodies), "-1 apart"));
     const auto one = jittered_particles<2>(4, 81);

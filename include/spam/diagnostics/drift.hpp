@@ -31,8 +31,12 @@ struct DriftScales {
     double momentum = 0.0, angular_momentum = 0.0;
     /// Time integrals of InvariantScales' force, torque and power, from row to row.
     double impulse = 0.0, torque = 0.0, work = 0.0;
+    /// Largest so far of what the energy may swing by with a symplectic method; 0 with others.
+    double swing = 0.0;
 
     void add(double t, const InvariantScales& now);
+    /// Of a row: the energy may be off by dt^2 `by_square`.
+    void add_swing(double dt, double by_square);
     void remember(Archive& archive);
 
   private:
@@ -61,7 +65,8 @@ std::vector<WatchedChange> watched_changes(const History& history);
 /// Columns are those of invariants.csv; vectors are compared with sum m |v| and sum m |x||v|, the
 /// energy with its start or the largest kinetic energy. Where particles hardly move, what rounding
 /// leaves of the forces between neighbours is more than that: 1e-15 of what they exchange in the time
-/// of the run (momentum, angular momentum, work) is allowed for. Limits: allowed_change().
+/// of the run (momentum, angular momentum, work) is allowed for. Limits: allowed_change(). A symplectic method
+/// keeps an energy of its own; from this E differs by dt^2 times accelerations for ever, twice which is allowed.
 std::vector<Drift> measure_drifts(const History& history, const Promises& promises,
                                   const DriftScales& scales, double integrator_limit);
 

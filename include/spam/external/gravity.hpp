@@ -6,7 +6,8 @@
 namespace spam {
 
 /// A constant acceleration of all particles, v_dot_i += g (length/time^2), with the potential
-/// -sum m g . x: the energy of the run contains it.
+/// -sum m g . x. Where particles move with v the energy of the run contains it; where they move with an
+/// average, what gravity gives is booked as work instead.
 template <int Dim>
 class Gravity final : public External<Dim> {
   public:

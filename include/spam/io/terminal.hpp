@@ -16,7 +16,8 @@ std::string wrap(std::string_view text, std::size_t width);
 
 /// What a run tells its user: lines on the terminal, wrapped to its width, and the same lines whole
 /// in run.log. On a terminal the progress line is drawn in place; elsewhere a plain line is printed
-/// at every tenth of the run. Quiet: nothing on the terminal, everything in the log.
+/// at tenths of the run and at its end, but no sooner than 0.4 seconds after the last. Quiet: nothing on the
+/// terminal, everything in the log.
 class Terminal {
   public:
     explicit Terminal(bool quiet);
@@ -46,12 +47,14 @@ class Terminal {
 
   private:
     std::size_t width() const;
+    bool line_due(double fraction) const;
 
     bool quiet_;
     bool is_terminal_;
     bool line_open_ = false;
     int next_tenth_ = 1;
-    std::chrono::steady_clock::time_point drawn_{};
+    std::chrono::steady_clock::time_point drawn_{};    ///< in place
+    std::chrono::steady_clock::time_point written_{};  ///< as a line
     std::filesystem::path log_path_;
     std::ofstream log_;
 };

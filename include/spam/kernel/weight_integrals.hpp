@@ -21,6 +21,11 @@ double steepest_wave(const AnyWeight<Dim>& weight);
 template <int Dim>
 double fastest_diffusion(const AnyWeight<Dim>& weight);
 
+/// By what a time step that resolves the fastest waves of `standard` must be multiplied for `weight`: the quotient
+/// of their steepest waves, at most 1. The frequencies of sound go with these.
+template <int Dim>
+double relative_step(const AnyWeight<Dim>& weight, const AnyWeight<Dim>& standard);
+
 extern template double moment(const AnyWeight<1>&, int);
 extern template double moment(const AnyWeight<2>&, int);
 extern template double moment(const AnyWeight<3>&, int);
@@ -30,5 +35,8 @@ extern template double steepest_wave(const AnyWeight<3>&);
 extern template double fastest_diffusion(const AnyWeight<1>&);
 extern template double fastest_diffusion(const AnyWeight<2>&);
 extern template double fastest_diffusion(const AnyWeight<3>&);
+extern template double relative_step(const AnyWeight<1>&, const AnyWeight<1>&);
+extern template double relative_step(const AnyWeight<2>&, const AnyWeight<2>&);
+extern template double relative_step(const AnyWeight<3>&, const AnyWeight<3>&);
 
 }  // namespace spam

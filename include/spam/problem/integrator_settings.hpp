@@ -22,6 +22,8 @@ class IntegratorSettings {
     void add_to(Options& options);
     /// What the options, once parsed, mean; throws InputError where they mean nothing.
     IntegratorOptions resolve(Options& options);
+    /// Before resolve(): the step of rk4 when none is given is this part of what it was.
+    void shorten_default(double part) { default_dt_ *= part; }
     /// Another step of rk4 for the case at hand, where none is given. Returns whether it is taken.
     bool prefer_step(double dt, const Options& options);
 
@@ -41,7 +43,10 @@ class IntegratorSettings {
     std::array<std::optional<double>, integrated_fields.size()> field_atol_;
 };
 
-/// Throws InputError where fixed steps, or the longest allowed, would take more than 1e9 of them to `t_end`.
+/// More than any run can take.
+constexpr double most_steps = 1e9;
+
+/// Throws InputError where fixed steps, or the longest allowed, would take more of them than that to `t_end`.
 void refuse_endless(const IntegratorOptions& integrator, double t_end);
 
 }  // namespace spam

@@ -56,7 +56,9 @@ class Problem {
     /// The units of its numbers, for --help, the first lines of a run, rows, snapshots and pictures.
     void units(UnitNames units);
 
-    /// Adds the scheme and kernel options; `standard` holds their defaults.
+    /// Adds the scheme and kernel options; `standard` holds their defaults. Steps that are not given
+    /// (default_dt, Session::prefer_step, Plan::step) are meant for its weight function, and shorter with a
+    /// steeper one.
     void use_scheme(const Scheme& standard = {});
     /// Of the options that use_scheme() adds.
     static const std::vector<std::string>& scheme_option_names();
@@ -78,6 +80,8 @@ class Problem {
     Options options_;
     CommonOptions common_;
     Scheme scheme_;
+    Kernel standard_kernel_ = scheme_.kernel;
+    double relative_step_ = 1.0;              ///< of the weight function chosen
     std::unique_ptr<SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;
     /// The result folder of the checkpoint, where it is in one.

@@ -140,13 +140,16 @@ class Session {
     template <int Dim>
     IntegratorOptions integrator_of(const Plan<Dim>& plan) const {
         IntegratorOptions own = integrator_;
-        if (plan.step && own.method == "rk4" && !given("dt")) own.dt = plan.step;
+        if (plan.step && own.method == "rk4" && !given("dt"))
+            own.dt = *plan.step * problem_.relative_step_;
         return own;
     }
     template <int Dim>
     void refuse_idle_balance(const std::vector<Case<Dim>>& cases);
     template <int Dim>
     void refuse_unstable(const Case<Dim>& one) const;
+    template <int Dim>
+    void refuse_endless(const Case<Dim>& one) const;
     template <int Dim>
     void describe(const Case<Dim>& one);
     template <int Dim>
@@ -158,6 +161,7 @@ class Session {
     void check_promises(const std::vector<Drift>& drifts, const std::string& prefix);
     void check_promises_left();
     void print_checks();
+    std::string where_rows_are() const;
 
     Problem& problem_;
     IntegratorOptions integrator_;

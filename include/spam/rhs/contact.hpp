@@ -8,7 +8,7 @@ namespace spam {
 /// How bodies touch.
 struct ContactScheme {
     double energy = 0.2;  ///< e_c, of two particles at one place; 0.1 to 0.3 of m c^2 are usual
-    double range = 1.0;   ///< s, at most the spacing; 0.9 to 1 spacings are usual
+    double range = 1.0;   ///< s, half a spacing to a spacing; 0.9 to 1 spacings are usual
     /// Above 0: particles of one body touch as well, where they are farther apart than this in the
     /// reference configuration. For bodies that may fold; 2.5 spacings are usual.
     double folds_beyond = 0.0;
@@ -25,8 +25,9 @@ struct ContactScheme {
 template <int Dim>
 class Contact final : public PairTerm<Dim> {
   public:
-    /// Throws InputError for an energy or a range that is not above 0, a range above the spacing (bodies
-    /// would be pushed apart that do not overlap), folds_beyond that is neither 0 nor above the range, one
+    /// Throws InputError for an energy that is not above 0, a range below half the spacing (particles would
+    /// pass between those of another body) or above it (bodies would be pushed apart that do not overlap),
+    /// folds_beyond that is neither 0 nor above the range, one
     /// body that does not fold, and a periodic box narrower than a fifth of the range.
     Contact(const Selection<Dim>& among, const ContactScheme& scheme);
 

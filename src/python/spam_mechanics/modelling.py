@@ -65,7 +65,9 @@ def _density(density, mass, spacing, x, box):
     if density is not None:
         return density
     try:
-        x, mass = np.asarray(x, dtype=float), np.asarray(mass, dtype=float)
+        x, mass = np.asarray(x), np.asarray(mass)
+        if not (x.dtype.kind in "biuf" and mass.dtype.kind in "biuf" and np.isfinite(x).all()):
+            return 1.0
         dimensions = x.shape[1]
         one = float(mass.flat[0] if np.all(mass == mass.flat[0]) else mass.mean())
         if not (spacing > 0 and one > 0):

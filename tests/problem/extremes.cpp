@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers at the ends of what options allow, and beyond. Beyond, the option is refused by name; at the ends a run
+// is one like others, or is refused or stopped with the reason: no check, and no promise, fails for them.
+#include "problem/result_files.hpp"
+#include "support/hunt.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <regex>
+
+using namespace spam::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+/// Options of a program whose values are numbers, as --help has them.
+Words numbers_of(const std::string& program) {
+    static const std::regex line(R"(^ {2,8}--([a-z0-9-]+) (NUMBER|INTEGER)\b)");
+    Words names;
+    for (const auto& text : split(run(problem(program, {"--help"})).out, '\n')) {
+        std::smatch found;
+        if (std::regex_search(text, found, line)) names.push_back(found[1]);
+    }
+    return names;
+}
+
+const Words& programs() {
+    static const Words all = split(SPAM_PROBLEM_NAMES, ',');
+    return all;
+}
+
+struct Call {
+    std::string program;
+    Words words;
+    std::string shown() const {
+        std::string text = program;
+        for (const auto& word : words) text += " " + word;
+        return text;
+    }
+    /// Ended by SIGXCPU where it takes more seconds of a processor.
+    Outcome outcome(const Scratch& folder, rlim_t seconds) const {
+        Launch launch{folder.path()};
+        launch.before_exec = [seconds] {
+            const rlimit limit{seconds, seconds};
+            setrlimit(RLIMIT_CPU, &limit);
+        };
+        return Child(problem(program, words), launch).finish(Child::Seconds(240));
+    }
+};
+
+/// Status 0, 2 or 3; one line where it is not 0.
+void check_honest(const Call& call, rlim_t seconds) {
+    BOOST_TEST_CONTEXT(call.shown()) {
+        const Scratch folder;
+        const Outcome outcome = call.outcome(folder, seconds);
+        if (outcome.signal == SIGXCPU || outcome.signal == SIGKILL)
+            return;  // longer than this test
+        BOOST_TEST((outcome.status == 0 || outcome.status == 2 || outcome.status == 3),
+                   "status " << outcome.status << ", signal " << outcome.signal << "\n"
+                             << outcome.out << outcome.err);
+        if (outcome.status == 2) BOOST_TEST(folder.listing().empty());
+        if (outcome.status == 2 || outcome.status == 3)
+            BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1, outcome.err);
+    }
+}
+
+Words smoke(const std::string& option, const std::string& value) {
+    return {"--smoke", "--no-plots", "--quiet", "--out", "out", "--" + option + "=" + value};
+}
+
+/// "between A and B" of what refuses 1e300: both ends, empty where there are none.
+Words ends_of(const std::string& program, const std::string& option) {
+    static const std::regex range(R"(between ([-+.0-9e]+) and ([-+.0-9e]+))");
+    const Scratch folder;
+    const Outcome outcome = run(problem(program, smoke(option, "1e300")), {folder.path()});
+    std::smatch found;
+    if (outcome.status != 2 || !outcome.err.starts_with(program + ": " + option + ":") ||
+        !std::regex_search(outcome.err, found, range))
+        return {};
+    return {found[1], found[2]};
+}
+
+struct End {
+    std::string program, option, value;
+};
+
+/// Of all options of all problems, but for the largest whole numbers, which say how many there are of something.
+const std::vector<End>& all_ends() {
+    static const std::vector<End> all = [] {
+        std::vector<End> ends;
+        for (const auto& program : programs())
+            for (const auto& option : numbers_of(program)) {
+                const Words both = ends_of(program, option);
+                const bool whole = option == "threads" || option == "jobs" || option == "max-steps";
+                if (both.empty() || whole) continue;
+                ends.push_back({program, option, both[0]});
+                if (both[1].find('e') != std::string::npos || both[1].size() < 4)
+                    ends.push_back({program, option, both[1]});
+            }
+        return ends;
+    }();
+    return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(numbers_beyond_all_reason_are_refused_by_name) {
+    std::size_t tried = 0;
+    for (const auto& program : programs())
+        for (const auto& option : numbers_of(program)) {
+            const Call call{program, smoke(option, "-1e300")};
+            BOOST_TEST_CONTEXT(call.shown()) {
+                const Scratch folder;
+                const Outcome outcome = call.outcome(folder, 100);
+                BOOST_TEST(outcome.status == 2, outcome.out);
+                BOOST_TEST(outcome.err.starts_with(program + ": " + option + ":"), outcome.err);
+                BOOST_TEST(folder.listing().empty());
+            }
+            ++tried;
+        }
+    BOOST_TEST(tried > 300U);
+}
+
+BOOST_AUTO_TEST_CASE(runs_with_huge_and_tiny_numbers_end_honestly) {
+    for (const auto& program : programs())
+        for (const auto& option : numbers_of(program))
+            for (const char* value : {"1e300", "1e-300"})
+                check_honest({program, smoke(option, value)}, 2);
+}
+
+BOOST_AUTO_TEST_CASE(runs_at_the_ends_of_ranges_end_honestly) {
+    hunt(40, [](unsigned seed) {
+        std::mt19937 random(seed);
+        const auto& ends = all_ends();
+        const End& end = ends[random() % ends.size()];
+        check_honest({end.program, smoke(end.option, end.value)}, hunting() ? 60 : 2);
+    });
+}
+
+/// The default step is one for the weight function chosen.
+BOOST_AUTO_TEST_CASE(every_weight_function_keeps_what_is_promised) {
+    const auto check = [](const std::string& program, const std::string& kernel) {
+        check_honest({program, smoke("kernel", kernel)}, hunting() ? 60 : 20);
+    };
+    for (const char* program : {"sheared_square", "lattice_stability", "string_phase"})
+        check(program, "w8");
+    static const Words with_kernel = [] {
+        Words all;
+        for (const auto& program : programs())
+            if (run(problem(program, {"--help"})).out.find("--kernel ") != std::string::npos)
+                all.push_back(program);
+        return all;
+    }();
+    hunt(12, [&](unsigned seed) {
+        std::mt19937 random(seed);
+        const auto& program = with_kernel[random() % with_kernel.size()];
+        check(program, Words{"monaghan", "w2", "w4", "w5", "w6", "w7", "w8"}[random() % 7]);
+    });
+}
