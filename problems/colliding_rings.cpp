@@ -254,7 +254,7 @@ int main(int argc, char** argv) {
         if (!session.given("radius")) p.radius = usual.radius;
         if (!session.given("inner-radius")) p.inner_radius = usual.inner_radius;
         session.prefer_step(0.1 * relative_step(p.contact, {.energy = 0.3}) *
-                            relative_step(p.speed, 0.5));
+                            relative_step(p.speed, 0.25));
         const auto model = make_model(p);
         auto y0 = initial_state<2>(*model, rho, eta, [&](const Point<2>& x) {
             return Point<2>(x.x() < 0.0 ? p.speed : -p.speed, 0.0);

@@ -59,10 +59,10 @@ class Draw {
 
 /// A side in words, now and then one that makes no sense.
 std::string side(Draw& draw) {
-    static const Words kinds{"open",        "mirror",        "mirror",      "no-slip",
-                             "no-slip",     "rigid",         "rigid",       "moving:0.05",
-                             "moving:-0.2", "no-slip@1.5",   "mirror@0.5",  "moving:0.1@2",
-                             "periodic",    "moving:1e-300", "no-slip@1e6", "moving:1000"};
+    static const Words kinds{
+        "open",     "mirror",        "mirror",      "no-slip",     "no-slip",    "rigid",
+        "rigid",    "moving:0.05",   "moving:-0.2", "no-slip@1.5", "mirror@0.5", "moving:0.1@2",
+        "periodic", "moving:1e-300", "no-slip@1e6", "moving:5",    "moving:1000"};
     return draw.of(kinds, 0);
 }
 

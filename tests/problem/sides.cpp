@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     BOOST_TEST(refused({"--top", "mirror@0"}, "give a number between 1e-06 and 1e+06"));
     BOOST_TEST(refused({"--top", "no-slip@-1"}, "has '-1' for a temperature"));
     BOOST_TEST(refused({"--top", "no-slip@1e300"}, "has '1e300' for a temperature"));
-    BOOST_TEST(refused({"--top", "moving:1e300"}, "give a number between -1000 and 1000"));
+    BOOST_TEST(refused({"--top", "moving:1e300"}, "give a number between -5 and 5"));
     BOOST_TEST(refused({"--top", "moving:+-1"}, "has '+-1' for a velocity"));
     BOOST_TEST(refused({"--top", "no-slip@inf"}, "has 'inf' for a temperature"));
     BOOST_TEST(refused({"--top", "open@1"}, "is no wall"));
