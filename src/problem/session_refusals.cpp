@@ -21,7 +21,7 @@ void Session::refuse_idle_balance(const std::vector<Case<Dim>>& cases) {
 template <int Dim>
 void Session::refuse_unstable(const Case<Dim>& one) const {
     constexpr double limit = 2.785;
-    const double rate = one.model->fastest_damping();
+    const double rate = one.model->fastest_damping(one.y0);
     const IntegratorOptions own = integrator_of(one.plan);
     if (own.method != "rk4" || *own.dt * rate < limit) return;
     const auto name = problem_.options_.first_given({"damping", "viscosity", "conductivity"});
