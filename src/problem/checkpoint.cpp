@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -34,12 +35,20 @@ void write_case(CheckpointWriter& file, const std::string& path, const CaseMemor
     file.bytes(path + "/records", one.records);
 }
 
+[[noreturn]] void refuse_contents(const std::string& path) {
+    throw InputError(fmt::format(
+        "what the checkpoint holds at '{}' is nothing that a run writes; use another checkpoint",
+        path));
+}
+
 CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     CaseMemory one;
     one.label = file.text(path + "/label");
     one.model = file.text(path + "/model");
     if (!file.has(path + "/t")) return one;
-    one.t = file.numbers(path + "/t").at(0);
+    const auto t = file.numbers(path + "/t");
+    if (t.size() != 1 || !(t[0] >= 0.0) || !std::isfinite(t[0])) refuse_contents(path + "/t");
+    one.t = t[0];
     one.id.kept = file.integers(path + "/particles/id");
     const auto body = file.integers(path + "/particles/body");
     one.body.assign(body.begin(), body.end());
@@ -166,12 +175,18 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     memory.case_toml = file.text("/case");
     memory.command = file.text("/command");
     const auto plans = file.numbers("/plans");
+    // Times that are no intervals would never come to their end.
+    if (file.columns("/plans") != 4 || !std::all_of(plans.begin(), plans.end(), [](double time) {
+            return time > 0.0 && std::isfinite(time);
+        }))
+        refuse_contents("/plans");
     for (std::size_t k = 0; k + 3 < plans.size(); k += 4)
         memory.plans.push_back({plans[k], plans[k + 1], plans[k + 2], plans[k + 3]});
     const auto counts = file.integers("/counts");
-    memory.smoke = counts.at(1) != 0;
-    memory.on_schedule = counts.at(2) != 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(counts.at(0)); ++k)
+    if (counts.size() != 3 || counts[0] < 0) refuse_contents("/counts");
+    memory.smoke = counts[1] != 0;
+    memory.on_schedule = counts[2] != 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(counts[0]); ++k)
         memory.cases.push_back(read_case(file, case_path(k)));
     return memory;
 }

@@ -2,9 +2,11 @@
 // Every kind of picture: gnuplot takes the script without a word and leaves a PNG of the size asked
 // for, whatever the values and titles are.
 #include "support/process.hpp"
+#include <spam/core/error.hpp>
 #include <spam/picture/draw.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <sys/resource.h>
 
 #include <cmath>
 
@@ -190,4 +192,32 @@ BOOST_AUTO_TEST_CASE(a_wrong_script_is_no_picture) {
     BOOST_TEST(draw_bars(plots(folder), "good", "t", bars) == have_gnuplot());
     BOOST_TEST(!draw_bars(RunFolder(folder / "wrong", false), "it's", "t", bars));
     BOOST_TEST(std::filesystem::file_size(folder / "wrong/it's.gp.err") > 0u);
+}
+
+/// No file may grow beyond some blocks: what a full disk looks like, and gnuplot does not look at that. A link
+/// of the picture's name is no way out of the folder.
+BOOST_AUTO_TEST_CASE(half_a_picture_is_none) {
+    if (!have_gnuplot()) return;
+    const Scratch folder;
+    folder.write("precious", "not yours");
+    const RunFolder into = plots(folder);
+    std::filesystem::create_symlink("../precious", folder / "plots/picture.png");
+    std::filesystem::create_symlink("../precious", folder / "plots/picture.gp.err");
+    rlimit before;
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit few{4096, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // as in every run
+    setrlimit(RLIMIT_FSIZE, &few);
+    std::string said;
+    try {
+        draw_bars(into, "picture", "t", chart(false));
+    } catch (const OutputError& error) {
+        said = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    BOOST_TEST(said.find("picture.png") != std::string::npos, said);
+    BOOST_TEST(!std::filesystem::exists(folder / "plots/picture.png"));
+    check_picture(folder, draw_bars(into, "picture", "t", chart(false)), 400, 200);
+    BOOST_TEST(contents_of(folder / "precious") == "not yours");
 }

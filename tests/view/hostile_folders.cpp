@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Result folders that come from elsewhere: whatever lies in them, spam-view ends by itself, says one line, and
 // writes the page that was asked for and nothing else.
+#include "view/files.hpp"
 #include "view/page.hpp"
 #include "written_run.hpp"
 
