@@ -19,7 +19,9 @@ struct UnitNames {
     /// What is 1, in words, where the units have no names: "the mass of a particle and its spacing".
     std::string reduced{};
 
+    /// Whether they have names.
     bool named() const { return !time.empty(); }
+    /// Whether anything is known of them.
     bool declared() const { return named() || !reduced.empty(); }
 
     /// Of a quantity made of mass m, length l and time t in D dimensions, as fields say it (core/field.hpp):

@@ -33,9 +33,9 @@ struct Check {
 struct RunStatistics {
     /// Name of the problem.
     std::string problem;
-    /// Of its numbers, and in how many dimensions they are.
+    /// Of its numbers.
     UnitNames units{};
-    int dim = 2;
+    int dim = 2;  ///< of the particles
     /// N of the first run.
     std::size_t particles = 0;
     /// Time reached.

@@ -53,7 +53,7 @@ class Problem {
     /// For options of the problem itself.
     Options& options() { return options_; }
 
-    /// The units of its numbers, for --help, the first lines of a run, rows, snapshots and pictures.
+    /// Declares the units of its numbers, for --help, the first lines of a run, rows, snapshots and pictures.
     void units(UnitNames units);
 
     /// Adds the scheme and kernel options; `standard` holds their defaults. Steps that are not given
