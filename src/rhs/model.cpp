@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/dimensions.hpp>
+#include <spam/core/error.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spam {
 
@@ -57,8 +59,15 @@ bool Model<Dim>::settles() const {
 
 template <int Dim>
 void Model<Dim>::remember(Archive& archive) {
-    archive(particles_.body);
-    if (archive.reading()) set_bodies(particles_.body);
+    if (!archive.reading()) return archive(particles_.body);
+    const auto most =
+        std::max<std::int32_t>(particles_.bodies(), static_cast<std::int32_t>(particles_.size()));
+    auto body = particles_.body;
+    archive(body);
+    if (body.size() != particles_.size() ||
+        std::any_of(body.begin(), body.end(), [most](auto b) { return b < 0 || b >= most; }))
+        throw InputError("the bodies that were remembered are not those of these particles");
+    set_bodies(std::move(body));
 }
 
 template <int Dim>

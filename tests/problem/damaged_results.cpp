@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(damaged_folders_are_shown_or_refused) {
 BOOST_AUTO_TEST_CASE(programs_end_by_themselves_on_damaged_folders) {
     const Victim victim;
     std::map<int, int> ends;
-    hunt(SPAM_SANITIZED ? 30 : 200, [&](unsigned seed) {
+    hunt(SPAM_SANITIZED ? 30 : 100, [&](unsigned seed) {
         Damage damage(seed + 1'000'000);
         victim.restore();
         victim.damage(damage);

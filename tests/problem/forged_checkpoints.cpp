@@ -265,7 +265,7 @@ BOOST_AUTO_TEST_CASE(forged_contents_are_refused_or_gone_on_with) {
         std::filesystem::remove_all(folder / "on");
     }
     std::map<int, int> ends;
-    hunt(SPAM_SANITIZED ? 60 : 400, [&](unsigned seed) {
+    hunt(SPAM_SANITIZED ? 40 : 200, [&](unsigned seed) {
         Forger forger(seed);
         const Begun& one = begun[forger.below(begun.size())];
         Contents contents = one.contents;
