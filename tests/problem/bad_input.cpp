@@ -131,7 +131,8 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--dt", "1e-300"}, {"dt", "1e-300", "steps"}},  // t + dt == t: it would never end
         {{"--turns", "1e300"}, {"dt", "steps", "earlier end"}},
         {{"--dt", "1e300"}, {"dt: 1e+300 is longer than the run"}},
-        {{"--t-end", "1e300", "--integrator", dormand}, {"t-end", "at least as many steps"}},
+        {{"--t-end", "1e300", "--snapshot-every", "1e299", "--integrator", dormand},
+         {"t-end", "at least as many steps"}},
         {{"--output-every", "1e-300", "--integrator", dormand}, {"output-every", "1e-300"}},
         {{"--speed", "0"}, {"speed", "0", "between 1e-06 and 1000"}},
         {{"--turns", "-1"}, {"turns", "-1"}},
