@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(a_bar_against_a_wall) {
 }
 
 BOOST_AUTO_TEST_CASE(an_option_in_another_unit_is_seen) {
-    const Units u{4.0, 0.25, 0.5};
+    const Units u{4.0, 0.25, 2.0};
     Case wrong = plate("total_lagrangian");
     const Left here = run(wrong, {});
     wrong.quantities[4].unit = "1";
