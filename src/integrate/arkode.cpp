@@ -142,8 +142,7 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
         if (me.checks_rates_ && me.non_finite_.empty())
             me.non_finite_ = me.non_finite_rate(entries(y_dot), t);
         // NaN rates make an adaptive step shrink; a positive return would be fatal. A fixed step
-        // ends here. Of an adaptive one the later stages, which are made of these rates, complain of
-        // what is not a number: the first reason is the one that counts.
+        // ends here; stages after a NaN complain of it, which is not the reason of an adaptive one.
         std::string failure = me.ode_.failure();
         if (failure.empty()) return 0;
         if (me.failure_.empty() || me.non_finite_entry(entries(y), t).empty())
