@@ -119,14 +119,14 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_left_alone) {
 BOOST_AUTO_TEST_CASE(a_model_says_what_acts_on_it) {
     auto model = disk();
     const auto plain = model->promises();
-    const double damping = model->fastest_damping();
+    const double damping = model->fastest_damping({});
     BOOST_TEST(model->inseparable().empty());
     model->add(std::make_unique<Gravity<2>>(Point<2>(0.0, -0.5)));
     BOOST_TEST(model->inseparable().empty());
     model->add(std::make_unique<Friction<2>>(friction_gamma, FrictionOf::all_motion));
     BOOST_TEST((model->promises().energy == plain.energy));
     BOOST_TEST((model->promises().momentum == plain.momentum));
-    BOOST_TEST(model->fastest_damping() == damping + friction_gamma);
+    BOOST_TEST(model->fastest_damping({}) == damping + friction_gamma);
     BOOST_TEST(!model->inseparable().empty());
     BOOST_TEST(
         model->describe().ends_with("; gravity (0, -0.5); friction gamma = 0.3 of all motion"),
