@@ -104,17 +104,15 @@ void compare_sizes(Session& session, const Parameters& p, const std::vector<Tube
 CurvePanel panel_of(const Parameters& p, const std::vector<Tube>& tubes,
                     const std::vector<RunRecord>& runs, std::size_t which, double t) {
     CurvePanel panel{"", "x", quantities[which], false, {}};
-    const char* const named = which == 0 ? "exact" : "";
-    Curve exact{.title = named, .x = {}, .y = {}};
+    Curve exact{.title = "exact", .x = {}, .y = {}, .style = 1};
     for (int k = -500; k <= 500; ++k) {
         exact.x.push_back(0.001 * k);
         exact.y.push_back(exact_value(tubes.front(), p.gamma, which, 0.001 * k, t));
     }
-    panel.curves.push_back(exact);
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ConstState<1> state(tubes[r].model->layout(), runs[r].y);
         const auto values = found(tubes[r], runs[r].y, which);
-        Curve points{.title = which == 0 ? fmt::format("{} particles", tubes[r].cells) : "",
+        Curve points{.title = fmt::format("{} particles", tubes[r].cells),
                      .x = {},
                      .y = {},
                      .mark = Mark::points,
@@ -126,6 +124,7 @@ CurvePanel panel_of(const Parameters& p, const std::vector<Tube>& tubes,
         }
         panel.curves.push_back(points);
     }
+    panel.curves.push_back(exact);  // above them
     return panel;
 }
 
@@ -196,7 +195,8 @@ int main(int argc, char** argv) {
     const Sides sides(options, {end, end}, {.temperatures = false});
     p.sides = &sides;
     options.choice<Kernel>("kernel", p.scheme.kernel, all_kernels(), "weight function");
-    options.number("range", p.scheme.range, "range h of the weight function, in spacings (RANGES)",
+    options.number("range", p.scheme.range,
+                   "range h of the weight function, in spacings (with --toro 3 to 5: 6)",
                    between(1.2, 20.0));
     options.flag(
         "single", p.single,

@@ -43,7 +43,7 @@ const Setting& sod() {
 const Setting& toro(int number) {
     static const std::array<Setting, toro_tests> all{
         {{"Toro's test 1 (Sod)", {1.0, 0.0, 1.0}, {0.125, 0.0, 0.1}, 0.25},
-         {"Toro's test 2 (two fans)", {1.0, -2.0, 0.4}, {1.0, 2.0, 0.4}, 0.15},
+         {"Toro's test 2 (two fans)", {1.0, -2.0, 0.4}, {1.0, 2.0, 0.4}, 0.15, 10.0, 1.0, false},
          {"Toro's test 3 (left blast)", {1.0, 0.0, 1000.0}, {1.0, 0.0, 0.01}, 0.012, 6.0},
          {"Toro's test 4 (right blast)", {1.0, 0.0, 0.01}, {1.0, 0.0, 100.0}, 0.035, 6.0},
          {"Toro's test 5 (two shocks)",

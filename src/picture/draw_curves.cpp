@@ -122,11 +122,12 @@ std::string ranges(const CurvePanel& panel) {
 
 /// Labels and scale of a frame.
 std::string labels(const CurvePanel& panel) {
-    return fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}{}{}",
-                       escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label),
-                       ranges(panel), x_axis(panel),
-                       panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
-                                   : "unset logscale y\nset format y '%g'\n");
+    return fmt::format(
+        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset -1.5,0\n{}{}{}",
+        escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label), ranges(panel),
+        x_axis(panel),
+        panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
+                    : "unset logscale y\nset format y '%g'\n");
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPi
         const LogLogPanel& panel = picture.panels[k];
         script += grid.place(k);
         script += fmt::format(
-            "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset 1,0\n{}",
+            "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset -1,0\n{}",
             escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label), ranges(panel));
         script += "unset label\nunset arrow\n";
         if (k == 0) script += key(picture, grid.width(), grid.height(), per_row);
