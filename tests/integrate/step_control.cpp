@@ -259,8 +259,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
     BOOST_TEST(has(reason(o, ode), "atol-stress: y holds no stress"));
     o.field_atol.clear();
     o.max_step = 1e-13;
+    o.min_step = 1e-12;
     BOOST_TEST(has(reason(o, ode), "max-step"));
     o.max_step.reset();
+    o.min_step.reset();
     o.controller = "pld";
     BOOST_TEST(has(reason(o, ode), "did you mean pid?"));
     o.controller.clear();
