@@ -30,11 +30,12 @@ std::string UnitNames::of(std::string_view made_of, int dim) const {
          {std::pair{&mass, powers.mass}, {&length, powers.length}, {&time, powers.time}}) {
         if (power == 0) continue;
         std::string& side = power > 0 ? above : below;
-        side += (side.empty() ? "" : " ") + with_power(*name, std::abs(power));
+        if (!side.empty()) side += ' ';
+        side += with_power(*name, std::abs(power));
         if (power < 0) ++divisors;
     }
     if (divisors == 0) return above;
-    if (above.empty()) above = "1";
+    if (above.empty()) above.push_back('1');
     return divisors > 1 ? fmt::format("{}/({})", above, below) : fmt::format("{}/{}", above, below);
 }
 
