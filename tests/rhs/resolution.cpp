@@ -66,7 +66,7 @@ double conduction(By by, int n) {
     const Points<2> sites = model.particles().reference_position;
     auto y = model.state(sites, Points<2>::Zero(2, sites.cols()), 1.0);
     const Eigen::ArrayXd exact = (1.5 - sites.row(1).array() / n).transpose();
-    Motion<2> motion(model, y, {.method = "rk4", .dt = 1.0 / model.fastest_damping()});
+    Motion<2> motion(model, y, {.method = "rk4", .dt = 1.0 / model.fastest_damping(y)});
     motion.advance_to(double(n * n));
     const Eigen::ArrayXd T = motion.state().energy().row(0).transpose().array();
     return std::sqrt((T - exact).square().mean());
