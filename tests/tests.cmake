@@ -136,13 +136,6 @@ target_compile_definitions(test.builds.load_module PRIVATE
 add_dependencies(test.builds.load_module spam_module)
 add_test(NAME builds.load_module COMMAND test.builds.load_module)
 set_tests_properties(builds.load_module PROPERTIES LABELS unit TIMEOUT ${timeout})
-# Where ninja, gcc and no cache of objects wrote down what each source took.
-if(CMAKE_GENERATOR STREQUAL "Ninja" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT SPAM_SANITIZE
-   AND CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT SPAM_COVERAGE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  spam_test(builds/compile_times style)
-  target_compile_definitions(test.builds.compile_times PRIVATE
-                             SPAM_NINJA_LOG="${PROJECT_BINARY_DIR}/.ninja_log")
-endif()
 spam_test(style/house_rules style)
 target_compile_definitions(test.style.house_rules PRIVATE SPAM_SOURCE="${PROJECT_SOURCE_DIR}")
 spam_test(style/models style)

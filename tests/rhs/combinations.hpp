@@ -119,7 +119,7 @@ inline const std::map<std::string, Build> with_scheme{
     {"SmoothParticles, gas, friction and work of its own stress",
      [](Sample& s, Scheme scheme) {
          scheme.work = Work::own;
-         add_fluid(s, {IdealGas{}, NewtonViscosity{0.1, 0.3}}, scheme);
+         add_fluid(s, {IdealGas{}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}}, scheme);
      }},
     {"SmoothParticles, fluid with friction and conduction", [](Sample& s, const Scheme& scheme) {
          add_fluid(s,
