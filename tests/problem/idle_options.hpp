@@ -176,6 +176,9 @@ inline const std::map<std::string, std::string> another_value{
 /// Where that is no value of an option, or no other than the case has.
 inline const std::map<std::pair<std::string, std::string>, std::string> own_value{
     {{"blast", "t-end"}, "0.03"},
+    {{"blast", "cells"}, "24"},
+    {{"blast", "radius"}, "0.2"},
+    {{"free_expansion", "ranges"}, "density"},
     {{"fragmenting_bar", "formulation"}, "material_vectors"},
     {{"kernels", "ranges"}, "4"},
     {{"lattice_stability", "block"}, "14"},
