@@ -86,13 +86,13 @@ BOOST_AUTO_TEST_CASE(a_run_in_mm_and_microseconds_says_so) {
 BOOST_AUTO_TEST_CASE(ends_follow_sizes_and_speeds) {
     const Words coarse{"--particles-per-radius", "3"};
     BOOST_TEST(end_of("taylor_bar", coarse) == 80.0);
-    for (const auto& [radius, end] : {std::pair{"3200", 8e4}, {"3.2e-6", 8e-5}})
+    for (const auto& [radius, end] : {std::pair{"3200", 8e4}, {"3.2e-3", 8e-5}})
         BOOST_TEST(end_of("taylor_bar", {"--particles-per-radius", "3", "--radius", radius}) == end,
                    boost::test_tools::tolerance(1e-5));
     const double fast = end_of("taylor_bar", {"--particles-per-radius", "3", "--speed", "400"});
     BOOST_TEST(fast > 60.0);
     BOOST_TEST(fast < 110.0);
-    BOOST_TEST(end_of("taylor_bar", {"--particles-per-radius", "3", "--speed", "0"}) > 1.0);
+    BOOST_TEST(end_of("taylor_bar", {"--particles-per-radius", "3", "--speed", "1"}) > 1.0);
 
     BOOST_TEST(end_of("colliding_rings", {}) == 640.0);
     BOOST_TEST(end_of("colliding_rings", {"--smoke"}) == 40.0);
@@ -133,5 +133,5 @@ BOOST_AUTO_TEST_CASE(pictures_show_what_must_stay_constant) {
 }
 
 BOOST_AUTO_TEST_CASE(a_run_without_end_names_the_end) {
-    check_refused({{"taylor_bar", {"--t-end", "1e12"}, {"dt: ", "end earlier (t-end)"}}});
+    check_refused({{"taylor_bar", {"--t-end", "1e12"}, {"dt: ", "give an earlier end"}}});
 }
