@@ -53,12 +53,14 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
         end_dry_run();
     }
     if (study != nullptr && continues(study)) {
-        folder_ = RunFolder::reopen(problem_.common_.out);
+        // The session's only once it is accepted: until then what is wrong is the input.
+        auto folder = RunFolder::reopen(problem_.common_.out);
         if (!continues(study))  // another run may have ended between the first look and the lock
             throw InputError(fmt::format(
                 "out: another run has just completed the study in '{}'; choose another --out",
                 problem_.common_.out));
-        folder_->check_own();
+        folder.check_own();
+        folder_ = std::move(folder);
         terminal_.log_to(*folder_ / "run.log");
         describe_environment();
     } else {
