@@ -176,6 +176,8 @@ inline const std::map<std::string, std::string> another_value{
 /// Where that is no value of an option, or no other than the case has.
 inline const std::map<std::pair<std::string, std::string>, std::string> own_value{
     {{"blast", "t-end"}, "0.03"},
+    {{"tension_test", "columns"}, "10"},
+    {{"water_column", "samples"}, "3"},
     {{"blast", "cells"}, "24"},
     {{"blast", "radius"}, "0.2"},
     {{"free_expansion", "ranges"}, "density"},
