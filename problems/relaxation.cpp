@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
                     between(20, 1e6));
     options.integer("lobes", p.lobes,
                     "number of lobes of the shape, r = 1 + depth (cos(lobes a) + sin(2a)/2)",
-                    between(1, 50));
+                    between(1, 12));
     options.number("depth", p.depth, "depth of the lobes; 0 gives a circle", between(0.0, 0.6));
     options.text("outline", p.outline, "file with the corners of another shape, one x,y per line")
         .excludes({"lobes", "depth"});
