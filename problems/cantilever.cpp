@@ -97,16 +97,17 @@ void compute(Session& session, const Parameters& p) {
 }
 
 void add_options(Options& options, Parameters& p) {
-    options.number("length", p.beam.length, "length of the plate beyond x = 0", between(1e-6, 1e6))
+    options
+        .number("length", p.beam.length, "length of the plate beyond x = 0", between(1e-12, 1e12))
         .unit("m");
-    options.number("thickness", p.beam.thickness, "its thickness", between(1e-6, 1e6)).unit("m");
+    options.number("thickness", p.beam.thickness, "its thickness", between(1e-12, 1e12)).unit("m");
     options.integer("layers", p.layers, "rows of particles over the thickness", between(3, 200));
-    options.number("young", p.beam.young, "Young's modulus", between(1.0, 1e15)).unit("Pa");
+    options.number("young", p.beam.young, "Young's modulus", between(1e-30, 1e30)).unit("Pa");
     options.number("poisson", p.beam.poisson, "Poisson's ratio", between(-0.9, 0.499));
-    options.number("density", p.beam.density, "density", between(1e-3, 1e6)).unit("kg/m^3");
+    options.number("density", p.beam.density, "density", between(1e-30, 1e30)).unit("kg/m^3");
     options.number("speed", p.speed, "speed of the tip at the start, by sqrt(K/rho)",
                    between(1e-6, 0.5));
-    options.number("gravity", p.gravity, "acceleration downwards", between(-1e6, 1e6))
+    options.number("gravity", p.gravity, "acceleration downwards", between(-1e30, 1e30))
         .unit("m/s^2");
     options.choice<Formulation>(
         "formulation", p.formulation,

@@ -153,8 +153,7 @@ void report(Session& session, const RunRecord& run) {
     const History& h = run.history;
     session.claim({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
                    "no two particles of different rings nearer than half a spacing"},
-                  !session.given("contact-energy") && !session.given("contact-range") &&
-                      !session.given("speed"));
+                  session.at_default({"contact-energy", "contact-range", "speed"}));
     const double parted = parted_at(h);
     const bool known =
         run.complete && run.statistics.t_end >= 600.0 &&

@@ -262,7 +262,7 @@ int main(int argc, char** argv) {
     options.number("core-range", p.core_range, "distance at which cores touch", positive())
         .only_when(
             {"core"}, [&p] { return p.core != 0.0; }, "has no meaning for --core 0; leave it out");
-    options.number("damping", p.damping, "rate of the friction, gamma", between(1e-3, 100.0));
+    options.number("damping", p.damping, "rate of the friction, gamma", between(1e-6, 100.0));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 

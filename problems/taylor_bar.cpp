@@ -143,16 +143,17 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("particles-per-radius", p.particles_per_radius,
                     "particles from the axis to the rim", between(2, 40));
-    options.number("radius", p.radius, "of the bar", between(1e-3, 1e6)).unit("mm");
+    options.number("radius", p.radius, "of the bar", between(1e-12, 1e12)).unit("mm");
     options.number("aspect", p.aspect, "length of the bar by its radius", between(2.0, 100.0));
     options.number("speed", p.speed, "of the bar", between(1.0, 1000.0)).unit("m/s");
-    options.number("young", p.young, "Young's modulus", between(1e-6, 1e6)).unit("GPa");
+    options.number("young", p.young, "Young's modulus", between(1e-30, 1e30)).unit("GPa");
     options.number("poisson", p.poisson, "Poisson's ratio", between(-0.9, 0.49));
-    options.number("density", p.density, "of the bar", between(1e-3, 1e6)).unit("kg/m^3");
-    options.number("yield-stress", p.yield_stress, "yield stress", between(1e-9, 1e6)).unit("GPa");
+    options.number("density", p.density, "of the bar", between(1e-30, 1e30)).unit("kg/m^3");
+    options.number("yield-stress", p.yield_stress, "yield stress", between(1e-30, 1e30))
+        .unit("GPa");
     options
         .number("hardening", p.hardening, "growth of the yield stress with plastic strain",
-                between(0.0, 1e6))
+                between(0.0, 1e30))
         .unit("GPa");
     options.number("range", p.range, "range h of Lucy's weight function, in spacings",
                    between(1.2, 4.0));

@@ -115,7 +115,12 @@ StudyTable Session::begin_study(const std::string& table, const std::vector<std:
     leave_out_of_case(of_one_run);
     integrator();
     begin(description, table.c_str(), of_integrators);
-    return {*folder_, table, columns};
+    try {
+        return {*folder_, table, columns};
+    } catch (const InputError&) {  // of a damaged table: nothing has been computed
+        folder_.reset();
+        throw;
+    }
 }
 
 bool Session::run_study(StudyTable& table, const std::vector<StudyTask>& tasks, int threads) {

@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
         {{"--contact-energy", "0"}, {"contact-energy", "between"}},
         {{"--inner-radius", "15.9"}, {"inner-radius", "no ring"}},
         {{"--inner-radius", "17"}, {"inner-radius", "no ring"}},
-        {{"--range", "1"}, {"range: 1"}},
+        {{"--range", "1"}, {"range: '1'"}},
         {{"--viscosity", "1"}, {"viscosity", "total_lagrangian"}},
         {{"--penalty", "1", "--formulation", "updated"}, {"penalty", "updated"}},
         {{"--viscosity", "1", "--formulation", "material_vectors"},

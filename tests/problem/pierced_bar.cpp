@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(bodies_of_the_paper_s_bar_keep_their_angular_momentum) {
 BOOST_AUTO_TEST_CASE(shots_without_meaning_are_refused) {
     const std::vector<RefusedCall> all{
         {"pierced_bar", {"--speed", "200"}, {"speed: at 200", "dt = 0.025", "--dt below"}},
-        {"pierced_bar", {"--range", "0.9"}, {"range: 0.9"}},
+        {"pierced_bar", {"--range", "0.9"}, {"range: '0.9'"}},
         {"pierced_bar", {"--core", "0", "--core-range", "0.7"}, {"core-range", "without a core"}},
         {"pierced_bar", {"--core-range", "0.001"}, {"core-range", "between 0.01 and"}},
         {"pierced_bar",

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
         {{"--yield-stress", "0"}, {"yield-stress", "0", "between"}},
         {{"--hardening", "-0.1"}, {"hardening", "-0.1"}},
         {{"--transport", "monaghan"}, {"transport", "core", "--transport plain"}},
-        {{"--core-range", "0.001"}, {"core-range", "hundredth"}},
+        {{"--core-range", "0.001"}, {"core-range", "between 0.01 and"}},
         {{"--core", "0", "--core-range", "0.7"}, {"core-range", "without a core"}},
         {{"--disorder", "0", "--seed", "2"}, {"seed", "without disorder"}},
         {{"--strength", "0.1"}, {"strength", "--model spam"}},
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(tests_without_meaning_are_refused) {
          {"damping", "end-speed"}},
         {{"--taper", "0.6"}, {"taper", "0.6", "between 0 and 0.5"}},
         {{"--load-rate", "0"}, {"load-rate", "0", "between"}},
-        {{"--damping", "1e3"}, {"dt", "damping", "smaller --dt"}},
+        {{"--damping", "100", "--dt", "0.05"}, {"dt", "damping", "smaller --dt"}},
         {{"--columns", "4"}, {"columns", "4", "between 8 and"}},
     };
     check_refused("tension_test", all);

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(columns_without_meaning_are_refused) {
         {{"--range", "1"}, {"range: 1", "above the particle spacing"}},
         {{"--relaxation-time", "0"}, {"relaxation-time", "0", "between"}},
         {{"--damping", "-0.1"}, {"damping", "-0.1"}},
-        {{"--damping", "1000"}, {"dt", "damping", "smaller --dt"}},
+        {{"--damping", "100", "--dt", "0.05"}, {"dt", "damping", "smaller --dt"}},
         {{"--cavitation", "0.2"}, {"cavitation", "0.2", "0.148"}},
         {{"--surface-tension", "-1"}, {"surface-tension", "-1"}},
         {{"--kernel", "w2"}, {"kernel", "continuous derivatives"}},

@@ -87,7 +87,11 @@ class Session {
     /// Whether these options have their default values, and the run is no smoke test: where something is
     /// known of the default case alone.
     bool when_default(const std::vector<std::string>& options) const {
-        return !problem_.common_.smoke && problem_.options_.at_default(options);
+        return !problem_.common_.smoke && at_default(options);
+    }
+    /// The same of smoke runs too, whose own values must not be among these.
+    bool at_default(const std::vector<std::string>& options) const {
+        return problem_.options_.at_default(options);
     }
     /// Checks that every invariant drifted no more than promised, here and under this prefix. Of runs that
     /// are not given to this the session does so itself at the end, with the label of the case.
