@@ -2,7 +2,7 @@
 // Fluids of smooth particles against loops over all pairs, with every law, weight function and mean;
 // mass, momentum and energy kept to the last digits whatever the law; and what is refused or named.
 #include "support/fluid_oracle.hpp"
-#include "support/random_state.hpp"
+#include "support/random_fluid.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/sums.hpp>
@@ -38,27 +38,6 @@ std::vector<Fluid> all_fluids(int dim) {
             {ideal, friction, conduction},
             {real, friction, conduction},
             {Cavitating<VanDerWaals>{real, 0.05}, friction, conduction}};
-}
-
-template <int Dim>
-Box<Dim> periodic(double length) {
-    std::array<double, Dim> lengths;
-    lengths.fill(length);
-    return Box<Dim>(lengths);
-}
-
-/// Random velocities and, where the law has any, temperatures between 0.5 and 1.5.
-template <int Dim>
-std::vector<double> random_fluid(FluidModel<Dim>& model, unsigned seed) {
-    auto y = random_state(model, seed);
-    std::mt19937_64 random(seed + 1);
-    std::uniform_real_distribution<double> T(0.5, 1.5);
-    const auto rho = model.density(y);
-    const State<Dim> state(model.layout(), y);
-    for (std::size_t i = 0; i < rho.size(); ++i)
-        state.energy()(0, static_cast<Eigen::Index>(i)) =
-            model.fluid().state.starting_energy(rho[i], T(random));
-    return y;
 }
 
 /// Rates against the oracle; rates of what is kept against the sums of their parts' sizes.

@@ -3,7 +3,7 @@
 // m (e + v^2/2) kept to the last digits, every gas on its adiabat, friction that heats every particle, and no
 // heat taken from a particle that has none. What the mean form and a form with the partner's stress do instead.
 #include "support/fluid_oracle.hpp"
-#include "support/random_state.hpp"
+#include "support/random_fluid.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/sums.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -29,27 +29,6 @@ template <int Dim>
 constexpr int cells = Dim == 1   ? 30
                       : Dim == 2 ? 9
                                  : 5;
-
-template <int Dim>
-Box<Dim> periodic() {
-    std::array<double, Dim> lengths;
-    lengths.fill(cells<Dim>);
-    return Box<Dim>(lengths);
-}
-
-/// Random velocities, and temperatures between 0.5 and 1.5.
-template <int Dim>
-std::vector<double> random_gas(FluidModel<Dim>& model, unsigned seed) {
-    auto y = random_state(model, seed);
-    std::mt19937_64 random(seed + 1);
-    std::uniform_real_distribution<double> T(0.5, 1.5);
-    const auto rho = model.density(y);
-    const State<Dim> state(model.layout(), y);
-    for (std::size_t i = 0; i < rho.size(); ++i)
-        state.energy()(0, static_cast<Eigen::Index>(i)) =
-            model.fluid().state.starting_energy(rho[i], T(random));
-    return y;
-}
 
 /// |d/dt sum m (e + v^2/2)| by the sum of the sizes of its parts.
 template <int Dim>
@@ -107,11 +86,11 @@ void for_each_gas(const F& f) {
                 if (fluid.by_pairs &&
                     (scheme.viscosity > 0.0 || scheme.transport != Transport::plain))
                     continue;
-                const Box<Dim> box = closed ? periodic<Dim>() : Box<Dim>{};
+                const Box<Dim> box = closed ? periodic<Dim>(cells<Dim>) : Box<Dim>{};
                 FluidModel<Dim> model(jittered_particles<Dim>(cells<Dim>, 21, 0.15, box), fluid,
                                       scheme, box);
                 BOOST_TEST_CONTEXT(model.describe() << (closed ? ", closed" : ", open"))
-                f(model, random_gas(model, 22));
+                f(model, random_fluid(model, 22));
             }
 }
 
@@ -139,7 +118,7 @@ double least_rate_of_the_cold(
     const Fluid& fluid, const Scheme& scheme,
     const std::function<std::vector<double>(FluidModel<Dim>&, std::span<const double>)>& rates) {
     FluidModel<Dim> model(jittered_particles<Dim>(cells<Dim>, 31, 0.15), fluid, scheme);
-    auto y = random_gas(model, 32);
+    auto y = random_fluid(model, 32);
     const State<Dim> state(model.layout(), y);
     for (Eigen::Index i = 0; i < state.energy().cols(); i += 3) state.energy()(0, i) = 0.0;
     const auto y_dot = rates(model, y);
@@ -206,7 +185,7 @@ BOOST_AUTO_TEST_CASE(every_particle_stays_on_its_adiabat) {
     for (const Work work : {Work::own, Work::mean}) {
         FluidModel<2> model(jittered_particles<2>(10, 41), {GammaGas{1.4}},
                             {.work = work, .range = range});
-        const auto y = random_gas(model, 42), y_dot = rates_of(model, y);
+        const auto y = random_fluid(model, 42), y_dot = rates_of(model, y);
         const ConstState<2> state(model.layout(), y), rate(model.layout(), y_dot);
         const auto P = model.pressure(y);
         double apart = 0.0, size = 0.0;
