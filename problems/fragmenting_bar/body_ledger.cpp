@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "body_ledger.hpp"
 
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/neighbors/connected_parts.hpp>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace spam {
 std::vector<BodyTotals> totals_of_bodies(const Model<2>& model, std::span<const double> y) {
     struct Sums {
         std::size_t particles = 0;
-        CompensatedSum mass, px, py, L, energy;
+        ExactSum mass, px, py, L, energy;
     };
     const ConstState<2> state(model.layout(), y);
     const auto& particles = model.particles();

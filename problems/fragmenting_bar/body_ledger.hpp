@@ -18,7 +18,7 @@ struct BodyTotals {
     void remember(Archive& a) { a(particles, mass, momentum, angular_momentum, energy); }
 };
 
-/// Of every body of a plane model, by its number. Sums are compensated.
+/// Of every body of a plane model, by its number. Sums are exact (ExactSum).
 std::vector<BodyTotals> totals_of_bodies(const Model<2>& model, std::span<const double> y);
 
 /// Accounts for bodies that part and join, [HHM04] IX: who they were, who they are, and what each kept

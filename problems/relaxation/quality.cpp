@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quality.hpp"
 
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/neighbors/pair_list.hpp>
 
 #include <algorithm>
@@ -44,10 +44,10 @@ int Ruler::outside(const Points<2>& x) const {
 double scatter(const std::vector<double>& values) {
     const auto n = static_cast<double>(values.size());
     if (n < 2.0) return std::nan("");
-    CompensatedSum sum, squares;
-    for (const double v : values) sum += v / n;
-    for (const double v : values) squares += (v - sum) * (v - sum) / n;
-    return std::sqrt(squares) / sum;
+    const double mean = exact_sum(values.size(), [&](std::size_t i) { return values[i]; }) / n;
+    const double squares = exact_sum(
+        values.size(), [&](std::size_t i) { return (values[i] - mean) * (values[i] - mean); });
+    return std::sqrt(squares / n) / mean;
 }
 
 /// Most particles have another one within next_shell; those that have none are looked at again, farther
@@ -65,9 +65,8 @@ double mean_nearest(const Points<2>& x) {
             if (std::isfinite(nearest[i])) --missing;
         }
     }
-    CompensatedSum sum;
-    for (const double distance : nearest) sum += distance;
-    return sum / static_cast<double>(nearest.size());
+    return exact_sum(nearest.size(), [&](std::size_t i) { return nearest[i]; }) /
+           static_cast<double>(nearest.size());
 }
 
 Quality measure(const Ruler& ruler, const Points<2>& x) {

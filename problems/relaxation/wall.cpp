@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wall.hpp"
 
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 
 #include <fmt/format.h>
 

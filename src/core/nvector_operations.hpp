@@ -8,9 +8,8 @@
 namespace spam {
 
 /// Puts our own loops into the operations table of a serial N_Vector (clones inherit it). Debian's
-/// are compiled without optimisation and cost more than a right-hand side. Sums are taken block by
-/// block in a fixed order: norms, and with them adaptive steps, have the same bits with any number
-/// of threads.
+/// are compiled without optimisation and cost more than a right-hand side. Sums are exact (ExactSum):
+/// norms, and with them adaptive steps, have the same bits with any number of threads.
 template <InstructionSet Level>
 void use_operations(N_Vector v);
 

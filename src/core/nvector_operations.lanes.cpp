@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "nvector_operations.hpp"
 
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/lanes.hpp>
 
@@ -57,28 +58,19 @@ using Register = Lanes<width>;
 
 Register load(const double* p) { return load_lanes<width>(p); }
 
-/// Sum of term(x_k, y_k): in sixteen lanes within a block, blocks in order.
+/// Sum of term(x_k, y_k). Its bits do not depend on who shares the work.
 template <class Term>
 double sum(N_Vector x, N_Vector y, const Term& term) {
-    constexpr std::size_t registers = 16 / width, lanes = registers * width;
-    const std::size_t n = of(x).n, size = block_size(n);
     const double *const p = of(x).p, *const q = of(y).p;
-    double partial[most_blocks] = {};
-    for_blocks(n, [&](std::size_t first, std::size_t last) {
-        Register sums[registers] = {};
-        std::size_t k = first;
-        for (; k + lanes <= last; k += lanes)
-            for (std::size_t r = 0; r < registers; ++r)
-                sums[r] += term(load(p + k + r * width), load(q + k + r * width));
-        double total = 0.0;
-        for (; k < last; ++k) total += term(p[k], q[k]);
-        for (std::size_t r = 0; r < registers; ++r)
-            for (int l = 0; l < width; ++l) total += lane(sums[r], l);
-        partial[first / size] = total;
-    });
-    double total = 0.0;
-    for (std::size_t b = 0; b * size < n; ++b) total += partial[b];
-    return total;
+    return exact_sums_of_blocks<1>(
+        of(x).n,
+        [=](std::size_t first, std::size_t count, auto& rows) {
+            std::size_t k = 0;
+            for (; k + width <= count; k += width)
+                store_lanes(&rows[0][k], term(load(p + first + k), load(q + first + k)));
+            for (; k < count; ++k) rows[0][k] = term(p[first + k], q[first + k]);
+        },
+        threads_from)[0];
 }
 
 /// N_VClone_Serial, but on whole cache lines.

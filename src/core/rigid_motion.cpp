@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/rigid_motion.hpp>
 
 #include <Eigen/LU>
@@ -7,11 +8,29 @@
 namespace spam {
 
 template <int Dim>
+Point<Dim> mean_by_mass(std::span<const double> mass, const Eigen::Ref<const Points<Dim>>& values) {
+    const auto sums = exact_sums(mass.size(), [&](std::size_t i) {
+        std::array<double, Dim + 1> terms;
+        Eigen::Map<Point<Dim>>(terms.data()) = mass[i] * values.col(static_cast<Eigen::Index>(i));
+        terms[Dim] = mass[i];
+        return terms;
+    });
+    return Eigen::Map<const Point<Dim>>(sums.data()) / sums[Dim];
+}
+
+template <int Dim>
 RigidMotion<Dim> best_translation(const Eigen::Ref<const Points<Dim>>& from,
                                   const Eigen::Ref<const Points<Dim>>& to) {
+    const auto sums = exact_sums(static_cast<std::size_t>(from.cols()), [&](std::size_t i) {
+        std::array<double, 2 * Dim> terms;
+        Eigen::Map<Point<Dim>>(terms.data()) = from.col(static_cast<Eigen::Index>(i));
+        Eigen::Map<Point<Dim>>(terms.data() + Dim) = to.col(static_cast<Eigen::Index>(i));
+        return terms;
+    });
+    const auto n = static_cast<double>(from.cols());
     RigidMotion<Dim> motion;
-    motion.from = from.rowwise().mean();
-    motion.to = to.rowwise().mean();
+    motion.from = Eigen::Map<const Point<Dim>>(sums.data()) / n;
+    motion.to = Eigen::Map<const Point<Dim>>(sums.data() + Dim) / n;
     return motion;
 }
 
@@ -20,9 +39,14 @@ RigidMotion<Dim> best_rigid_motion(const Eigen::Ref<const Points<Dim>>& from,
                                    const Eigen::Ref<const Points<Dim>>& to) {
     using Matrix = Eigen::Matrix<double, Dim, Dim>;
     RigidMotion<Dim> motion = best_translation<Dim>(from, to);
-    Matrix correlation = Matrix::Zero();
-    for (Eigen::Index i = 0; i < from.cols(); ++i)
-        correlation += (to.col(i) - motion.to) * (from.col(i) - motion.from).transpose();
+    const auto sums = exact_sums(static_cast<std::size_t>(from.cols()), [&](std::size_t k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        std::array<double, Dim * Dim> terms;
+        Eigen::Map<Matrix>(terms.data()) =
+            (to.col(i) - motion.to) * (from.col(i) - motion.from).transpose();
+        return terms;
+    });
+    const Eigen::Map<const Matrix> correlation(sums.data());
     const Eigen::JacobiSVD<Matrix> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Matrix u = svd.matrixU(), v = svd.matrixV();
     Matrix flip = Matrix::Identity();
@@ -31,6 +55,9 @@ RigidMotion<Dim> best_rigid_motion(const Eigen::Ref<const Points<Dim>>& from,
     return motion;
 }
 
+template Point<1> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<1>>&);
+template Point<2> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<2>>&);
+template Point<3> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<3>>&);
 template RigidMotion<1> best_translation(const Eigen::Ref<const Points<1>>&,
                                          const Eigen::Ref<const Points<1>>&);
 template RigidMotion<2> best_translation(const Eigen::Ref<const Points<2>>&,

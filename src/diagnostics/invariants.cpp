@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/diagnostics/invariants.hpp>
 
 #include <array>
@@ -27,25 +27,23 @@ Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const doub
     const ConstState<Dim> state(model.layout(), y);
     const auto x = state.position();
     const auto v = state.velocity();
-    CompensatedSum mass, kinetic;
-    std::array<CompensatedSum, 3> momentum, angular;
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const double m = model.particles().mass[static_cast<std::size_t>(i)];
-        mass += m;
-        for (int a = 0; a < Dim; ++a) {
-            momentum[static_cast<std::size_t>(a)] += m * v(a, i);
-            kinetic += 0.5 * m * v(a, i) * v(a, i);
-        }
-        for (int plane = 0; plane < Invariants<Dim>::planes; ++plane)
-            angular[static_cast<std::size_t>(plane)] +=
-                m * angular_momentum_term<Dim>(x, v, i, plane);
-    }
+    constexpr int planes = Invariants<Dim>::planes;
+    const auto sums = exact_sums(model.particles().size(), [&](std::size_t k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        const double m = model.particles().mass[k];
+        std::array<double, 2 + Dim + planes> terms{m, 0.5 * m * v.col(i).squaredNorm()};
+        for (std::size_t a = 0; a < Dim; ++a) terms[2 + a] = m * v(static_cast<int>(a), i);
+        for (std::size_t p = 0; p < planes; ++p)
+            terms[2 + Dim + p] = m * angular_momentum_term<Dim>(x, v, i, static_cast<int>(p));
+        return terms;
+    });
     Invariants<Dim> result;
-    result.mass = mass;
-    for (int a = 0; a < Dim; ++a) result.momentum[a] = momentum[static_cast<std::size_t>(a)];
-    for (int p = 0; p < Invariants<Dim>::planes; ++p)
-        result.angular_momentum[p] = angular[static_cast<std::size_t>(p)];
-    result.kinetic = kinetic;
+    result.mass = sums[0];
+    result.kinetic = sums[1];
+    result.momentum = Eigen::Map<const Point<Dim>>(&sums[2]);
+    if constexpr (planes > 0)
+        result.angular_momentum =
+            Eigen::Map<const typename Invariants<Dim>::AngularMomentum>(&sums[2 + Dim]);
     result.internal = model.internal_energy(y);
     result.energy = result.kinetic + result.internal;
     if (state.has(Field::work)) {
@@ -61,13 +59,17 @@ std::vector<double> angular_momentum_of_bodies(const Model<2>& model, std::span<
     const ConstState<2> state(model.layout(), y);
     const auto x = state.position();
     const auto v = state.velocity();
-    std::vector<CompensatedSum> sums(static_cast<std::size_t>(model.particles().bodies()));
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        sums[static_cast<std::size_t>(model.particles().body[k])] +=
-            model.particles().mass[k] * angular_momentum_term<2>(x, v, i, 0);
-    }
-    return {sums.begin(), sums.end()};
+    ExactGroupSums<1> sums;
+    const auto by_body =
+        sums.of(model.particles().body, static_cast<std::size_t>(model.particles().bodies()),
+                [&](std::size_t i) {
+                    return std::array<double, 1>{
+                        model.particles().mass[i] *
+                        angular_momentum_term<2>(x, v, static_cast<Eigen::Index>(i), 0)};
+                });
+    std::vector<double> values;
+    for (const auto& [L] : by_body) values.push_back(L);
+    return values;
 }
 
 template <int Dim>
@@ -75,17 +77,17 @@ InvariantScales measure_scales(const Model<Dim>& model, std::span<const double> 
     const ConstState<Dim> state(model.layout(), y);
     const auto x = state.position();
     const auto v = state.velocity();
-    InvariantScales scales;
-    double distance = 0.0, speed = 0.0;
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const double x_i = x.col(i).norm(), v_i = v.col(i).norm();
-        const double p = model.particles().mass[static_cast<std::size_t>(i)] * v_i;
-        scales.momentum += p;
-        scales.angular_momentum += p * x_i;
-        distance += x_i;
-        speed += v_i;
-    }
+    const auto sums = exact_sums(model.particles().size(), [&](std::size_t k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        const double x_i = x.col(i).norm(), v_i = v.col(i).norm(),
+                     p = model.particles().mass[k] * v_i;
+        return std::array<double, 4>{p, p * x_i, x_i, v_i};
+    });
+    const auto [momentum, angular_momentum, distance, speed] = sums;
     const auto n = static_cast<double>(x.cols());
+    InvariantScales scales;
+    scales.momentum = momentum;
+    scales.angular_momentum = angular_momentum;
     scales.force = model.neighbour_forces(y);
     scales.torque = scales.force * distance / n;
     scales.power = scales.force * speed / n;

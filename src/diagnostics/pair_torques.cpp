@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/pair_list.hpp>
@@ -40,7 +40,7 @@ PairTorques pair_torques(const SmoothParticleModel<2>& model, std::span<const do
     const GeneralWeight<2> weight(model.scheme().kernel, model.scheme().range);
     const PairList<2> list(position, model.scheme().range, model.box());
     PairTorques torques;
-    std::vector<CompensatedSum> sums(particle.size());
+    torques.particle.assign(particle.size(), 0.0);
     for (std::size_t i = 0; i < particle.size(); ++i)
         for (const std::uint32_t j : list.neighbours(i)) {
             if (j <= i) continue;
@@ -54,10 +54,9 @@ PairTorques pair_torques(const SmoothParticleModel<2>& model, std::span<const do
             const double T = particle[i].m * particle[j].m *
                              cross(stress_force(pair, particle[i], particle[j]), pair.r_ji);
             torques.pair.push_back(T);
-            sums[i] += 0.5 * T;
-            sums[j] += 0.5 * T;
+            torques.particle[i] += 0.5 * T;
+            torques.particle[j] += 0.5 * T;
         }
-    torques.particle.assign(sums.begin(), sums.end());
     return torques;
 }
 
@@ -67,7 +66,7 @@ double TorqueDistribution::balance_factor() const {
 
 TorqueDistribution distribution(std::span<const double> torques) {
     TorqueDistribution result;
-    CompensatedSum positive, negative;
+    ExactSum positive, negative;
     for (const double T : torques) {
         if (T > 0.0) {
             ++result.positive;

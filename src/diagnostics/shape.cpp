@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/neighbors/pair_list.hpp>
@@ -11,9 +12,10 @@ namespace spam {
 template <int Dim>
 double shape_error(const Points<Dim>& reference, const Points<Dim>& position, double spacing) {
     const RigidMotion<Dim> motion = best_rigid_motion<Dim>(reference, position);
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < reference.cols(); ++i)
-        sum += (position.col(i) - motion(reference.col(i))).squaredNorm();
+    const double sum = exact_sum(static_cast<std::size_t>(reference.cols()), [&](std::size_t k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        return (position.col(i) - motion(reference.col(i))).squaredNorm();
+    });
     return std::sqrt(sum / static_cast<double>(reference.cols())) / spacing;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/diagnostics/total_energy.hpp>
 
 #include <algorithm>
@@ -21,13 +21,10 @@ std::string why_no_energy(const Model<Dim>& model) {
 template <int Dim>
 double total_energy(const Model<Dim>& model, std::span<const double> y) {
     const auto v = ConstState<Dim>(model.layout(), y).velocity();
-    CompensatedSum energy;
-    for (Eigen::Index i = 0; i < v.cols(); ++i) {
-        const double m = model.particles().mass[static_cast<std::size_t>(i)];
-        for (int a = 0; a < Dim; ++a) energy += 0.5 * m * v(a, i) * v(a, i);
-    }
-    energy += model.internal_energy(y);
-    return energy;
+    const auto& mass = model.particles().mass;
+    return model.internal_energy(y) + exact_sum(mass.size(), [&](std::size_t i) {
+               return 0.5 * mass[i] * v.col(static_cast<Eigen::Index>(i)).squaredNorm();
+           });
 }
 
 template <int Dim>

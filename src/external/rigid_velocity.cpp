@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
+#include <spam/core/rigid_motion.hpp>
 #include <spam/external/rigid_velocity.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -7,59 +8,34 @@
 #include <array>
 
 namespace spam {
-namespace {
-
-template <int Dim, class View>
-Point<Dim> mean(const std::vector<double>& mass, const View& values) {
-    CompensatedSum m;
-    std::array<CompensatedSum, Dim> sum;
-    for (Eigen::Index i = 0; i < values.cols(); ++i) {
-        const double m_i = mass[static_cast<std::size_t>(i)];
-        m += m_i;
-        for (int a = 0; a < Dim; ++a) sum[static_cast<std::size_t>(a)] += m_i * values(a, i);
-    }
-    Point<Dim> result;
-    for (int a = 0; a < Dim; ++a)
-        result[a] = sum[static_cast<std::size_t>(a)] / static_cast<double>(m);
-    return result;
-}
-
-}  // namespace
-
 template <int Dim>
 RigidVelocity<Dim> rigid_velocity_of(const std::vector<double>& mass,
                                      const ConstState<Dim>& state) {
     const auto x = state.position(), v = state.velocity();
-    RigidVelocity<Dim> motion{mean<Dim>(mass, x), mean<Dim>(mass, v)};
+    RigidVelocity<Dim> motion{mean_by_mass<Dim>(mass, x), mean_by_mass<Dim>(mass, v)};
     if constexpr (Dim == 2) {
-        CompensatedSum L, I;
-        for (Eigen::Index i = 0; i < x.cols(); ++i) {
-            const double m = mass[static_cast<std::size_t>(i)];
+        const auto [L, I] = exact_sums(mass.size(), [&](std::size_t k) {
+            const auto i = static_cast<Eigen::Index>(k);
             const Point<2> r = x.col(i) - motion.R, w = v.col(i) - motion.V;
-            L += m * (r.x() * w.y() - r.y() * w.x());
-            I += m * r.squaredNorm();
-        }
+            return std::array<double, 2>{mass[k] * (r.x() * w.y() - r.y() * w.x()),
+                                         mass[k] * r.squaredNorm()};
+        });
         if (I > 0.0) motion.omega[0] = L / I;
     }
     if constexpr (Dim == 3) {
-        std::array<CompensatedSum, 3> L;
-        std::array<CompensatedSum, 9> rr;
-        for (Eigen::Index i = 0; i < x.cols(); ++i) {
-            const double m = mass[static_cast<std::size_t>(i)];
-            const Point<3> r = x.col(i) - motion.R, w = v.col(i) - motion.V, l = r.cross(w);
-            for (std::size_t a = 0; a < 3; ++a) {
-                const auto row = static_cast<int>(a);
-                L[a] += m * l[row];
-                for (int b = 0; b < 3; ++b)
-                    rr[3 * a + static_cast<std::size_t>(b)] += m * r[row] * r[b];
-            }
-        }
-        Eigen::Matrix3d moments;
-        for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b) moments(a, b) = rr[static_cast<std::size_t>(3 * a + b)];
+        const auto sums = exact_sums(mass.size(), [&](std::size_t k) {
+            const auto i = static_cast<Eigen::Index>(k);
+            const Point<3> r = x.col(i) - motion.R, w = v.col(i) - motion.V;
+            std::array<double, 12> terms;
+            Eigen::Map<Point<3>>(terms.data()) = mass[k] * r.cross(w);
+            Eigen::Map<Eigen::Matrix3d>(terms.data() + 3) = mass[k] * r * r.transpose();
+            return terms;
+        });
+        const Eigen::Map<const Point<3>> L(sums.data());
+        const Eigen::Map<const Eigen::Matrix3d> moments(sums.data() + 3);
         const Eigen::Matrix3d inertia = moments.trace() * Eigen::Matrix3d::Identity() - moments;
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(inertia);
-        const Point<3> along = axes.eigenvectors().transpose() * Point<3>(L[0], L[1], L[2]);
+        const Point<3> along = axes.eigenvectors().transpose() * L;
         const double least = 1e-12 * axes.eigenvalues().cwiseAbs().maxCoeff();
         for (int k = 0; k < 3; ++k)
             if (axes.eigenvalues()[k] > least)

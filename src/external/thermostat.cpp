@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
+#include <spam/core/rigid_motion.hpp>
 #include <spam/external/thermostat.hpp>
 
 #include <fmt/format.h>
@@ -21,17 +22,10 @@ template <int Dim>
 void Thermostat<Dim>::prepare(const typename External<Dim>::Now& now) {
     const auto v = now.state.velocity();
     const auto& mass = now.particles.mass;
-    CompensatedSum m;
-    std::array<CompensatedSum, Dim> p;
-    for (Eigen::Index i = 0; i < v.cols(); ++i) {
-        const double m_i = mass[static_cast<std::size_t>(i)];
-        m += m_i;
-        for (int a = 0; a < Dim; ++a) p[static_cast<std::size_t>(a)] += m_i * v(a, i);
-    }
-    for (int a = 0; a < Dim; ++a) V_[a] = p[static_cast<std::size_t>(a)] / static_cast<double>(m);
-    CompensatedSum twice_kinetic;
-    for (Eigen::Index i = 0; i < v.cols(); ++i)
-        twice_kinetic += mass[static_cast<std::size_t>(i)] * (v.col(i) - V_).squaredNorm();
+    V_ = mean_by_mass<Dim>(mass, v);
+    const double twice_kinetic = exact_sum(mass.size(), [&](std::size_t i) {
+        return mass[i] * (v.col(static_cast<Eigen::Index>(i)) - V_).squaredNorm();
+    });
     const double kT = twice_kinetic / (Dim * (static_cast<double>(v.cols()) - 1.0));
     // Nothing that is at rest can be warmed by its own velocities.
     factor_ = kT > 0.0 ? -0.5 * gamma_ * (1.0 - kT_0_ / kT) : 0.0;

@@ -7,6 +7,7 @@
 #include "arkode.hpp"
 #include "arkode_tables.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
@@ -132,10 +133,9 @@ void Arkode::set_relaxation() {
     double scale = std::abs(ode_.energy(y_.span()));
     const Vector gradient = y_.clone();
     check(energy_gradient(y_.get(), gradient.get(), this), "relaxation");
-    double terms = 0.0;
-    for (std::size_t k = 0; k < y_.size(); ++k)
-        terms += std::abs(gradient.span()[k] * y_.span()[k]);
-    scale = std::max(scale, terms);
+    scale = std::max(scale, exact_sum(y_.size(), [&](std::size_t k) {
+                         return std::abs(gradient.span()[k] * y_.span()[k]);
+                     }));
     if (!std::isfinite(scale)) scale = 0.0;  // ARKODE's own choice; the first step says why
     check(SPAM_RELAX_CALL(SetRelaxResTol, memory_, 4.0 * epsilon * scale), "SetRelaxResTol");
     check(SPAM_RELAX_CALL(SetRelaxTol, memory_, gamma_tolerance, gamma_tolerance), "SetRelaxTol");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/exact_sum.hpp>
 #include <spam/integrate/integrator.hpp>
 
 #include <algorithm>
@@ -24,22 +25,14 @@ class ErrorShares {
         squares_ = {};
         largest_ = {};
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            constexpr std::size_t lanes = 8;  // sums side by side, or each waits for the one before
-            std::array<double, lanes> squares{}, largest{};
-            const std::size_t first = blocks_[b].first, last = first + blocks_[b].size;
-            const auto add = [&](std::size_t lane, double s) {
-                squares[lane] += s * s;
-                const double magnitude = std::abs(s);
-                largest[lane] = magnitude > largest[lane] ? magnitude : largest[lane];
-            };
-            std::size_t k = first;
-            for (; k + lanes <= last; k += lanes)
-                for (std::size_t lane = 0; lane < lanes; ++lane) add(lane, scaled(k + lane));
-            for (; k < last; ++k) add(0, scaled(k));
-            for (std::size_t lane = 0; lane < lanes; ++lane) {
-                squares_[place(b)] += squares[lane];
-                largest_[place(b)] = std::max(largest_[place(b)], largest[lane]);
-            }
+            const std::size_t first = blocks_[b].first, size = blocks_[b].size;
+            squares_[place(b)] += exact_sum(size, [&](std::size_t k) {
+                const double s = scaled(first + k);
+                return s * s;
+            });
+            if (norm_ == Norm::rms) continue;
+            for (std::size_t k = first; k < first + size; ++k)
+                largest_[place(b)] = std::max(largest_[place(b)], std::abs(scaled(k)));
         }
     }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/problem/plan.hpp>
@@ -106,12 +107,13 @@ class Recorder {
             const auto v = ConstState<Dim>(model.layout(), y).velocity();
             const Points<Dim> after = accelerations(0.5 * dt, t, y),
                               before = accelerations(-0.5 * dt, t, y);
-            double squares = 0.0, bent = 0.0;
-            for (Eigen::Index i = 0; i < v.cols(); ++i) {
-                const double m = model.particles().mass[static_cast<std::size_t>(i)];
-                squares += 0.5 * m * (after.col(i).squaredNorm() + before.col(i).squaredNorm());
-                bent += m * v.col(i).dot(before.col(i) - after.col(i)) / dt;
-            }
+            const auto [squares, bent] = exact_sums(model.particles().size(), [&](std::size_t k) {
+                const auto i = static_cast<Eigen::Index>(k);
+                const double m = model.particles().mass[k];
+                return std::array<double, 2>{
+                    0.5 * m * (after.col(i).squaredNorm() + before.col(i).squaredNorm()),
+                    m * v.col(i).dot(before.col(i) - after.col(i)) / dt};
+            });
             scales.add_swing(dt, std::abs(bent) / 12.0 + squares / 24.0);
         }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <spam/core/error.hpp>
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/material/fluid.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -18,10 +18,9 @@ namespace spam {
 template <int Dim>
 double carried_energy(const Particles<Dim>& particles, const ConstState<Dim>& state) {
     const auto e = state.energy();
-    CompensatedSum sum;
-    for (Eigen::Index i = 0; i < e.cols(); ++i)
-        sum += particles.mass[static_cast<std::size_t>(i)] * e(0, i);
-    return sum;
+    return exact_sum(particles.size(), [&](std::size_t i) {
+        return particles.mass[i] * e(0, static_cast<Eigen::Index>(i));
+    });
 }
 
 /// Where neither particles nor sound move: what particles have fallen at over their distance. 1 where nothing

@@ -2,8 +2,8 @@
 #include "packed_particles.hpp"
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/physics/curvature_strength.hpp>
 #include <spam/physics/density_passes.hpp>
 #include <spam/physics/embedded_energy.hpp>
@@ -291,9 +291,7 @@ double DensityPotentialTerm<Dim>::energy(std::span<const double> y) const {
         const std::size_t i = own->list().order()[slot];
         energy[i] += parts_->energy(this->particles().mass[i], own->record(slot));
     }
-    CompensatedSum sum;
-    for (const double e : energy) sum += e;
-    return sum;
+    return exact_sum(n, [&](std::size_t i) { return energy[i]; });
 }
 
 template <int Dim>
@@ -303,8 +301,9 @@ double DensityPotentialTerm<Dim>::neighbour_forces(std::span<const double> y) co
         const auto rho = density(y);
         std::vector<double> P(rho.size());
         potentials_.state->pressures(rho, rho, P);
-        for (std::size_t i = 0; i < P.size(); ++i)
-            sum += this->particles().mass[i] * std::abs(P[i]) / rho[i];
+        sum += exact_sum(P.size(), [&](std::size_t i) {
+            return this->particles().mass[i] * std::abs(P[i]) / rho[i];
+        });
     }
     return sum / this->particles().spacing;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/material/plastic_fields.hpp>
 #include <spam/physics/quadrilateral.hpp>
 #include <spam/rhs/elements.hpp>
@@ -205,22 +205,19 @@ std::string Elements::rates(const Now& now) {
 
 double Elements::energy(std::span<const double> y) const {
     const auto e = ConstState<2>(layout(), y).elements().energy();
-    CompensatedSum sum;
-    for (std::size_t k = 0; k < mass_.size(); ++k)
-        sum += mass_[k] * e(0, static_cast<Eigen::Index>(k));
-    return sum;
+    return exact_sum(mass_.size(),
+                     [&](std::size_t k) { return mass_[k] * e(0, static_cast<Eigen::Index>(k)); });
 }
 
 double Elements::neighbour_forces(std::span<const double> y) const {
     const ConstState<2> state(layout(), y), elements = state.elements();
-    double sum = 0.0;
-    for (std::size_t k = 0; k < mass_.size(); ++k) {
+    const double sum = exact_sum(mass_.size(), [&](std::size_t k) {
         const auto column = static_cast<Eigen::Index>(k);
         const double area =
             QuadrilateralShape<>(corners_of(this->among().of(state).position(), k)).area;
-        sum += std::abs(area) * elements.stress().col(column).norm() +
+        return std::abs(area) * elements.stress().col(column).norm() +
                mass_[k] * std::abs(elements.energy()(0, column));
-    }
+    });
     return sum / particles().spacing;
 }
 

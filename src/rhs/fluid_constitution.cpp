@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constitution.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/physics/fluid_record.hpp>
 #include <spam/physics/mean_density.hpp>
@@ -319,10 +320,9 @@ template <int Dim>
 double FluidConstitution<Dim>::stress_forces(const ConstState<Dim>& state,
                                              std::span<const double> rho) const {
     const auto P = pressures(rho, {state.energy().data(), rho.size()});
-    double sum = 0.0;
-    for (std::size_t i = 0; i < P.size(); ++i)
-        sum += this->particles_.mass[i] * std::abs(P[i]) / rho[i];
-    return sum;
+    return exact_sum(P.size(), [&](std::size_t i) {
+        return this->particles_.mass[i] * std::abs(P[i]) / rho[i];
+    });
 }
 
 template class FluidConstitution<1>;

@@ -10,47 +10,44 @@ Vec<2> vector_at(const double* field, std::size_t i) { return {{field[2 * i], fi
 
 }  // namespace
 
-void GaussForces::measure(const Groups& groups, const double* x, const double* u, const double* v) {
-    sums_.assign(groups.count, Sums{});
-    const auto each = [&](const auto& body) {
-        for (std::size_t i = 0; i < groups.mass.size(); ++i)
-            body(i, groups.mass[i], sums_[static_cast<std::size_t>(groups.group[i])]);
-    };
-    each([&](std::size_t i, double m, Sums& s) {
-        s.mass += m;
-        for (std::size_t a = 0; a < 2; ++a) {
-            s.x[a] += m * x[2 * i + a];
-            s.u[a] += m * u[2 * i + a];
-            s.v[a] += m * v[2 * i + a];
-        }
-    });
-    each([&](std::size_t i, double m, Sums& s) {
-        const Vec<2> r = vector_at(x, i) - s.centre(), w = vector_at(v, i) - s.velocity();
-        s.inertia += m * dot(r, r);
-        s.L += m * cross(r, w);
-        s.twice_K += m * dot(w, w);
-    });
-}
-
 void GaussForces::constrain(const Groups& groups, const double* x, const double* u, const double* v,
                             double* v_dot) {
-    measure(groups, x, u, v);
-    for (std::size_t i = 0; i < groups.mass.size(); ++i) {
-        Sums& s = sums_[static_cast<std::size_t>(groups.group[i])];
-        const Vec<2> r = vector_at(x, i) - s.centre(), r_dot = vector_at(u, i) - s.transport(),
-                     w = vector_at(v, i) - s.velocity();
-        s.L_dot += groups.mass[i] * (cross(r_dot, w) + cross(r, vector_at(v_dot, i)));
-    }
+    const auto first = first_.of(groups.group, groups.count, [&](std::size_t i) {
+        const double m = groups.mass[i];
+        return std::array<double, 7>{m,
+                                     m * x[2 * i],
+                                     m * x[2 * i + 1],
+                                     m * u[2 * i],
+                                     m * u[2 * i + 1],
+                                     m * v[2 * i],
+                                     m * v[2 * i + 1]};
+    });
+    means_.clear();
+    for (const auto& s : first)
+        means_.push_back({{{s[1] / s[0], s[2] / s[0]}},
+                          {{s[3] / s[0], s[4] / s[0]}},
+                          {{s[5] / s[0], s[6] / s[0]}}});
+    const auto means_of = [&](std::size_t i) -> const Means& {
+        return means_[static_cast<std::size_t>(groups.group[i])];
+    };
+    const auto moments = moments_.of(groups.group, groups.count, [&](std::size_t i) {
+        const Means& mean = means_of(i);
+        const double m = groups.mass[i];
+        const Vec<2> r = vector_at(x, i) - mean.centre, r_dot = vector_at(u, i) - mean.transport,
+                     w = vector_at(v, i) - mean.velocity;
+        return std::array<double, 4>{m * dot(r, r), m * cross(r, w), m * dot(w, w),
+                                     m * (cross(r_dot, w) + cross(r, vector_at(v_dot, i)))};
+    });
     multipliers_.clear();
-    for (const Sums& s : sums_)
-        multipliers_.push_back(gauss_multipliers(s.inertia, s.L, s.twice_K, s.L_dot));
-    for (std::size_t i = 0; i < groups.mass.size(); ++i) {
-        const auto g = static_cast<std::size_t>(groups.group[i]);
-        const Sums& s = sums_[g];
-        const Vec<2> r = vector_at(x, i) - s.centre(), w = vector_at(v, i) - s.velocity();
-        v_dot[2 * i] -= multipliers_[g].alpha * w[0] + multipliers_[g].beta * r[1];
-        v_dot[2 * i + 1] -= multipliers_[g].alpha * w[1] - multipliers_[g].beta * r[0];
-    }
+    for (const auto& [inertia, L, twice_K, L_dot] : moments)
+        multipliers_.push_back(gauss_multipliers(inertia, L, twice_K, L_dot));
+    parallel_for(groups.mass.size(), [&](std::size_t i) {
+        const Means& mean = means_of(i);
+        const GaussMultipliers& of_group = multipliers_[static_cast<std::size_t>(groups.group[i])];
+        const Vec<2> r = vector_at(x, i) - mean.centre, w = vector_at(v, i) - mean.velocity;
+        v_dot[2 * i] -= of_group.alpha * w[0] + of_group.beta * r[1];
+        v_dot[2 * i + 1] -= of_group.alpha * w[1] - of_group.beta * r[0];
+    });
 }
 
 double GaussForces::health() const {

@@ -19,15 +19,13 @@ class GaussForces {
     bool singular() const;
 
   private:
-    struct Sums {
-        CompensatedSum mass, x[2], u[2], v[2], inertia, L, twice_K, L_dot;
-        Vec<2> centre() const { return {{x[0] / mass, x[1] / mass}}; }
-        Vec<2> transport() const { return {{u[0] / mass, u[1] / mass}}; }
-        Vec<2> velocity() const { return {{v[0] / mass, v[1] / mass}}; }
+    struct Means {
+        Vec<2> centre, transport, velocity;  ///< of x, u and v, by mass
     };
-    void measure(const Groups& groups, const double* x, const double* u, const double* v);
 
-    std::vector<Sums> sums_;
+    ExactGroupSums<7> first_;    ///< mass, mass x, mass u, mass v
+    ExactGroupSums<4> moments_;  ///< about the centre: inertia, L, 2 K, dL/dt
+    std::vector<Means> means_;
     std::vector<GaussMultipliers> multipliers_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Brittle bonds of a solid with material vectors, after accepted steps.
 #include "material_vector_parts.hpp"
+#include <spam/core/exact_sum.hpp>
 
 #include <algorithm>
 #include <array>
@@ -83,11 +84,10 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
         const double energy = energy_of(before[e], k, state);
         loss[e] = book_loss(k, energy, before[e], state);
     });
-    for (const double one : loss)
-        if (one < 0.0) {
-            ++p.breaks.gains;
-            p.breaks.gained -= one;
-        }
+    const auto gain = [&](std::size_t e) { return std::max(-loss[e], 0.0); };
+    p.breaks.gains +=
+        parallel_count(loss.size(), [&](std::size_t e) -> std::size_t { return gain(e) > 0.0; });
+    p.breaks.gained += exact_sum(loss.size(), gain);
     p.breaks.pairs += pairs.size();
     p.excluded.insert(p.excluded.end(), pairs.begin(), pairs.end());
     std::sort(p.excluded.begin(), p.excluded.end());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is not done in every right-hand side: of all particles in lanes, of single ones in plain numbers.
 #include "material_vector_parts.hpp"
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -51,17 +51,16 @@ std::vector<double> MaterialVectors<Dim>::energies(const ConstState<Dim>& state)
 
 template <int Dim>
 double MaterialVectors<Dim>::energy(std::span<const double> y) const {
-    CompensatedSum sum;
-    for (const double energy : energies(this->state_of(y))) sum += energy;
-    sum += heat();
-    return sum;
+    const auto stored = energies(this->state_of(y));
+    const auto [energy, heat] = exact_sums(stored.size(), [&](std::size_t k) {
+        return std::array<double, 2>{stored[k], parts_->heat[k]};
+    });
+    return energy + heat;
 }
 
 template <int Dim>
 double MaterialVectors<Dim>::heat() const {
-    CompensatedSum sum;
-    for (const double heat : parts_->heat) sum += heat;
-    return sum;
+    return exact_sum(parts_->heat.size(), [&](std::size_t k) { return parts_->heat[k]; });
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/dimensions.hpp>
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <fmt/format.h>
@@ -32,16 +33,12 @@ double Model<Dim>::neighbour_forces(std::span<const double> y) const {
     const auto& mass = particles_.mass;
     if (!state.has(Field::energy) && !state.has(Field::stress))
         return std::abs(internal_energy(y)) / particles_.spacing;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < mass.size(); ++i) {
+    const auto rho = state.has(Field::stress) ? density(y) : std::vector<double>{};
+    const double sum = exact_sum(mass.size(), [&](std::size_t i) {
         const auto k = static_cast<Eigen::Index>(i);
-        if (state.has(Field::energy)) sum += mass[i] * std::abs(state.energy()(0, k));
-    }
-    if (state.has(Field::stress)) {
-        const auto rho = density(y);
-        for (std::size_t i = 0; i < mass.size(); ++i)
-            sum += mass[i] / rho[i] * state.stress().col(static_cast<Eigen::Index>(i)).norm();
-    }
+        return (state.has(Field::energy) ? mass[i] * std::abs(state.energy()(0, k)) : 0.0) +
+               (rho.empty() ? 0.0 : mass[i] / rho[i] * state.stress().col(k).norm());
+    });
     return sum / particles_.spacing;
 }
 

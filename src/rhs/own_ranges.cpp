@@ -3,8 +3,8 @@
 #include "packed_particles.hpp"
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/variable_range.hpp>
 #include <spam/rhs/own_ranges.hpp>
@@ -283,9 +283,9 @@ double OwnRanges<Dim>::energy(std::span<const double> y) const {
 template <int Dim>
 double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
     const auto e = this->state_of(y).energy();
-    double sum = 0.0;
-    for (std::size_t i = 0; i < range_.size(); ++i)
-        sum += this->particles().mass[i] * std::abs(e(0, static_cast<Eigen::Index>(i)));
+    const double sum = exact_sum(range_.size(), [&](std::size_t i) {
+        return this->particles().mass[i] * std::abs(e(0, static_cast<Eigen::Index>(i)));
+    });
     return sum / this->particles().spacing;
 }
 

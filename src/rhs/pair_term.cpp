@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "packed_particles.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/rhs/pair_term.hpp>
 
@@ -108,9 +108,7 @@ double PairTerm<Dim>::energy(std::span<const double> y) const {
     SweepOutput<Dim> out;
     out.energy = half.data();
     law_.sweeps.energy(input(*own), out);
-    CompensatedSum sum;
-    for (const double e : half) sum += e;
-    return sum;
+    return exact_sum(half.size(), [&](std::size_t i) { return half[i]; });
 }
 
 template <int Dim>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What externals and walls give to the particles of a model, and to its accounts.
-#include <spam/core/parallel.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <Eigen/Geometry>
@@ -25,38 +25,37 @@ template <int Dim>
 void ParticleModel<Dim>::add_accounts() {
     for (const Field field : {Field::work, Field::heat, Field::impulse, Field::angular_impulse})
         this->layout().add(field);
-    given_.resize((this->particles().size() + block - 1) / block);
 }
 
-/// Blocks are the same for any number of threads, and what they are given is summed in their order.
-/// give(first, last): what the particles of one are.
-template <int Dim>
-template <class GiveBlock>
-typename ParticleModel<Dim>::Given ParticleModel<Dim>::sum_of_blocks(const GiveBlock& give) {
-    const auto n = static_cast<Eigen::Index>(this->particles().size());
-    parallel_for(
-        given_.size(),
-        [&](std::size_t b) {
-            const Eigen::Index first = static_cast<Eigen::Index>(b) * block;
-            given_[b] = give(first, std::min(n, first + block));
-        },
-        block);
-    Given sum;
-    for (const Given& given : given_) {
-        sum.force += given.force;
-        sum.torque += given.torque;
-        sum.power += given.power;
-        sum.heat += given.heat;
-    }
-    return sum;
-}
-
+/// What the external gives is the difference that it makes to the rates the particles had before it.
 template <int Dim>
 void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
-    book(external, sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
-             return apply_to(external, now, first, last);
-         }),
-         now.rate);
+    const bool has_energy = now.rate.has(Field::energy);
+    const auto x = now.state.position(), v = now.state.velocity();
+    const auto moves = now.rate.position(), falls = now.rate.velocity();
+    const auto give = [&](std::size_t begin, std::size_t size, auto& rows) {
+        const auto first = static_cast<Eigen::Index>(begin),
+                   count = static_cast<Eigen::Index>(size);
+        Eigen::Matrix<double, Dim, ExactSum::block> x_dot, v_dot;
+        Eigen::Matrix<double, 1, ExactSum::block> e_dot;
+        x_dot.leftCols(count) = moves.middleCols(first, count);
+        v_dot.leftCols(count) = falls.middleCols(first, count);
+        if (has_energy) e_dot.leftCols(count) = now.rate.energy().middleCols(first, count);
+        external.add(now, first, first + count);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const Eigen::Index i = first + k;
+            const double m = now.particles.mass[static_cast<std::size_t>(i)];
+            Given given;
+            given.force() = m * (falls.col(i) - v_dot.col(k));
+            given.torque() = moment<Dim>(x.col(i), given.force()) +
+                             m * moment<Dim>(moves.col(i) - x_dot.col(k), v.col(i));
+            given.power() = given.force().dot(v.col(i));
+            if (has_energy) given.heat() = m * (now.rate.energy()(0, i) - e_dot(0, k));
+            for (std::size_t q = 0; q < Given::count; ++q)
+                rows[q][static_cast<std::size_t>(k)] = given.numbers[q];
+        }
+    };
+    book(external, {exact_sums_of_blocks<Given::count>(now.particles.size(), give)}, now.rate);
 }
 
 /// What particles do to each other cancels in the sums over all of them: what is left came through the
@@ -66,19 +65,17 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
     const auto x = now.state.position(), v = now.state.velocity();
     const auto u = now.rate.position(), v_dot = now.rate.velocity();
     const bool energy = this->box().passes_energy() && now.rate.has(Field::energy);
-    const Given sum = sum_of_blocks([&](Eigen::Index first, Eigen::Index last) {
+    Given sum = Given::to_all(now.particles.size(), [&](std::size_t k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        const double m = now.particles.mass[k];
         Given given;
-        for (Eigen::Index i = first; i < last; ++i) {
-            const double m = now.particles.mass[static_cast<std::size_t>(i)];
-            const Point<Dim> force = m * v_dot.col(i);
-            given.force += force;
-            given.torque += moment<Dim>(x.col(i), force) + m * moment<Dim>(u.col(i), v.col(i));
-            if (energy) given.power += force.dot(v.col(i)) + m * now.rate.energy()(0, i);
-        }
+        given.force() = m * v_dot.col(i);
+        given.torque() = moment<Dim>(x.col(i), given.force()) + m * moment<Dim>(u.col(i), v.col(i));
+        if (energy) given.power() = given.force().dot(v.col(i)) + m * now.rate.energy()(0, i);
         return given;
     });
-    now.rate.field(Field::impulse) += sum.force;
-    if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque;
+    now.rate.field(Field::impulse) += sum.force();
+    if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque();
     double work = 0.0;
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         if (!wall.has_images()) return;
@@ -87,7 +84,7 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
     });
     if (!energy) return;
     now.rate.field(Field::work)(0, 0) += work;
-    now.rate.field(Field::heat)(0, 0) += sum.power - work;
+    now.rate.field(Field::heat)(0, 0) += sum.power() - work;
 }
 
 /// What the images behind one wall give.
@@ -96,65 +93,39 @@ void ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a
                                    const Wall<Dim>& wall) const {
     const auto v = now.state.velocity();
     const bool energy = wall.passes_energy() && now.rate.has(Field::energy);
-    Given sum;
+    Point<Dim> force = Point<Dim>::Zero();
+    double power = 0.0;
     for (const auto& term : terms_) {
         const WallRates<Dim>* rates = term->wall_rates(a, upper);
         if (rates == nullptr) continue;
-        for (std::size_t k = 0; k < rates->particle.size(); ++k) {
+        Given given = Given::to_all(rates->particle.size(), [&](std::size_t k) {
             const std::size_t i = term->among().first() + rates->particle[k];
-            const double* const v_dot = rates->v_dot.data() + Dim * rates->place[k];
             const double m = now.particles.mass[i];
-            const Point<Dim> force = m * Eigen::Map<const Point<Dim>>(v_dot);
-            sum.force += force;
+            Given one;
+            one.force() = m * Eigen::Map<const Point<Dim>>(&rates->v_dot[Dim * rates->place[k]]);
             if (energy)
-                sum.power += force.dot(v.col(static_cast<Eigen::Index>(i))) +
-                             m * rates->e_dot[rates->place[k]];
-        }
+                one.power() = one.force().dot(v.col(static_cast<Eigen::Index>(i))) +
+                              m * rates->e_dot[rates->place[k]];
+            return one;
+        });
+        force += given.force();
+        power += given.power();
     }
-    now.rate.field(Field::wall_impulse(a, upper)) += sum.force;
+    now.rate.field(Field::wall_impulse(a, upper)) += force;
     if (!energy) return;
-    const double work = sum.force.dot(wall.velocity);
+    const double work = force.dot(wall.velocity);
     now.rate.field(Field::wall_work(a, upper))(0, 0) += work;
-    now.rate.field(Field::wall_heat(a, upper))(0, 0) += sum.power - work;
-}
-
-/// The difference that the external makes to what the particles had before it.
-template <int Dim>
-typename ParticleModel<Dim>::Given ParticleModel<Dim>::apply_to(
-    const External<Dim>& external, const typename External<Dim>::Now& now, Eigen::Index first,
-    Eigen::Index last) const {
-    const bool has_energy = now.rate.has(Field::energy);
-    Eigen::Matrix<double, Dim, block> x_dot, v_dot;
-    Eigen::Matrix<double, 1, block> e_dot;
-    const Eigen::Index count = last - first;
-    x_dot.leftCols(count) = now.rate.position().middleCols(first, count);
-    v_dot.leftCols(count) = now.rate.velocity().middleCols(first, count);
-    if (has_energy) e_dot.leftCols(count) = now.rate.energy().middleCols(first, count);
-    external.add(now, first, last);
-    Given given;
-    const auto x = now.state.position(), v = now.state.velocity();
-    const auto after = now.rate.velocity(), moves = now.rate.position();
-    for (Eigen::Index k = 0; k < count; ++k) {
-        const Eigen::Index i = first + k;
-        const double m = now.particles.mass[static_cast<std::size_t>(i)];
-        const Point<Dim> force = m * (after.col(i) - v_dot.col(k));
-        given.force += force;
-        given.torque += moment<Dim>(x.col(i), force);
-        given.torque += m * moment<Dim>(moves.col(i) - x_dot.col(k), v.col(i));
-        given.power += force.dot(v.col(i));
-        if (has_energy) given.heat += m * (now.rate.energy()(0, i) - e_dot(0, k));
-    }
-    return given;
+    now.rate.field(Field::wall_heat(a, upper))(0, 0) += power - work;
 }
 
 template <int Dim>
-void ParticleModel<Dim>::book(const External<Dim>& external, const Given& given,
+void ParticleModel<Dim>::book(const External<Dim>& external, Given given,
                               const State<Dim>& rate) const {
-    rate.field(Field::impulse) += given.force;
-    if constexpr (Dim > 1) rate.field(Field::angular_impulse) += given.torque;
+    rate.field(Field::impulse) += given.force();
+    if constexpr (Dim > 1) rate.field(Field::angular_impulse) += given.torque();
     if (!has_energy(external))
-        rate.field(external.thermal() ? Field::heat : Field::work)(0, 0) += given.power;
-    rate.field(Field::heat)(0, 0) += given.heat;
+        rate.field(external.thermal() ? Field::heat : Field::work)(0, 0) += given.power();
+    rate.field(Field::heat)(0, 0) += given.heat();
 }
 
 template <int Dim>
@@ -195,7 +166,7 @@ void ParticleModel<Dim>::turn_back(const State<Dim>& state, Eigen::Index i, int 
         state.field(impulse)(a, 0) += given;
     const Point<Dim> at = state.position().col(i), force = given * Point<Dim>::Unit(a);
     const auto turned = moment<Dim>(at, force);
-    for (int plane = 0; plane < Given::planes; ++plane)
+    for (int plane = 0; plane < Dim * (Dim - 1) / 2; ++plane)
         state.field(Field::angular_impulse)(plane, 0) += turned[plane];
 }
 
@@ -234,7 +205,7 @@ void ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
         state.field(impulse)(axis, 0) += m * (turned - v[axis]);
     const auto book_turning = [&](double sign) {
         const auto L = moment<Dim>(x, v);
-        for (int plane = 0; plane < Given::planes; ++plane)
+        for (int plane = 0; plane < Dim * (Dim - 1) / 2; ++plane)
             state.field(Field::angular_impulse)(plane, 0) += sign * m * L[plane];
     };
     book_turning(-1.0);
@@ -248,19 +219,17 @@ void ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
     }
 }
 
-#define SPAM_INSTANTIATE(D)                                                                        \
-    template void ParticleModel<D>::add_accounts();                                                \
-    template void ParticleModel<D>::apply(External<D>&, const External<D>::Now&);                  \
-    template ParticleModel<D>::Given ParticleModel<D>::apply_to(                                   \
-        const External<D>&, const External<D>::Now&, Eigen::Index, Eigen::Index) const;            \
-    template void ParticleModel<D>::book(const External<D>&, const Given&, const State<D>&) const; \
-    template void ParticleModel<D>::book_walls(const External<D>::Now&);                           \
-    template void ParticleModel<D>::book_wall(const External<D>::Now&, int, bool, const Wall<D>&)  \
-        const;                                                                                     \
-    template bool ParticleModel<D>::settle(double, std::span<double>);                             \
-    template bool ParticleModel<D>::reflect(const State<D>&);                                      \
-    template void ParticleModel<D>::turn_back(const State<D>&, Eigen::Index, int, bool) const;     \
-    template void ParticleModel<D>::fold_back(const State<D>&, Eigen::Index, int, bool) const;     \
+#define SPAM_INSTANTIATE(D)                                                                       \
+    template void ParticleModel<D>::add_accounts();                                               \
+    template void ParticleModel<D>::apply(External<D>&, const External<D>::Now&);                 \
+    template void ParticleModel<D>::book(const External<D>&, Given, const State<D>&) const;       \
+    template void ParticleModel<D>::book_walls(const External<D>::Now&);                          \
+    template void ParticleModel<D>::book_wall(const External<D>::Now&, int, bool, const Wall<D>&) \
+        const;                                                                                    \
+    template bool ParticleModel<D>::settle(double, std::span<double>);                            \
+    template bool ParticleModel<D>::reflect(const State<D>&);                                     \
+    template void ParticleModel<D>::turn_back(const State<D>&, Eigen::Index, int, bool) const;    \
+    template void ParticleModel<D>::fold_back(const State<D>&, Eigen::Index, int, bool) const;    \
     template double ParticleModel<D>::gained(std::size_t, const Point<D>&, const Point<D>&) const;
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)

@@ -271,9 +271,9 @@ double ParticleModel<Dim>::fastest_damping(std::span<const double> y) const {
 /// Potentials of externals are no forces between neighbours.
 template <int Dim>
 double ParticleModel<Dim>::neighbour_forces(std::span<const double> y) const {
-    double sum = 0.0;
-    for (const auto& term : terms_) sum += term->neighbour_forces(y);
-    return sum;
+    double forces = 0.0;
+    for (const auto& term : terms_) forces += term->neighbour_forces(y);
+    return forces;
 }
 
 template <int Dim>

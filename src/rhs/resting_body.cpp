@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "resting_body.hpp"
 
+#include <spam/core/exact_sum.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/physics/record.hpp>
 
@@ -20,8 +21,8 @@ RestingBody resting_body(const Particles<Dim>& particles, const Box<Dim>& box,
             x[slot * Dim + a] =
                 list.home()(list.order()[slot], a, X.data()[list.order()[slot] * Dim + a]);
     list.refresh(x.data(), RecordOf<Dim, double, column::Position>::kinds);
-    RestingBody sum{0.0, 0.0};
-    for (std::size_t slot = 0; slot < list.size(); ++slot)
+    const auto sums = exact_sums(list.size(), [&](std::size_t slot) {
+        std::array<double, 2> of_slot{};
         for (const std::uint32_t entry : list.entries(slot)) {
             double r2 = 0.0;
             for (std::size_t a = 0; a < Dim; ++a) {
@@ -29,11 +30,13 @@ RestingBody resting_body(const Particles<Dim>& particles, const Box<Dim>& box,
                 r2 += s * s;
             }
             const double m = particles.mass[list.particle(entry / Dim)], r = std::sqrt(r2);
-            sum.density += m * weight.value(r);
-            if (entry != slot * Dim) sum.slope += m * weight.minus_slope_over_r(r);
+            of_slot[0] += m * weight.value(r);
+            if (entry != slot * Dim) of_slot[1] += m * weight.minus_slope_over_r(r);
         }
+        return of_slot;
+    });
     const auto n = static_cast<double>(list.size());
-    return {sum.density / n, sum.slope / n};
+    return {sums[0] / n, sums[1] / n};
 }
 
 template RestingBody resting_body(const Particles<1>&, const Box<1>&, const GeneralWeight<1>&);

@@ -2,11 +2,10 @@
 #include "shifting_coefficient.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <fmt/format.h>
-
-#include <numeric>
 
 namespace spam {
 namespace {
@@ -42,7 +41,8 @@ double shifting_coefficient(const Selection<Dim>& among, const Scheme& scheme, d
         volume *= extent(box, a);
     }
     const auto& mass = among.particles().mass;
-    const double share = std::accumulate(mass.begin(), mass.end(), 0.0) / (density * volume);
+    const double share =
+        exact_sum(mass.size(), [&](std::size_t i) { return mass[i]; }) / (density * volume);
     if (share < full)
         throw InputError(fmt::format(
             "transport: shifting drives particles out of a free surface, and they fill {:.0f} % of the box; "

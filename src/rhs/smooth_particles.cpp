@@ -4,6 +4,7 @@
 #include "gauss_forces.hpp"
 #include "torque_factors.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -284,11 +285,11 @@ template <int Dim>
 double SmoothParticles<Dim>::neighbour_forces(std::span<const double> y) const {
     const ConstState<Dim> state = this->state_of(y);
     const auto& mass = this->particles().mass;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < mass.size(); ++i)
-        sum += mass[i] * std::abs(state.energy()(0, static_cast<Eigen::Index>(i)));
-    sum += constitution_->stress_forces(state, this->densities(y));
-    return sum / this->particles().spacing;
+    const double energies = exact_sum(mass.size(), [&](std::size_t i) {
+        return mass[i] * std::abs(state.energy()(0, static_cast<Eigen::Index>(i)));
+    });
+    return (energies + constitution_->stress_forces(state, this->densities(y))) /
+           this->particles().spacing;
 }
 
 /// In space a fluid's pressures act along r_ij; everything else does not, unless it is balanced.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constitution.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 
 #include <algorithm>
@@ -91,11 +92,10 @@ class SolidConstitution final : public Constitution<Dim> {
     }
 
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < rho.size(); ++i)
-            sum += this->particles_.mass[i] / rho[i] *
+        return exact_sum(rho.size(), [&](std::size_t i) {
+            return this->particles_.mass[i] / rho[i] *
                    state.stress().col(static_cast<Eigen::Index>(i)).norm();
-        return sum;
+        });
     }
 
     bool settle(double t, const State<Dim>& state) override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/rhs/springs.hpp>
 
@@ -58,7 +58,7 @@ std::string Springs<Dim>::rates(const Now& now) {
 template <int Dim>
 double Springs<Dim>::energy(std::span<const double> y) const {
     const auto x = this->state_of(y).position();
-    CompensatedSum sum;
+    ExactSum sum;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
             if (partner_[k] > i) sum += spring_.energy(bond(x, i, partner_[k]).norm());
@@ -68,7 +68,7 @@ double Springs<Dim>::energy(std::span<const double> y) const {
 template <int Dim>
 double Springs<Dim>::neighbour_forces(std::span<const double> y) const {
     const auto x = this->state_of(y).position();
-    double sum = 0.0;
+    ExactSum sum;
     for (std::size_t i = 0; i < this->particles().size(); ++i)
         for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
             sum += std::abs(spring_.force(bond(x, i, partner_[k]).norm()));

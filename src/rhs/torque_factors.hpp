@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/physics/scheme.hpp>
 #include <spam/physics/torque_balance.hpp>
 
@@ -51,18 +51,14 @@ class TorqueFactors {
     std::span<const TorqueScale> scales() const { return scales_; }
 
   private:
-    struct Sums {
-        CompensatedSum P, M, X;  ///< torque_balance()
-    };
     struct Torques {
         double positive, negative;
     };
     Torques torques_of(std::size_t i) const;
-    Sums sum_of_one_group(const Groups& groups, const double* u, const double* v);
 
     AngularMomentum law_;
-    std::vector<double> positive_, negative_, parts_, block_sums_;
-    std::vector<Sums> sums_;
+    std::vector<double> positive_, negative_, parts_;
+    ExactGroupSums<3> sums_;  ///< P, M, X of torque_balance()
     std::vector<TorqueScale> scales_;
 };
 

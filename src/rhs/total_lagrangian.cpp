@@ -2,8 +2,8 @@
 #include "packed_particles.hpp"
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/physics/lagrangian_record.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
@@ -308,14 +308,14 @@ double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
         out.energy = penalty.data();
         sweeps_->energy(input(records), out);
     }
-    CompensatedSum sum;
-    for (std::size_t slot = 0; slot < list_.size(); ++slot) {
+    const auto [stored, of_penalty] = exact_sums(list_.size(), [&](std::size_t slot) {
+        const std::size_t i = list_.order()[slot];
         const double* const record = &records[slot * stride<Dim>];
-        sum += record[volume_at<Dim>] *
-               material_.energy(list_.order()[slot], tensor_at<Dim>(record + F_at<Dim>), state);
-        sum += penalty[list_.order()[slot]];
-    }
-    return sum;
+        return std::array<double, 2>{
+            record[volume_at<Dim>] * material_.energy(i, tensor_at<Dim>(record + F_at<Dim>), state),
+            penalty[i]};
+    });
+    return stored + of_penalty;
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 #include "reference.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 
 #include <fmt/format.h>
 
@@ -13,8 +14,7 @@ namespace spam::work_precision {
 namespace {
 
 double root_mean_square(std::span<const double> x) {
-    double sum = 0.0;
-    for (const double value : x) sum += value * value;
+    const double sum = exact_sum(x.size(), [&](std::size_t k) { return x[k] * x[k]; });
     return std::sqrt(sum / static_cast<double>(x.size()));
 }
 

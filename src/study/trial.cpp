@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/motion.hpp>
@@ -79,12 +80,10 @@ ConservedScales conserved_scales(const Model<Dim>& model, std::span<const double
                                  double largest_kinetic) {
     const ConstState<Dim> state(model.layout(), y0);
     const auto x = state.position();
-    double mass = 0.0, inertia = 0.0;
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        const double m = model.particles().mass[static_cast<std::size_t>(i)];
-        mass += m;
-        inertia += m * x.col(i).squaredNorm();
-    }
+    const auto [mass, inertia] = exact_sums(model.particles().size(), [&](std::size_t i) {
+        const double m = model.particles().mass[i];
+        return std::array<double, 2>{m, m * x.col(static_cast<Eigen::Index>(i)).squaredNorm()};
+    });
     const double energy = std::abs(measure_invariants<Dim>(model, y0).energy);
     return {std::sqrt(2.0 * mass * largest_kinetic), std::sqrt(2.0 * inertia * largest_kinetic),
             std::max(energy, largest_kinetic)};

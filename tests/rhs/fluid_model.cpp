@@ -4,8 +4,8 @@
 #include "support/fluid_oracle.hpp"
 #include "support/random_fluid.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/material/cavitation.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
@@ -50,7 +50,7 @@ void check(const Fluid& fluid, const Scheme& scheme, int cells, const Box<Dim>& 
     BOOST_TEST(relative_difference(y_dot, fluid_rates(model, y)) < 1e-12);
 
     const ConstState<Dim> state(model.layout(), y), rate(model.layout(), y_dot);
-    CompensatedSum energy, size, momentum[Dim];
+    ExactSum energy, size, momentum[Dim];
     double push = 0.0;
     for (Eigen::Index i = 0; i < state.energy().cols(); ++i) {
         const double m = model.particles().mass[static_cast<std::size_t>(i)];

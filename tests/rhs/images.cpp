@@ -3,7 +3,7 @@
 // whatever the formulation reads of neighbours; momentum across a border is kept to round-off.
 #include "support/every_potential.hpp"
 #include "support/random_state.hpp"
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
@@ -106,7 +106,7 @@ double narrow_against_wide(const Build<Dim>& build, double deform = 0.05) {
     BOOST_TEST(found.velocity().cwiseAbs().maxCoeff() > 1e-3);
     // Momentum, to round-off of the sum alone.
     for (int a = 0; a < Dim; ++a) {
-        CompensatedSum total, size;
+        ExactSum total, size;
         for (Eigen::Index i = 0; i < n; ++i) {
             const double f = one.mass[static_cast<std::size_t>(i)] * found.velocity()(a, i);
             total += f, size += std::abs(f);

@@ -5,7 +5,7 @@
 #include "support/fluid_oracle.hpp"
 #include "support/random_fluid.hpp"
 #include <spam/core/error.hpp>
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/gamma_gas.hpp>
 #include <spam/material/ideal_gas.hpp>
@@ -35,7 +35,7 @@ template <int Dim>
 double energy_residual(const FluidModel<Dim>& model, std::span<const double> y,
                        std::span<const double> y_dot) {
     const ConstState<Dim> state(model.layout(), y), rate(model.layout(), y_dot);
-    CompensatedSum energy;
+    ExactSum energy;
     double size = 0.0;
     for (Eigen::Index i = 0; i < state.energy().cols(); ++i) {
         const double m = model.particles().mass[static_cast<std::size_t>(i)];

@@ -4,8 +4,8 @@
 // out, as older codes do.
 #include "support/random_state.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/kernel/any_weight.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/isentropic_gas.hpp>
@@ -51,7 +51,7 @@ template <int Dim>
 std::pair<double, double> unbalanced(VariableRangeModel<Dim>& model, const std::vector<double>& y) {
     const auto y_dot = rates_of(model, y);
     const ConstState<Dim> state(model.layout(), y), rate(model.layout(), y_dot);
-    CompensatedSum energy;
+    ExactSum energy;
     Point<Dim> momentum = Point<Dim>::Zero();
     double size = 0.0, push = 0.0;
     for (Eigen::Index i = 0; i < state.energy().cols(); ++i) {
@@ -75,7 +75,7 @@ double force_error(VariableRangeModel<Dim>& model, std::vector<double> y) {
     const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
     const auto& m = model.particles().mass;
     const auto potential = [&](const Points<Dim>& at) {
-        CompensatedSum sum;
+        ExactSum sum;
         const auto rho = model.solve_densities(at);
         for (std::size_t i = 0; i < rho.size(); ++i)
             sum += m[i] * model.fluid().state.cold_energy(rho[i]);

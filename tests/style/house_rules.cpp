@@ -125,6 +125,43 @@ BOOST_AUTO_TEST_CASE(sundials_is_called_in_two_places) {
     }
 }
 
+namespace {
+
+/// Sums that depend on the order of their terms. Those over a particle's neighbours, over laws or walls have names of
+/// what they are the sum of.
+bool is_plain_sum(const std::string& line) {
+    static const std::regex declared(
+        "double [^;(]*\\b(sum|sums|total|squares|inertia|kinetic)\\b[^;(]* = 0(\\.0)?[;,].*"),
+        called("std::(accumulate|reduce)\\(.*0\\.0|reduction\\(|wise\\(\\)\\.(sum|mean)\\(");
+    return std::regex_search(line, declared) || std::regex_search(line, called);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(sums_over_particles_are_exact) {
+    // Not over particles (neighbours of a point, points of a fit, blocks of y, whole numbers), or once at set-up.
+    const std::set<std::string> others{"src/diagnostics/field_interpolation.cpp",
+                                       "src/diagnostics/convergence.cpp",
+                                       "src/integrate/error_shares.cpp",
+                                       "src/core/exact_sum_digits.lanes.cpp",
+                                       "include/spam/core/parallel.hpp",
+                                       "src/core/population.cpp",
+                                       "src/diagnostics/outline.cpp",
+                                       "src/study/example_systems.cpp"};
+    const std::set<std::string> rooms_with_sums{"core",        "external", "rhs",  "integrate",
+                                                "diagnostics", "setup",    "study"};
+    for (const auto& path : sources({"include", "src"})) {
+        const auto relative = fs::relative(path, SPAM_SOURCE).generic_string();
+        if (!rooms_with_sums.contains(room_of(path)) || others.contains(relative)) continue;
+        for (const auto& line : lines_of(path))
+            BOOST_TEST(!is_plain_sum(line), relative << ": take an ExactSum: " << line);
+    }
+    BOOST_TEST(is_plain_sum("    double mass = 0.0, inertia = 0.0;"));
+    BOOST_TEST(is_plain_sum("    motion.from = from.rowwise().mean();"));
+    BOOST_TEST(is_plain_sum("    return std::accumulate(mass.begin(), mass.end(), 0.0);"));
+    BOOST_TEST(!is_plain_sum("    double energy = 0.0;"));
+}
+
 BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
     for (const auto& path : sources({"include", "src", "problems", "tests"})) {
         const auto lines = lines_of(path);

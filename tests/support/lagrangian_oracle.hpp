@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/sums.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
@@ -76,7 +76,7 @@ class LagrangianOracle final : public Model<Dim> {
 
     double internal_energy(std::span<const double> y) const override {
         const std::vector<M> F = gradients(y);
-        CompensatedSum sum;
+        ExactSum sum;
         for (int i = 0; i < n_; ++i) {
             const M E = strain(F[at(i)]);
             sum += volume(i) *

@@ -7,7 +7,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
+#include <vector>
 
 namespace spam {
 
@@ -51,9 +53,10 @@ class ExactSum {
 };
 
 /// K sums over 0, ..., n - 1 at once. fill(first, count, rows) writes what first, ..., first + count - 1 add to
-/// sum k to rows[k][0], ..., rows[k][count - 1]; it is called by several threads, for other blocks each.
+/// sum k to rows[k][0], ..., rows[k][count - 1]; from so many on several threads call it, for other blocks each.
 template <std::size_t K, class Fill>
-std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill) {
+std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
+                                           std::size_t threads_from = parallel_threshold) {
     constexpr std::size_t block = ExactSum::block;
     std::array<ExactSum, K> sums;
     const auto add = [&](std::size_t b, std::array<ExactSum, K>& to) {
@@ -63,7 +66,7 @@ std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill) {
         for (std::size_t k = 0; k < K; ++k) to[k].add_block(rows[k], count);
     };
     const std::size_t blocks = (n + block - 1) / block;
-    if (n < parallel_threshold) {
+    if (n < threads_from) {
         for (std::size_t b = 0; b < blocks; ++b) add(b, sums);
     } else {
 #pragma omp parallel
@@ -98,5 +101,34 @@ template <class Term>
 double exact_sum(std::size_t n, const Term& term) {
     return exact_sums(n, [&](std::size_t i) { return std::array<double, 1>{term(i)}; })[0];
 }
+
+/// K sums over each of some groups, bodies for example. Where there are several it works on one thread.
+template <std::size_t K>
+class ExactGroupSums {
+  public:
+    /// By group, until the next call. group[i]: 0, ..., groups - 1; terms(i): what i adds to those of its group.
+    template <class Terms>
+    std::span<const std::array<double, K>> of(std::span<const std::int32_t> group,
+                                              std::size_t groups, const Terms& terms) {
+        values_.resize(groups);
+        if (groups == 1) {
+            values_[0] = exact_sums(group.size(), terms);
+            return values_;
+        }
+        sums_.assign(groups, {});
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            const std::array<double, K> of_i = terms(i);
+            for (std::size_t k = 0; k < K; ++k)
+                sums_[static_cast<std::size_t>(group[i])][k] += of_i[k];
+        }
+        for (std::size_t g = 0; g < groups; ++g)
+            std::copy(sums_[g].begin(), sums_[g].end(), values_[g].begin());
+        return values_;
+    }
+
+  private:
+    std::vector<std::array<ExactSum, K>> sums_;
+    std::vector<std::array<double, K>> values_;
+};
 
 }  // namespace spam

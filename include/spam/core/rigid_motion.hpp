@@ -3,6 +3,8 @@
 
 #include <spam/core/state.hpp>
 
+#include <span>
+
 namespace spam {
 
 /// x -> to + rotation (x - from)
@@ -23,6 +25,10 @@ struct RigidMotion {
 template <int Dim>
 RigidMotion<Dim> best_rigid_motion(const Eigen::Ref<const Points<Dim>>& from,
                                    const Eigen::Ref<const Points<Dim>>& to);
+
+/// Of the values (Dim x N) by mass (N): the centre of mass, or its velocity.
+template <int Dim>
+Point<Dim> mean_by_mass(std::span<const double> mass, const Eigen::Ref<const Points<Dim>>& values);
 
 /// The translation alone.
 template <int Dim>

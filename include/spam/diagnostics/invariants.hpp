@@ -8,7 +8,7 @@
 namespace spam {
 
 /// What an isolated system keeps, at one time, and what externals have given to one that is not. Sums are
-/// compensated: their own error is far below the drifts they are compared for.
+/// exact (ExactSum): drifts contain no error of theirs.
 template <int Dim>
 struct Invariants {
     /// Number of rotation planes: 0, 1, 3.

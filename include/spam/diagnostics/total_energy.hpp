@@ -11,7 +11,7 @@ namespace spam {
 template <int Dim>
 std::string why_no_energy(const Model<Dim>& model);
 
-/// E = sum m v^2/2 + internal energy; the sums are compensated.
+/// E = sum m v^2/2 + internal energy, as an exact sum rounded once (ExactSum).
 template <int Dim>
 double total_energy(const Model<Dim>& model, std::span<const double> y);
 

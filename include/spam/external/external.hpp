@@ -2,8 +2,8 @@
 #pragma once
 
 #include <spam/core/archive.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/particles.hpp>
-#include <spam/core/sums.hpp>
 
 #include <Eigen/Core>
 
@@ -54,10 +54,9 @@ class External {
     /// Of all particles.
     double energy(const Particles<Dim>& particles, const ConstState<Dim>& state) const {
         const auto x = state.position();
-        CompensatedSum sum;
-        for (Eigen::Index i = 0; i < x.cols(); ++i)
-            sum += energy_at(particles, static_cast<std::size_t>(i), x.col(i));
-        return sum;
+        return exact_sum(particles.size(), [&](std::size_t i) {
+            return energy_at(particles, i, x.col(static_cast<Eigen::Index>(i)));
+        });
     }
 
     /// Whether its power is heat, as that of a thermostat, not work.

@@ -25,7 +25,7 @@ struct RigidVelocity {
 };
 
 /// The one with the momentum of the particles and their angular momentum about the centre of mass; no
-/// rotation about axes for which they have no moment of inertia. Sums are compensated.
+/// rotation about axes for which they have no moment of inertia.
 template <int Dim>
 RigidVelocity<Dim> rigid_velocity_of(const std::vector<double>& mass, const ConstState<Dim>& state);
 

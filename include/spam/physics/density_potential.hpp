@@ -2,8 +2,8 @@
 #pragma once
 
 #include <spam/core/error.hpp>
+#include <spam/core/exact_sum.hpp>
 #include <spam/core/lanes.hpp>
-#include <spam/core/sums.hpp>
 #include <spam/core/tensor.hpp>
 #include <spam/kernel/weight_function.hpp>
 #include <spam/neighbors/pair_list.hpp>
@@ -143,7 +143,7 @@ EnergyAndForces<Dim> energy_and_forces(const Term& term, const Weight& weight,
     check_smooth_enough<Dim>(term, weight);
     const auto f = density_fields<Dim>(term, weight, near);
     std::vector<typename Term::template Field<Dim>> G(near.size());
-    CompensatedSum energy;
+    ExactSum energy;
     for (std::size_t i = 0; i < near.size(); ++i) {
         energy += term.template energy<Dim>(near.mass[i], f[i]);
         G[i] = term.template slope<Dim>(near.mass[i], f[i]);

@@ -19,7 +19,7 @@ concept DistancePotential = requires(const Potential potential, double r2) {
 template <int Dim, DistancePotential Potential>
 EnergyAndForces<Dim> energy_and_forces(const Potential& potential, const Neighbourhood<Dim>& near) {
     EnergyAndForces<Dim> result{0.0, Points<Dim>(Dim, near.position.cols())};
-    CompensatedSum energy;
+    ExactSum energy;
     for (std::size_t i = 0; i < near.size(); ++i) {
         Vec<Dim> F;
         for (const std::uint32_t j : near.pairs.neighbours(i)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/exact_sum.hpp>
 #include <spam/external/external.hpp>
 #include <spam/rhs/term.hpp>
 
@@ -111,14 +112,20 @@ class ParticleModel : public Model<Dim> {
     std::size_t list_builds() const;
 
   private:
-    /// What one external gives to the particles of a block, per time.
+    /// What one external, or a wall, gives to a particle or to all of them, per time.
     struct Given {
-        static constexpr int planes = Dim * (Dim - 1) / 2;
-        Point<Dim> force = Point<Dim>::Zero();
-        Eigen::Matrix<double, planes, 1> torque = Eigen::Matrix<double, planes, 1>::Zero();
-        double power = 0.0, heat = 0.0;
+        static constexpr std::size_t planes = Dim * (Dim - 1) / 2, count = Dim + planes + 2;
+        std::array<double, count> numbers{};
+        auto force() { return Eigen::Map<Point<Dim>>(numbers.data()); }
+        auto torque() { return Eigen::Map<Eigen::Matrix<double, planes, 1>>(&numbers[Dim]); }
+        double& power() { return numbers[Dim + planes]; }
+        double& heat() { return numbers[Dim + planes + 1]; }
+        /// Of 0, ..., n - 1, given(i) to each.
+        template <class GivenTo>
+        static Given to_all(std::size_t n, const GivenTo& given) {
+            return {exact_sums(n, [&](std::size_t i) { return given(i).numbers; })};
+        }
     };
-    static constexpr Eigen::Index block = 256;  ///< particles whose rates are changed at a time
 
     /// f(a, upper, wall): of every side that is a wall.
     template <class F>
@@ -133,12 +140,8 @@ class ParticleModel : public Model<Dim> {
     void take(std::unique_ptr<Term<Dim>> term);
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
-    Given apply_to(const External<Dim>& external, const typename External<Dim>::Now& now,
-                   Eigen::Index first, Eigen::Index last) const;
-    void book(const External<Dim>& external, const Given& given, const State<Dim>& rate) const;
+    void book(const External<Dim>& external, Given given, const State<Dim>& rate) const;
     void add_accounts();
-    template <class GiveBlock>
-    Given sum_of_blocks(const GiveBlock& give);
     void book_walls(const typename External<Dim>::Now& now);
     void book_wall(const typename External<Dim>::Now& now, int a, bool upper,
                    const Wall<Dim>& wall) const;
@@ -159,7 +162,6 @@ class ParticleModel : public Model<Dim> {
     bool walled_;               ///< the box has walls
     bool whole_ = true;         ///< every term acts among all particles
     std::vector<double> more_;  ///< v_dot of a term that is not the first, or of a part
-    std::vector<Given> given_;  ///< by block
     std::size_t reflections_ = 0;
 };
 
