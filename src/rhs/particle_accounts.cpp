@@ -45,11 +45,12 @@ void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<
         for (Eigen::Index k = 0; k < count; ++k) {
             const Eigen::Index i = first + k;
             const double m = now.particles.mass[static_cast<std::size_t>(i)];
+            const Point<Dim> force = m * (falls.col(i) - v_dot.col(k));
             Given given;
-            given.force() = m * (falls.col(i) - v_dot.col(k));
-            given.torque() = moment<Dim>(x.col(i), given.force()) +
+            given.force() = force;
+            given.torque() = moment<Dim>(x.col(i), force) +
                              m * moment<Dim>(moves.col(i) - x_dot.col(k), v.col(i));
-            given.power() = given.force().dot(v.col(i));
+            given.power() = force.dot(v.col(i));
             if (has_energy) given.heat() = m * (now.rate.energy()(0, i) - e_dot(0, k));
             for (std::size_t q = 0; q < Given::count; ++q)
                 rows[q][static_cast<std::size_t>(k)] = given.numbers[q];
@@ -68,10 +69,11 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
     Given sum = Given::to_all(now.particles.size(), [&](std::size_t k) {
         const auto i = static_cast<Eigen::Index>(k);
         const double m = now.particles.mass[k];
+        const Point<Dim> force = m * v_dot.col(i);
         Given given;
-        given.force() = m * v_dot.col(i);
-        given.torque() = moment<Dim>(x.col(i), given.force()) + m * moment<Dim>(u.col(i), v.col(i));
-        if (energy) given.power() = given.force().dot(v.col(i)) + m * now.rate.energy()(0, i);
+        given.force() = force;
+        given.torque() = moment<Dim>(x.col(i), force) + m * moment<Dim>(u.col(i), v.col(i));
+        if (energy) given.power() = force.dot(v.col(i)) + m * now.rate.energy()(0, i);
         return given;
     });
     now.rate.field(Field::impulse) += sum.force();
@@ -93,29 +95,30 @@ void ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a
                                    const Wall<Dim>& wall) const {
     const auto v = now.state.velocity();
     const bool energy = wall.passes_energy() && now.rate.has(Field::energy);
-    Point<Dim> force = Point<Dim>::Zero();
-    double power = 0.0;
+    Given sum;
     for (const auto& term : terms_) {
         const WallRates<Dim>* rates = term->wall_rates(a, upper);
         if (rates == nullptr) continue;
         Given given = Given::to_all(rates->particle.size(), [&](std::size_t k) {
             const std::size_t i = term->among().first() + rates->particle[k];
             const double m = now.particles.mass[i];
-            Given one;
-            one.force() = m * Eigen::Map<const Point<Dim>>(&rates->v_dot[Dim * rates->place[k]]);
+            const Point<Dim> one =
+                m * Eigen::Map<const Point<Dim>>(&rates->v_dot[Dim * rates->place[k]]);
+            Given to;
+            to.force() = one;
             if (energy)
-                one.power() = one.force().dot(v.col(static_cast<Eigen::Index>(i))) +
-                              m * rates->e_dot[rates->place[k]];
-            return one;
+                to.power() = one.dot(v.col(static_cast<Eigen::Index>(i))) +
+                             m * rates->e_dot[rates->place[k]];
+            return to;
         });
-        force += given.force();
-        power += given.power();
+        sum.force() += given.force();
+        sum.power() += given.power();
     }
-    now.rate.field(Field::wall_impulse(a, upper)) += force;
+    now.rate.field(Field::wall_impulse(a, upper)) += sum.force();
     if (!energy) return;
-    const double work = force.dot(wall.velocity);
+    const double work = sum.force().dot(wall.velocity);
     now.rate.field(Field::wall_work(a, upper))(0, 0) += work;
-    now.rate.field(Field::wall_heat(a, upper))(0, 0) += power - work;
+    now.rate.field(Field::wall_heat(a, upper))(0, 0) += sum.power() - work;
 }
 
 template <int Dim>
