@@ -4,7 +4,7 @@
 #include <spam/core/lanes.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 
 namespace spam {
@@ -38,26 +38,41 @@ double largest_magnitude(const double* x, std::size_t count) {
     return largest_of(largest) + sum_of(zero);
 }
 
-/// Takes from every number its nearest multiple of the digit's unit, which adding and subtracting 1.5 x 2^52 units
-/// finds, and leaves the rest, at most half a unit. Sums of the multiples are exact: 256 below 2^39 units.
+/// 1.5 x 2^52 units of a digit: added and subtracted again, it rounds what is below 2^51 units to whole ones.
+double rounder(int digit) {
+    const int exponent = lowest_exponent + digit_bits * digit + 52;
+    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52 |
+                                 std::uint64_t{1} << 51);
+}
+
+/// Of a number >= 0, which is below 2^this.
+int exponent_above(double x) {
+    return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1022;
+}
+
+/// Takes from every number its nearest multiple of the digit's unit and leaves the rest, at most half a unit. Sums of
+/// the multiples are exact: 256 of at most 2^39 units.
 struct Split {
-    double multiples;      ///< their sum, in units
+    std::int64_t units;
     double largest_rest;
 };
-Split split(double* x, std::size_t count, int exponent) {
+Split split(double* x, std::size_t count, int digit) {
     constexpr int ways = 2;  // so that no register waits for the one before
-    const Register round(std::ldexp(1.5, exponent + 52));
+    const double round = rounder(digit);
+    const Register rounds(round);
     Register sum[ways], largest[ways];
     for (std::size_t k = 0; k < count; k += ways * width)
         for (int w = 0; w < ways; ++w) {
             double* const at = x + k + static_cast<std::size_t>(w * width);
-            const Register x_k = load_lanes<width>(at), multiple = (x_k + round) - round;
+            const Register x_k = load_lanes<width>(at), multiple = (x_k + rounds) - rounds;
             const Register rest = x_k - multiple;
             sum[w] += multiple;
             largest[w] = max(magnitude(rest), largest[w]);
             store_lanes(at, rest);
         }
-    return {std::scalbn(sum_of(sum[0] + sum[1]), -exponent),
+    // The last bits of a number between 2^52 and 2^53 units count units.
+    const double shifted = sum_of(sum[0] + sum[1]) + round;
+    return {std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(round),
             largest_of(max(largest[0], largest[1]))};
 }
 
@@ -70,11 +85,9 @@ bool add_digits(double* x, std::size_t count, std::int64_t* digit) {
     // From the highest digit with all terms below 2^39 of its units down, until no rest is left. Digits without
     // anything are passed over.
     for (int below = std::numeric_limits<int>::max(); largest > 0.0;) {
-        int exponent = 0;
-        std::frexp(largest, &exponent);  // largest < 2^exponent
-        const int d = std::min(below - 1, std::max(0, (exponent - lowest_exponent) / digit_bits));
-        const Split of_x = split(x, count, lowest_exponent + digit_bits * d);
-        digit[d] += static_cast<std::int64_t>(of_x.multiples);
+        const int d = std::min(below - 1, (exponent_above(largest) - lowest_exponent) / digit_bits);
+        const Split of_x = split(x, count, d);
+        digit[d] += of_x.units;
         const std::int64_t carried = digit[d] >> digit_bits;
         digit[d] -= carried << digit_bits;
         digit[d + 1] += carried;

@@ -144,33 +144,36 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
     const std::size_t before = reflections_;
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         const auto x = state.position(), v = state.velocity();
+        std::vector<Given> turned;
         for (Eigen::Index i = 0; i < x.cols(); ++i) {
             if (!(upper ? x(a, i) > wall.at : x(a, i) < wall.at)) continue;
             if (wall.has_images())
-                fold_back(state, i, a, upper);
+                turned.push_back(fold_back(state, i, a, upper));
             else if (upper ? v(a, i) > 0.0 : v(a, i) < 0.0)
-                turn_back(state, i, a, upper);
-            else
-                continue;
-            ++reflections_;
+                turned.push_back(turn_back(state, i, a));
         }
+        if (turned.empty()) return;
+        reflections_ += turned.size();
+        Given sum = Given::to_all(turned.size(), [&](std::size_t k) { return turned[k]; });
+        for (const Field impulse : {Field::impulse, Field::wall_impulse(a, upper)})
+            state.field(impulse)(a, 0) += sum.force()[a];
+        if constexpr (Dim > 1) state.field(Field::angular_impulse) += sum.torque();
+        for (const Field work : {Field::work, Field::wall_work(a, upper)})
+            if (sum.power() != 0.0) state.field(work)(0, 0) += sum.power();
     });
     return reflections_ != before;
 }
 
-/// Where it is, so that no distance changes, and no energy that depends on distances.
+/// At the place where it is, so that no distance changes, and no energy that depends on distances. Returns the impulse
+/// and its moment.
 template <int Dim>
-void ParticleModel<Dim>::turn_back(const State<Dim>& state, Eigen::Index i, int a,
-                                   bool upper) const {
+auto ParticleModel<Dim>::turn_back(const State<Dim>& state, Eigen::Index i, int a) const -> Given {
     const double m = this->particles().mass[static_cast<std::size_t>(i)];
-    const double given = -2.0 * m * state.velocity()(a, i);
+    Given given;
+    given.force()[a] = -2.0 * m * state.velocity()(a, i);
     state.velocity()(a, i) *= -1.0;
-    for (const Field impulse : {Field::impulse, Field::wall_impulse(a, upper)})
-        state.field(impulse)(a, 0) += given;
-    const Point<Dim> at = state.position().col(i), force = given * Point<Dim>::Unit(a);
-    const auto turned = moment<Dim>(at, force);
-    for (int plane = 0; plane < Dim * (Dim - 1) / 2; ++plane)
-        state.field(Field::angular_impulse)(plane, 0) += turned[plane];
+    given.torque() = moment<Dim>(state.position().col(i), given.force());
+    return given;
 }
 
 /// What a particle gains in the potentials of externals when it is moved.
@@ -188,10 +191,10 @@ double ParticleModel<Dim>::gained(std::size_t i, const Point<Dim>& from,
 /// A particle beyond a mirror and its image change places: nothing that others see changes, whenever it is
 /// done. r -> -r, v_n -> -v_n, but for what the change of place means in potentials of externals: gravity has
 /// pulled the particle on behind the wall, and would have slowed it down before it. What is more than its
-/// motion can give is the wall's work.
+/// motion can give is the wall's work. Returns that, the impulse and its moment.
 template <int Dim>
-void ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int axis,
-                                   bool upper) const {
+auto ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int axis,
+                                   bool upper) const -> Given {
     const Wall<Dim>& wall = this->box().wall(axis, upper);
     const auto x = state.position().col(i), v = state.velocity().col(i);
     const double m = this->particles().mass[static_cast<std::size_t>(i)];
@@ -201,25 +204,19 @@ void ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
     const double square = v[axis] * v[axis] - 2.0 * gain / m;
     const double turned =
         gain == 0.0 ? -v[axis] : -std::copysign(std::sqrt(std::max(square, 0.0)), v[axis]);
-    if (square < 0.0)
-        for (const Field work : {Field::work, Field::wall_work(axis, upper)})
-            state.field(work)(0, 0) -= 0.5 * m * square;
-    for (const Field impulse : {Field::impulse, Field::wall_impulse(axis, upper)})
-        state.field(impulse)(axis, 0) += m * (turned - v[axis]);
-    const auto book_turning = [&](double sign) {
-        const auto L = moment<Dim>(x, v);
-        for (int plane = 0; plane < Dim * (Dim - 1) / 2; ++plane)
-            state.field(Field::angular_impulse)(plane, 0) += sign * m * L[plane];
-    };
-    book_turning(-1.0);
+    Given given;
+    if (square < 0.0) given.power() = -0.5 * m * square;
+    given.force()[axis] = m * (turned - v[axis]);
+    const Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1> L = moment<Dim>(x, v);
     state.position()(axis, i) = to[axis];
     state.velocity()(axis, i) = turned;
-    book_turning(1.0);
+    given.torque() = m * (moment<Dim>(x, v) - L);
     if constexpr (Dim > 1) {
         if (state.has(Field::stress))
             for (int b = 0; b < Dim; ++b)
                 if (b != axis) state.stress()(symmetric_index(Dim, axis, b), i) *= -1.0;
     }
+    return given;
 }
 
 #define SPAM_INSTANTIATE(D)                                                                       \
@@ -231,8 +228,10 @@ void ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
         const;                                                                                    \
     template bool ParticleModel<D>::settle(double, std::span<double>);                            \
     template bool ParticleModel<D>::reflect(const State<D>&);                                     \
-    template void ParticleModel<D>::turn_back(const State<D>&, Eigen::Index, int, bool) const;    \
-    template void ParticleModel<D>::fold_back(const State<D>&, Eigen::Index, int, bool) const;    \
+    template ParticleModel<D>::Given ParticleModel<D>::turn_back(const State<D>&, Eigen::Index,   \
+                                                                 int) const;                      \
+    template ParticleModel<D>::Given ParticleModel<D>::fold_back(const State<D>&, Eigen::Index,   \
+                                                                 int, bool) const;                \
     template double ParticleModel<D>::gained(std::size_t, const Point<D>&, const Point<D>&) const;
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)

@@ -131,7 +131,7 @@ namespace {
 /// what they are the sum of.
 bool is_plain_sum(const std::string& line) {
     static const std::regex declared(
-        "double [^;(]*\\b(sum|sums|total|squares|inertia|kinetic)\\b[^;(]* = 0(\\.0)?[;,].*"),
+        "double [^;(]*\\b(sum|sums|total|squares|inertia)\\b[^;(]* = 0(\\.0)?[;,].*"),
         called("std::(accumulate|reduce)\\(.*0\\.0|reduction\\(|wise\\(\\)\\.(sum|mean)\\(");
     return std::regex_search(line, declared) || std::regex_search(line, called);
 }

@@ -146,9 +146,9 @@ class ParticleModel : public Model<Dim> {
     void book_wall(const typename External<Dim>::Now& now, int a, bool upper,
                    const Wall<Dim>& wall) const;
     bool reflect(const State<Dim>& state);
-    void turn_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;
+    Given turn_back(const State<Dim>& state, Eigen::Index i, int a) const;
     double gained(std::size_t i, const Point<Dim>& from, const Point<Dim>& to) const;
-    void fold_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;
+    Given fold_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;
 
     bool moves_with_velocity() const;
     /// Where x_dot is not v a potential changes at another rate than its forces do work: the work is booked
