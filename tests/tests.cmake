@@ -278,6 +278,7 @@ add_test(NAME readme.example COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_D
 set_tests_properties(readme.example PROPERTIES LABELS problem TIMEOUT 300)
 
 spam_test(problem/remake property)
+spam_test(problem/remake_solids property)
 
 # What users add, each in one file.
 spam_test(extend/external property)

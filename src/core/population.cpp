@@ -5,13 +5,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace spam {
 
 template <int Dim>
-Repopulation<Dim>::Repopulation(const Particles<Dim>& before)
+Repopulation<Dim>::Repopulation(const Particles<Dim>& before, std::vector<Mat<Dim>> deformation)
     : before_(before),
-      change_(before.size(), -1) {}
+      deformation_(std::move(deformation)),
+      change_(before.size(), -1) {
+    if (!deformation_.empty() && deformation_.size() != before.size())
+        throw InputError(
+            fmt::format("population: there are {} deformation gradients of {} particles",
+                        deformation_.size(), before.size()));
+}
 
 template <int Dim>
 typename Repopulation<Dim>::Change& Repopulation<Dim>::change_of(std::size_t i) {
@@ -95,9 +102,14 @@ Population<Dim> Repopulation<Dim>::finish() const {
             after.removed.push_back(number);
         } else if (change.merged.empty()) {
             const Eigen::Index n = change.offsets.cols();
+            const double children = static_cast<double>(n);
+            const Mat<Dim> back =
+                into_material(deformation_.empty() ? Mat<Dim>{} : deformation_[i]);
+            const Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>> by(
+                back.c.data());
             for (Eigen::Index k = 0; k < n; ++k)
-                add(i, before_.mass[i] / static_cast<double>(n), next_id++,
-                    X + change.offsets.col(k), {{number, 1.0, change.offsets.col(k)}});
+                add(i, before_.mass[i] / children, next_id++, X + by * change.offsets.col(k),
+                    {{number, 1.0, change.offsets.col(k), 1.0 / children}});
         } else {
             double mass = 0.0;
             for (const std::size_t j : change.merged) mass += before_.mass[j];

@@ -52,6 +52,9 @@ Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const doub
         result.impulse = state.field(Field::impulse);
         if constexpr (Dim > 1) result.angular_impulse = state.field(Field::angular_impulse);
     }
+    result.work += model.gains().work;
+    result.impulse += model.gains().impulse;
+    result.angular_impulse += model.gains().angular_impulse;
     return result;
 }
 

@@ -4,11 +4,28 @@
 #include <spam/core/parallel.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numeric>
 #include <utility>
 
 namespace spam {
+namespace {
+
+constexpr FieldKind vector_kind{"material_vector", Rank::vector, Role::memory, "l", 100,
+                                Quantity::position};
+constexpr FieldKind weight_kind{"weight_of_vector", Rank::scalar, Role::memory, "1"};
+
+/// What grows by itself takes twice as much.
+template <int Dim>
+BondNumbers room_for(std::size_t particles, std::size_t bonds) {
+    BondNumbers room{std::vector<std::uint32_t>(particles, 0), {}, {}};
+    room.partners.reserve(bonds);
+    room.numbers.reserve(bonds * (Dim + 1));
+    return room;
+}
+
+}  // namespace
 
 template <int Dim>
 BondRows<Dim>::BondRows(std::size_t particles, std::size_t lanes)
@@ -166,29 +183,18 @@ void BondRows<Dim>::find_way_back(std::size_t k, std::size_t m) {
     reverse_[slot(k, m)] = place(j, place_of(j, k));
 }
 
-/// What the rows hold, one after the other.
+/// One more bond in what the rows hold, one after the other.
 template <int Dim>
-struct BondRows<Dim>::Contents {
-    std::vector<std::uint32_t> count, partners;
-    std::vector<double> vectors;  ///< X and g
-
-    /// Room for so many bonds: what grows by itself takes twice as much.
-    Contents(std::size_t particles, std::size_t bonds) : count(particles, 0) {
-        partners.reserve(bonds);
-        vectors.reserve(bonds * (Dim + 1));
-    }
-
-    void add(const BondRows& rows, std::size_t k, std::size_t m) {
-        ++count[k];
-        partners.push_back(rows.partner(k, m));
-        const Vec<Dim> X = rows.X(k, m);
-        vectors.insert(vectors.end(), X.c.begin(), X.c.end());
-        vectors.push_back(rows.g(k, m));
-    }
-};
+void BondRows<Dim>::add(BondNumbers& contents, std::size_t k, std::size_t m) const {
+    ++contents.count[k];
+    contents.partners.push_back(partner(k, m));
+    const Vec<Dim> X = this->X(k, m);
+    contents.numbers.insert(contents.numbers.end(), X.c.begin(), X.c.end());
+    contents.numbers.push_back(g(k, m));
+}
 
 template <int Dim>
-void BondRows<Dim>::hold(const Contents& contents) {
+void BondRows<Dim>::hold(const BondNumbers& contents) {
     count_ = contents.count;
     std::vector<std::uint32_t> capacity(groups(), 0);
     for (std::size_t k = 0; k < particles(); ++k)
@@ -201,8 +207,8 @@ void BondRows<Dim>::hold(const Contents& contents) {
         for (std::size_t m = 0; m < row(k); ++m, ++at) {
             partner_[slot(k, m)] = contents.partners[at];
             Vec<Dim> X;
-            std::copy_n(&contents.vectors[at * (Dim + 1)], Dim, X.c.begin());
-            set(k, m, X, contents.vectors[at * (Dim + 1) + Dim]);
+            std::copy_n(&contents.numbers[at * (Dim + 1)], Dim, X.c.begin());
+            set(k, m, X, contents.numbers[at * (Dim + 1) + Dim]);
             if (!vacant(k, m)) ++bonds_;
         }
     parallel_for(particles(), [&](std::size_t k) {
@@ -214,7 +220,7 @@ void BondRows<Dim>::hold(const Contents& contents) {
 template <int Dim>
 void BondRows<Dim>::tidy() {
     if (5 * places() <= 6 * bonds_) return;
-    Contents contents(particles(), bonds_);
+    BondNumbers contents = room_for<Dim>(particles(), bonds_);
     std::vector<std::uint32_t> order;
     for (std::size_t k = 0; k < particles(); ++k) {
         order.clear();
@@ -222,7 +228,7 @@ void BondRows<Dim>::tidy() {
             if (!vacant(k, m)) order.push_back(m);
         std::sort(order.begin(), order.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return partner(k, a) < partner(k, b); });
-        for (const std::uint32_t m : order) contents.add(*this, k, m);
+        for (const std::uint32_t m : order) add(contents, k, m);
     }
     hold(contents);
 }
@@ -287,13 +293,13 @@ void BondRows<Dim>::show(BondView<Dim>& view) {
 }
 
 template <int Dim>
-void BondRows<Dim>::remember(Archive& archive) {
-    Contents contents(particles(), archive.reading() ? 0 : places());
-    if (!archive.reading())
+void BondRows<Dim>::remember(Memory<Dim>& memory) {
+    BondNumbers contents = room_for<Dim>(particles(), memory.reading() ? 0 : places());
+    if (!memory.reading())
         for (std::size_t k = 0; k < particles(); ++k)
-            for (std::size_t m = 0; m < row(k); ++m) contents.add(*this, k, m);
-    archive(contents.count, contents.partners, contents.vectors);
-    if (archive.reading()) hold(contents);
+            for (std::size_t m = 0; m < row(k); ++m) add(contents, k, m);
+    memory.bonds(std::array<Field, 2>{vector_kind, weight_kind}, contents);
+    if (memory.reading()) hold(contents);
 }
 
 template class BondRows<2>;

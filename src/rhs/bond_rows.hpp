@@ -3,7 +3,7 @@
 
 #include "bond_schedule.hpp"
 #include "bond_sweeps.hpp"
-#include <spam/core/archive.hpp>
+#include <spam/core/memory.hpp>
 #include <spam/core/tensor.hpp>
 
 #include <cstdint>
@@ -67,7 +67,7 @@ class BondRows {
     /// All of a BondView that rows know.
     void show(BondView<Dim>& view);
     /// Rows in their order, vacancies included; nothing that depends on lanes.
-    void remember(Archive& archive);
+    void remember(Memory<Dim>& memory);
 
   private:
     std::size_t slot(std::size_t k, std::size_t m) const {
@@ -85,9 +85,9 @@ class BondRows {
     std::size_t capacity(std::size_t k) const {
         return (first_[k / lanes_ + 1] - first_[k / lanes_]) / lanes_;
     }
-    struct Contents;
     class Meetings;
-    void hold(const Contents& contents);
+    void add(BondNumbers& contents, std::size_t k, std::size_t m) const;
+    void hold(const BondNumbers& contents);
     void make_room(std::vector<Newcomer>& newcomers);
     void lay_out(const std::vector<std::uint32_t>& capacity);
     void find_reach();

@@ -13,6 +13,11 @@
 namespace spam {
 namespace {
 
+constexpr FieldKind listed_kind{"listed_at", Rank::vector, Role::derived, "l"};
+constexpr FieldKind sought_kind{"sought_at", Rank::vector, Role::derived, "l"};
+constexpr FieldKind bodies_kind{"body_of_vectors", Rank::scalar, Role::memory, "1", 100,
+                                Quantity::scalar,  Share::equal};
+
 // Of the range: how much farther than rows the list looks.
 constexpr double list_skin = 0.25;
 
@@ -297,7 +302,7 @@ Mat<Dim> BondTable<Dim>::anchoring(std::size_t k) const {
 }
 
 template <int Dim>
-void BondTable<Dim>::remember(Archive& archive) {
+void BondTable<Dim>::remember(Memory<Dim>& memory) {
     const auto flat = [](const Points<Dim>& x) {
         return std::vector<double>(x.data(), x.data() + x.size());
     };
@@ -306,9 +311,11 @@ void BondTable<Dim>::remember(Archive& archive) {
                                              static_cast<Eigen::Index>(x.size() / Dim));
     };
     std::vector<double> listed_at = flat(list_.built_at()), sought_at = flat(motion_.then());
-    archive(listed_at, sought_at);
-    rows_.remember(archive);
-    if (!archive.reading()) return;
+    memory.particles(listed_kind, listed_at);
+    memory.particles(sought_kind, sought_at);
+    memory.particles(bodies_kind, bodies_);
+    rows_.remember(memory);
+    if (!memory.reading() || memory.carries()) return;
     motion_.begin(points(sought_at));
     list_neighbours(points(listed_at));
 }

@@ -72,8 +72,8 @@ class BondTable {
     /// For these loops, which write t.
     BondView<Dim> view(double N0);
 
-    /// After reading, rows and their age are those that were written.
-    void remember(Archive& archive);
+    /// After reading, rows and their age are those that were written; rows of other particles must be renewed.
+    void remember(Memory<Dim>& memory);
 
   private:
     void place(const double* x, double* to) const;

@@ -257,8 +257,8 @@ std::string DensityPotentialTerm<Dim>::complaint() const {
 }
 
 template <int Dim>
-void DensityPotentialTerm<Dim>::remember(Archive& archive) {
-    if (archive.reading()) parts_->packed = packed_with(ListUse::again_and_again);
+void DensityPotentialTerm<Dim>::remember(Memory<Dim>& memory) {
+    if (memory.reading()) parts_->packed = packed_with(ListUse::again_and_again);
 }
 
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as

@@ -14,6 +14,14 @@
 namespace spam {
 namespace {
 
+// A whole particle is one of the lattice at the start.
+constexpr FieldKind stiffness_kind{"whole_particle", Rank::scalar, Role::constant, "1"};
+constexpr FieldKind heat_kind{"heat_of_vectors", Rank::scalar, Role::memory, "m l^2/t^2", 100,
+                              Quantity::scalar,  Share::sum};
+constexpr FieldKind broken_kind{"broken", Rank::scalar, Role::memory, "1"};
+constexpr FieldKind breaks_kind{"breaks", Rank::scalar, Role::memory, "1"};
+constexpr FieldKind watched_kind{"watched", Rank::scalar, Role::memory, "1"};
+
 template <int Dim>
 MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particles<Dim>& particles,
                                const HyperelasticMaterial<Dim>& material) {
@@ -218,9 +226,14 @@ std::size_t MaterialVectors<Dim>::list_builds() const {
 }
 
 template <int Dim>
-void MaterialVectors<Dim>::remember(Archive& archive) {
+void MaterialVectors<Dim>::remember(Memory<Dim>& memory) {
     Parts& p = *parts_;
-    archive(p.heat, p.table, p.excluded, p.breaks, p.told, p.watched, p.warned);
+    memory.run(stiffness_kind, p.N0, p.stiffness);
+    memory.particles(heat_kind, p.heat);
+    p.table.remember(memory);
+    memory.pairs(broken_kind, p.excluded);
+    memory.run(breaks_kind, p.breaks, p.told);
+    memory.run(watched_kind, p.watched, p.warned);
 }
 
 template <int Dim>

@@ -113,6 +113,37 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
     return !changed.empty();
 }
 
+/// Bonds that no change concerns are the same bits, and their particles lose exactly nothing. What merged particles
+/// moved about their centre is heat.
+template <int Dim>
+void MaterialVectors<Dim>::take_over(const Term<Dim>& before, const ConstState<Dim>& was,
+                                     const Change<Dim>& change, const ConstState<Dim>& now) {
+    const auto& from = dynamic_cast<const MaterialVectors&>(before);
+    Parts& p = *parts_;
+    const double *const x = now.position().data(), *const x_was = was.position().data();
+    for (std::size_t k = 0; k < change.parts.size(); ++k)
+        for (std::size_t m = 0; m < p.table.row(k); ++m)
+            if (p.table.g(k, m) > 0.0 && !(change.same(k) && change.same(p.table.partner(k, m))))
+                p.table.set_X(k, m, p.table.X(k, m));
+    exclude(x);
+    const auto v = now.velocity(), v_was = was.velocity();
+    parallel_for(change.parts.size(), [&](std::size_t k) {
+        Fit kept;
+        double energy = 0.0;
+        for (const auto& part : change.parts[k]) {
+            const auto a = static_cast<Eigen::Index>(part.particle);
+            const Fit fit = from.fit(x_was, part.particle);
+            energy += part.of * from.energy_of(fit, part.particle, was);
+            kept.F += part.share * fit.F;
+            kept.K = fit.K;
+            p.heat[k] += 0.5 * part.of * from.particles().mass[part.particle] *
+                         (v_was.col(a) - v.col(static_cast<Eigen::Index>(k))).squaredNorm();
+        }
+        book_loss(k, energy, kept, now);
+    });
+    update(now);
+}
+
 template <int Dim>
 std::vector<Mat<Dim>> MaterialVectors<Dim>::deformation_gradients(std::span<const double> y) const {
     std::vector<Mat<Dim>> F(parts_->numbers.size());
@@ -159,6 +190,8 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template const std::vector<double>& MaterialVectors<D>::heat_of_particles() const;           \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
+    template void MaterialVectors<D>::take_over(const Term<D>&, const ConstState<D>&,            \
+                                                const Change<D>&, const ConstState<D>&);         \
     template std::vector<Mat<D>> MaterialVectors<D>::deformation_gradients(                      \
         std::span<const double>) const;                                                          \
     template std::vector<double> MaterialVectors<D>::density(std::span<const double>) const;     \

@@ -12,6 +12,12 @@
 #include <utility>
 
 namespace spam {
+namespace {
+
+// Where particles change, Repopulation says the bodies of the new ones.
+constexpr FieldKind body_kind{"body", Rank::scalar, Role::derived, "1"};
+
+}  // namespace
 
 template <int Dim>
 void Model<Dim>::fail(std::span<double> y_dot, std::string reason) {
@@ -55,12 +61,16 @@ bool Model<Dim>::settles() const {
 }
 
 template <int Dim>
-void Model<Dim>::remember(Archive& archive) {
-    if (!archive.reading()) return archive(particles_.body);
+void Model<Dim>::remember(Memory<Dim>& memory) {
+    memory.among(0, particles_.size());
+    memory.run(Field::work, gains_.work);
+    memory.run(Field::impulse, gains_.impulse);
+    memory.run(Field::angular_impulse, gains_.angular_impulse);
+    auto body = particles_.body;
+    memory.particles(body_kind, body);
+    if (!memory.reading() || memory.carries()) return;
     const auto most =
         std::max<std::int32_t>(particles_.bodies(), static_cast<std::int32_t>(particles_.size()));
-    auto body = particles_.body;
-    archive(body);
     if (body.size() != particles_.size() ||
         std::any_of(body.begin(), body.end(), [most](auto b) { return b < 0 || b >= most; }))
         throw InputError("the bodies that were remembered are not those of these particles");

@@ -290,8 +290,8 @@ double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
 }
 
 template <int Dim>
-void OwnRanges<Dim>::remember(Archive& archive) {
-    if (archive.reading()) packed_.reset();
+void OwnRanges<Dim>::remember(Memory<Dim>& memory) {
+    if (memory.reading()) packed_.reset();
 }
 
 template <int Dim>

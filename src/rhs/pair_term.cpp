@@ -135,8 +135,8 @@ std::size_t PairTerm<Dim>::list_builds() const {
 }
 
 template <int Dim>
-void PairTerm<Dim>::remember(Archive& archive) {
-    if (archive.reading()) packed_ = packed_with(ListUse::again_and_again);
+void PairTerm<Dim>::remember(Memory<Dim>& memory) {
+    if (memory.reading()) packed_ = packed_with(ListUse::again_and_again);
 }
 
 template class PairTerm<1>;

@@ -321,13 +321,6 @@ void ParticleModel<Dim>::set_bodies(std::vector<std::int32_t> bodies) {
     for (const auto& term : terms_) term->bodies_changed();
 }
 
-template <int Dim>
-void ParticleModel<Dim>::remember(Archive& archive) {
-    Model<Dim>::remember(archive);
-    if (walled_) archive(reflections_);
-    for (const auto& term : terms_) term->remember(archive);
-}
-
 template class ParticleModel<1>;
 template class ParticleModel<2>;
 template class ParticleModel<3>;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/neighbors/pair_list.hpp>
@@ -87,6 +88,17 @@ std::vector<SymTensor<Dim>> Springs<Dim>::stress(std::span<const double> y, doub
                 for (int b = a; b < Dim; ++b) all[i](a, b) += tension * r_ij[a] * r_ij[b];
         }
     return all;
+}
+
+template <int Dim>
+void Springs<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>& /*was*/,
+                             const Change<Dim>& change, const ConstState<Dim>& /*now*/) {
+    for (std::size_t k = 0; k < change.parts.size(); ++k)
+        if (!change.same(k))
+            throw InputError(fmt::format(
+                "population: all springs have one length, and those of particle {} would have others "
+                "once it is split or merged; it can be removed only",
+                change.id[change.parts[k].front().particle]));
 }
 
 template <int Dim>

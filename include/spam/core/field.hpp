@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/quantity.hpp>
 #include <spam/core/tensor.hpp>
 
 #include <array>
@@ -19,20 +20,32 @@ enum class Rank {
     tensor      ///< D^2, row by row
 };
 
-/// How a field of y changes.
+/// Where a field is kept, and how it changes.
 enum class Role {
-    integrated,  ///< of every particle or element, with a rate
-    history,     ///< of every one, rate zero: changed between steps only (a plastic strain, damage)
-    account  ///< of the whole system, with a rate: what externals have given (work, heat, impulse)
+    integrated,  ///< in y, of every particle or element, with a rate
+    history,  ///< in y, of every one, rate zero: changed between steps only (a plastic strain, damage)
+    account,  ///< in y, of the whole system, with a rate: what externals have given (work, heat, impulse)
+    memory,    ///< beside y (core/memory.hpp), changed between steps only: material vectors, heat
+    constant,  ///< beside y, found when the law is made, from all particles
+    derived  ///< beside y, made anew from the others where these have been read: the age of a list
 };
 
-/// Who holds a field that is no account. Particles and elements may each have one of the same name.
+/// What has a field that is no account. Particles and elements may each have one of the same name.
 enum class Holder {
     particle,
-    element  ///< between particles, which are its corners: a finite element
+    element,  ///< between particles, which are its corners: a finite element
+    bond,     ///< from a particle to one of its neighbours; memory only
+    run       ///< the whole system; memory only
 };
 
-/// A field that y may hold, as its author declares it, once and for good:
+/// What a new particle has of the old ones that it is made of.
+enum class Share {
+    mean,  ///< by mass; positions with the way from the old places to the new one
+    sum,   ///< of each as much as goes into it of that particle's mass
+    equal  ///< what they have in common; others cannot be one particle
+};
+
+/// A field of y or of what is remembered beside it, as its author declares it, once and for good:
 ///     inline constexpr FieldKind damage{"damage", Rank::scalar, Role::history, "1"};
 struct FieldKind {
     std::string_view name;  ///< in messages, checkpoints, snapshots and the options --atol-NAME
@@ -42,9 +55,12 @@ struct FieldKind {
     Role role;
     std::string_view unit;  ///< in terms of mass, length, time: "m/l^3"; "1" for a pure number
     int place = 100;        ///< in y: by place, then in the order in which a model names them
+    /// Without it the same number in an image, or a vector or tensor that turns with the axes.
+    Quantity quantity = Quantity::scalar;
+    Share share = Share::mean;  ///< where particles are split and merged
 };
 
-/// A field of y, by its kind. Two of the same name are the same.
+/// A field, by its kind. Two of the same name are the same.
 class Field {
   public:
     /// The field that `kind` declares; `kind` must live as long as the program.
@@ -54,8 +70,12 @@ class Field {
     constexpr std::string_view name() const { return kind_->name; }
     /// How many numbers it holds, and how they turn.
     constexpr Rank rank() const { return kind_->rank; }
-    /// Integrated, history or account.
+    /// In y or beside it, and how it changes.
     constexpr Role role() const { return kind_->role; }
+    /// What images of a particle make of it.
+    constexpr Quantity quantity() const { return kind_->quantity; }
+    /// Where particles are split and merged.
+    constexpr Share share() const { return kind_->share; }
     /// In terms of mass m, length l and time t; "1" for a pure number.
     constexpr std::string_view unit() const { return kind_->unit; }
     /// Its place in y: fields lie in ascending order.
@@ -118,10 +138,13 @@ class Field {
 };
 
 namespace field_kind {
-inline constexpr FieldKind position{"position", Rank::vector, Role::integrated, "l", 0};
-inline constexpr FieldKind velocity{"velocity", Rank::vector, Role::integrated, "l/t", 1};
+inline constexpr FieldKind position{"position", Rank::vector,      Role::integrated, "l",
+                                    0,          Quantity::position};
+inline constexpr FieldKind velocity{"velocity", Rank::vector,      Role::integrated, "l/t",
+                                    1,          Quantity::velocity};
 inline constexpr FieldKind density{"density", Rank::scalar, Role::integrated, "m/l^D", 2};
-inline constexpr FieldKind stress{"stress", Rank::symmetric, Role::integrated, "m l^(2-D)/t^2", 3};
+inline constexpr FieldKind stress{"stress", Rank::symmetric, Role::integrated, "m l^(2-D)/t^2",
+                                  3,        Quantity::stress};
 inline constexpr FieldKind energy{"energy", Rank::scalar, Role::integrated, "l^2/t^2", 4};
 inline constexpr FieldKind work{"work", Rank::scalar, Role::account, "m l^2/t^2", 200};
 inline constexpr FieldKind heat{"heat", Rank::scalar, Role::account, "m l^2/t^2", 201};

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <spam/core/particles.hpp>
+#include <spam/core/tensor.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +22,8 @@ struct Population {
         double share;
         /// From the old particle to the new one, in units of length.
         Point<Dim> offset;
+        /// Of the old particle's mass, 0 to 1.
+        double of = 1.0;
     };
     /// The new set.
     Particles<Dim> particles;
@@ -27,19 +31,30 @@ struct Population {
     std::vector<std::uint32_t> removed;    ///< old particles that none is made of
 };
 
+/// F^-1, which takes a way in space to one in the material; 1 where it has no meaning (|det F| <= 1e-3).
+template <int Dim>
+Mat<Dim> into_material(const Mat<Dim>& F) {
+    if (std::abs(determinant(F)) > 1e-3) return inverse(F);
+    Mat<Dim> one;
+    for (int a = 0; a < Dim; ++a) one(a, a) = 1.0;
+    return one;
+}
+
 /// Splits, merges and removes particles, each of them at most once. Particles that nothing is said of stay
 /// as they are; the order in memory is kept, children take their parent's place. Ids stay with those
 /// that stay; a merged particle has the first one's, children have numbers that were not there.
 template <int Dim>
 class Repopulation {
   public:
-    /// Of `before`, which must outlive it.
-    explicit Repopulation(const Particles<Dim>& before);
+    /// Of `before`, which must outlive it. `deformation`: F of each, Model::deformation_gradients() of the state in
+    /// which they are split; empty where the model remembers no places in the material.
+    explicit Repopulation(const Particles<Dim>& before, std::vector<Mat<Dim>> deformation = {});
 
-    /// Particle i in offsets.cols() >= 2 of equal mass, at these places (Dim x children) from its own; their
-    /// sum must be zero (then momentum and angular momentum are kept), or InputError.
+    /// Particle i in offsets.cols() >= 2 of equal mass, at these places d (Dim x children) from its own, and
+    /// F^-1 d from its reference position; their sum must be zero (then momentum and angular momentum are
+    /// kept), or InputError.
     void split(std::size_t i, const Points<Dim>& offsets);
-    /// Two or more particles in one, at their centre of mass. Throws InputError for different materials.
+    /// Two or more particles in one, at their centre of mass, now and in the reference positions. Throws InputError for different materials.
     void merge(const std::vector<std::size_t>& particles);
     /// Takes particle i away. Throws InputError where it is split, merged or removed already.
     void remove(std::size_t i);
@@ -56,6 +71,7 @@ class Repopulation {
     Change& change_of(std::size_t i);
 
     const Particles<Dim>& before_;
+    std::vector<Mat<Dim>> deformation_;
     std::vector<int>
         change_;  ///< by particle, place in changes_; -1: none; -2: goes into another one
     std::vector<Change> changes_;

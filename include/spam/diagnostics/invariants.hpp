@@ -22,7 +22,8 @@ struct Invariants {
     double internal = 0.0;
     double energy = 0.0;  ///< kinetic + internal
 
-    /// What externals have given since t = 0 (external/external.hpp); zero without any.
+    /// What externals have given since t = 0 (external/external.hpp), and changes of particles (Model::gains); zero
+    /// without any.
     double work = 0.0, heat = 0.0;
     Point<Dim> impulse = Point<Dim>::Zero();
     AngularMomentum angular_impulse = AngularMomentum::Zero();

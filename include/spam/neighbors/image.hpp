@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/quantity.hpp>
+
 #include <array>
 #include <cstddef>
 
 namespace spam {
-
-/// What a number of a record measures: decides what becomes of it in an image of the particle.
-enum class Quantity : unsigned char {
-    scalar,
-    position,
-    velocity,
-    temperature,
-    stress,     ///< or what it is made of: sigma/rho^2
-    heat_flux,  ///< or Q/rho^2
-    vector,     ///< anything else that turns with the axes
-    tensor,
-};
 
 /// A number of a record: which component of what.
 struct NumberKind {

@@ -16,18 +16,30 @@ struct Remade {
     Invariants<Dim> before, after;
 };
 
-/// `y` of `model` carried over to `next`, which is made of population.particles: fields by mass, positions
-/// with their offsets, velocities by momentum; where particles have energies a merged one gets the kinetic
-/// energy that its parts had about their centre. Then mass, momentum and energy are kept to rounding
-/// wherever nothing is removed and nothing but particles' own energies counts; a potential changes with
-/// the places of particles, and merging loses the angular momentum that the parts had about their centre.
-/// Whatever changes is booked in the accounts, where y has them, so that the balances of a run
-/// (Invariants::energy_balance() and the like) go on without a jump; the rest is after - before.
+/// `y` of `model` and what it remembers beside it (core/memory.hpp) carried over to `next`, which is made of
+/// population.particles and of the same laws in the same order. Each field passes as it says (Share): most as
+/// means by mass, positions with their offsets, velocities by momentum, heat as a sum; where particles have
+/// energies a merged one gets the kinetic energy that its parts had about their centre. Vectors X_kj of bonds
+/// become those of the new particles by the old F (Memory::bonds), broken pairs stay broken, and new neighbours
+/// enter without misfit.
+///
+/// A split keeps mass, momentum and angular momentum to rounding, and the energy wherever the strain is that of
+/// one F: children lie at x + d and at X + F^-1 d, so that turned and stretched bodies store what they stored.
+/// Else a potential changes with the places of particles; what material vectors lose is their heat. Merging loses
+/// the angular momentum that the parts had about their centre: a particle has no spin, and to give it to others
+/// would take energy that nothing gives. All that changes is in Model::gains() of `next`, so that the balances
+/// of a run (Invariants::energy_balance() and the like) go on without a jump; the rest is after - before.
+///
 /// In a periodic box parts are taken by their nearest images. Scales of the layout are those of `model`.
 /// The integrator is made anew from there: Motion(next, remade.y, options, t).
+///
+/// Throws InputError where `next` has other laws; where a particle of a law that remembers places in the material
+/// was split without its deformation; where springs, which have one length, or corners of elements, of which
+/// there are four, are split or merged; and where particles of different bodies that have material vectors are
+/// merged.
 template <int Dim>
-Remade<Dim> remake(const Model<Dim>& model, std::span<const double> y,
-                   const Population<Dim>& population, Model<Dim>& next);
+Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Population<Dim>& population,
+                   Model<Dim>& next);
 
 /// `y` of `model` as the start of a run of its own of `next`, which has the same particles in another
 /// box, with other laws or other externals: the fields that both have, accounts and other fields at zero.
@@ -36,11 +48,11 @@ template <int Dim>
 std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
                              const Model<Dim>& next);
 
-extern template Remade<1> remake(const Model<1>&, std::span<const double>, const Population<1>&,
+extern template Remade<1> remake(Model<1>&, std::span<const double>, const Population<1>&,
                                  Model<1>&);
-extern template Remade<2> remake(const Model<2>&, std::span<const double>, const Population<2>&,
+extern template Remade<2> remake(Model<2>&, std::span<const double>, const Population<2>&,
                                  Model<2>&);
-extern template Remade<3> remake(const Model<3>&, std::span<const double>, const Population<3>&,
+extern template Remade<3> remake(Model<3>&, std::span<const double>, const Population<3>&,
                                  Model<3>&);
 extern template std::vector<double> restated(const Model<1>&, std::span<const double>,
                                              const Model<1>&);

@@ -51,7 +51,7 @@ class DensityPotentialTerm final : public Term<Dim> {
     const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     std::size_t pairs() const override;
     double reach() const override { return potentials_.range; }
-    void remember(Archive& archive) override;
+    void remember(Memory<Dim>& memory) override;
 
     const DensityPotentials& potentials() const { return potentials_; }
 

@@ -110,7 +110,10 @@ class MaterialVectors final : public Term<Dim> {
     std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
     std::size_t list_builds() const override;
-    void remember(Archive& archive) override;
+    void remember(Memory<Dim>& memory) override;
+    /// Of particles whose bonds are others now, what they store less is heat; where it were more, F stays.
+    void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
+                   const ConstState<Dim>& now) override;
     /// Once a run: that the tension is above the one that the penalty keeps stable. Looks at every 32nd state,
     /// because what grows takes longer than that. And when the first pairs break, and whenever twice as many have as
     /// at the last remark.
@@ -129,7 +132,7 @@ class MaterialVectors final : public Term<Dim> {
     const std::vector<double>& heat_of_particles() const;
     const BondBreaks& breaks() const;
     /// F of all particles, in their order; F_ab = d x_a / d X_b.
-    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const override;
 
     /// A particle's neighbour now, for observers and tests.
     struct Bond {

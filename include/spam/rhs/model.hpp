@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/archive.hpp>
 #include <spam/core/event.hpp>
-#include <spam/core/particles.hpp>
+#include <spam/core/memory.hpp>
 #include <spam/neighbors/box.hpp>
 #include <spam/physics/scheme.hpp>
 
@@ -60,6 +59,12 @@ class Model {
     /// Densities of all particles; empty for a model without density.
     virtual std::vector<double> density(std::span<const double> y) const;
 
+    /// F of all particles, N; F_ab = d x_a/d X_b. Empty where no law remembers places in the material; 1 of
+    /// particles whose laws do not.
+    virtual std::vector<Mat<Dim>> deformation_gradients(std::span<const double> /*y*/) const {
+        return {};
+    }
+
     /// What changes y between steps; for one run, and no longer than the model.
     virtual std::vector<Event> events() const { return {}; }
 
@@ -90,7 +95,27 @@ class Model {
     /// What the model knows beyond y: bodies, and what watch() remembers. After reading, the next rates
     /// are those of a model made anew: lists built before are forgotten, which a run that writes a
     /// checkpoint does as well, by reading it back.
-    virtual void remember(Archive& archive);
+    virtual void remember(Memory<Dim>& memory);
+    /// The same, written into an archive or read from it.
+    void remember(Archive& archive) {
+        Memory<Dim> memory(archive);
+        remember(memory);
+    }
+    /// After y and the memory of `before`, a model of other particles in state `was`, have been carried over to
+    /// this one and `y` (problem/remake.hpp): laws take up what follows from the change, and where they have a heat,
+    /// the energy that it takes from the motion. Throws InputError where a law forbids such a change.
+    virtual void take_over(const Model& /*before*/, std::span<const double> /*was*/,
+                           const Change<Dim>& /*change*/, std::span<const double> /*y*/) {}
+    /// What changes of particles have given so far, as accounts say what externals have.
+    struct Gains {
+        double work = 0.0;
+        Point<Dim> impulse = Point<Dim>::Zero();
+        Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1> angular_impulse =
+            Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1>::Zero();
+    };
+    /// Of all changes of particles before the model was made (problem/remake.hpp).
+    Gains& gains() { return gains_; }
+    const Gains& gains() const { return gains_; }  ///< see gains()
 
     /// Why velocity and position cannot be advanced in turn, as leapfrog does; empty where dx/dt = v
     /// and dv/dt depends on x alone and y holds nothing else.
@@ -143,6 +168,7 @@ class Model {
     Box<Dim> box_;
     FieldLayout<Dim> layout_;
     double time_scale_ = 1.0;
+    Gains gains_;
 
   protected:
     std::string failure_;

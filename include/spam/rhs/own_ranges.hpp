@@ -50,7 +50,7 @@ class OwnRanges final : public Term<Dim> {
     std::size_t pairs() const override;
     /// The largest range of the latest rates().
     double reach() const override { return reach_; }
-    void remember(Archive& archive) override;
+    void remember(Memory<Dim>& memory) override;
 
     const Fluid& fluid() const { return fluid_; }
     const VariableRangeScheme& scheme() const { return scheme_; }

@@ -46,7 +46,7 @@ class PairTerm : public Term<Dim> {
     std::size_t pairs() const override;
     double reach() const override { return law_.range; }
     std::size_t list_builds() const override;
-    void remember(Archive& archive) override;
+    void remember(Memory<Dim>& memory) override;
 
   private:
     std::vector<NumberKind> record_kinds() const;

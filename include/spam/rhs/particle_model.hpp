@@ -95,8 +95,13 @@ class ParticleModel : public Model<Dim> {
     std::vector<Remark> watch(double t, std::span<const double> y) final;
     /// N numbers; terms are told.
     void set_bodies(std::vector<std::int32_t> bodies) final;
+    using Model<Dim>::remember;
     /// Bodies, and what every term remembers.
-    void remember(Archive& archive) final;
+    void remember(Memory<Dim>& memory) final;
+    /// Of each particle that of the last term that knows one, 1 where none does; empty where none knows any.
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const final;
+    void take_over(const Model<Dim>& before, std::span<const double> was, const Change<Dim>& change,
+                   std::span<const double> y) final;
     /// Whether a term settles, or the box has walls.
     bool settles() const final;
     /// Whether all terms that settle do so seldom, and the box has no walls.

@@ -84,7 +84,7 @@ class SmoothParticles final : public Term<Dim> {
     /// denominator (physics/gauss_constraint.hpp).
     std::vector<Remark> watch(double t, std::span<const double> y) override;
     void set_bodies() override;
-    void remember(Archive& archive) override;
+    void remember(Memory<Dim>& memory) override;
     bool settle(double t, const State<Dim>& state) override;
 
     /// The choices it was made with.

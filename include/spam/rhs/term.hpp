@@ -93,7 +93,14 @@ class Term {
     /// As the model's functions of these names.
     virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
     virtual void set_bodies() {}
-    virtual void remember(Archive&) {}
+    virtual void remember(Memory<Dim>&) {}
+    /// F of the particles of the term; empty where it remembers no places in the material.
+    virtual std::vector<Mat<Dim>> deformation_gradients(std::span<const double>) const {
+        return {};
+    }
+    /// Model::take_over(); `before` is the same law, was and now are states of the particles of either.
+    virtual void take_over(const Term& /*before*/, const ConstState<Dim>& /*was*/,
+                           const Change<Dim>& /*change*/, const ConstState<Dim>& /*now*/) {}
 
     const Selection<Dim>& among() const { return among_; }
     void bodies_changed() {

@@ -65,7 +65,7 @@ class TotalLagrangian final : public Term<Dim> {
 
     const TotalLagrangianScheme& scheme() const { return scheme_; }
     /// F of all particles, in their order; F_ab = d x_a / d X_b.
-    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const;
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const override;
 
   private:
     struct Stresses;
@@ -101,9 +101,6 @@ class TotalLagrangianModel final : public ParticleModel<Dim> {
           law(this->template add_term<TotalLagrangian<Dim>>(material, scheme)) {}
 
     const TotalLagrangianScheme& scheme() const { return law.scheme(); }
-    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const {
-        return law.deformation_gradients(y);
-    }
 
     TotalLagrangian<Dim>& law;
 };

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/memory.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace spam {
+namespace {
+
+template <int Dim>
+Vec<Dim> vector_of(const Point<Dim>& r) {
+    Vec<Dim> v;
+    std::copy_n(r.data(), Dim, v.c.begin());
+    return v;
+}
+
+}  // namespace
+
+template <int Dim>
+Change<Dim> Change<Dim>::among(std::size_t first, std::size_t count, std::size_t was,
+                               std::size_t number) const {
+    Change some;
+    const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(first);
+    some.parts.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    some.back.assign(back.begin() + static_cast<std::ptrdiff_t>(was),
+                     back.begin() + static_cast<std::ptrdiff_t>(was + number));
+    some.id = id.subspan(was, number);
+    for (auto& made_of : some.parts)
+        for (Part& part : made_of) {
+            if (part.particle < was || part.particle >= was + number)
+                throw InputError(fmt::format(
+                    "population: particle {} goes to other laws than those it remembers; number "
+                    "the particles of each law of the next model as they are now",
+                    id[part.particle]));
+            part.particle -= static_cast<std::uint32_t>(was);
+        }
+    return some;
+}
+
+template <int Dim>
+void Change<Dim>::carry(Field field, const double* old, double* made,
+                        std::size_t components) const {
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (std::size_t c = 0; c < components; ++c) {
+            const auto of = [&](const Part& part) { return old[part.particle * components + c]; };
+            const Part& first = parts[k].front();
+            double& value = made[k * components + c];
+            value = 0.0;
+            if (field.quantity() == Quantity::position)
+                value = of(first) + first.offset[static_cast<Eigen::Index>(c)];
+            else if (field.share() == Share::equal)
+                value = of(first);
+            else
+                for (const Part& part : parts[k])
+                    value += (field.share() == Share::sum ? part.of : part.share) * of(part);
+        }
+}
+
+template <int Dim>
+void Memory<Dim>::begin(Field field, Holder holder) {
+    fields_.emplace_back(field, holder);
+    std::string name(field.name());
+    archive_(name);
+    if (name != field.name())
+        throw InputError(
+            fmt::format("'{}' was remembered where '{}' was expected", name, field.name()));
+}
+
+template <int Dim>
+void Memory<Dim>::expect(Field field, bool fits) const {
+    if (!fits)
+        throw InputError(fmt::format("the '{}' that was remembered is not that of these particles",
+                                     field.name()));
+}
+
+template <int Dim>
+void Memory<Dim>::laws(std::string names) {
+    const std::string own = names;
+    archive_(names);
+    if (names == own) return;
+    throw InputError(
+        carries() ? "population: the next model must be made of the same laws in the same order"
+                  : "what was remembered is not of these laws");
+}
+
+template <int Dim>
+void Memory<Dim>::among(std::size_t first, std::size_t count) {
+    std::size_t was = first;
+    was_ = count_ = count;
+    archive_(was, was_);
+    if (!carries()) {
+        if (was != first || was_ != count)
+            throw InputError("what was remembered is not of these particles");
+        return;
+    }
+    change_ = whole_->among(first, count, was, was_);
+}
+
+template <int Dim>
+void Memory<Dim>::particles(Field field, std::vector<double>& values) {
+    begin(field, Holder::particle);
+    if (!reading()) return archive_(values);
+    std::vector<double> old;
+    archive_(old);
+    const std::size_t components = field.components<Dim>();
+    expect(field, old.size() == components * was_);
+    if (!carries()) values = std::move(old);
+    if (!carries() || field.role() == Role::derived) return;
+    values.resize(components * count_);
+    change_.carry(field, old.data(), values.data(), components);
+}
+
+template <int Dim>
+void Memory<Dim>::particles(Field field, std::vector<std::int32_t>& labels) {
+    begin(field, Holder::particle);
+    if (!reading()) return archive_(labels);
+    std::vector<std::int32_t> old;
+    archive_(old);
+    expect(field, old.size() == was_);
+    if (!carries()) labels = std::move(old);
+    if (!carries() || field.role() == Role::derived) return;
+    labels.clear();
+    for (const auto& parts : change_.parts) {
+        const auto first = parts.front().particle;
+        labels.push_back(old[first]);
+        for (const auto& part : parts)
+            if (old[part.particle] != old[first])
+                throw InputError(
+                    fmt::format("population: particles {} and {} differ in '{}' and cannot be one",
+                                change_.id[first], change_.id[part.particle], field.name()));
+    }
+}
+
+template <int Dim>
+std::vector<std::vector<std::uint32_t>> Memory<Dim>::heirs() const {
+    std::vector<std::vector<std::uint32_t>> heirs(was_);
+    for (std::uint32_t k = 0; k < change_.parts.size(); ++k)
+        for (const auto& part : change_.parts[k]) heirs[part.particle].push_back(k);
+    return heirs;
+}
+
+template <int Dim>
+void Memory<Dim>::bonds(std::span<const Field> fields, BondNumbers& bonds) {
+    std::size_t stride = 0;
+    for (const Field field : fields) {
+        begin(field, Holder::bond);
+        stride += field.components<Dim>();
+    }
+    archive_(bonds.count, bonds.partners, bonds.numbers);
+    if (!reading()) return;
+    const std::size_t all = std::accumulate(bonds.count.begin(), bonds.count.end(), std::size_t{0});
+    expect(fields.front(),
+           bonds.count.size() == was_ && bonds.partners.size() == all &&
+               bonds.numbers.size() == stride * all &&
+               std::ranges::all_of(bonds.partners, [&](std::uint32_t j) { return j < was_; }));
+    if (!carries()) return;
+
+    std::vector<std::size_t> start(was_ + 1, 0);
+    std::inclusive_scan(bonds.count.begin(), bonds.count.end(), start.begin() + 1, std::plus<>(),
+                        std::size_t{0});
+    const auto heirs = this->heirs();
+    BondNumbers made;
+    struct Sum {
+        std::uint32_t partner;
+        double weight;
+        std::vector<double> numbers;
+    };
+    for (std::uint32_t k = 0; k < change_.parts.size(); ++k) {
+        std::vector<Sum> row;                     // in the order in which the old row had them
+        std::map<std::uint32_t, std::size_t> at;  // of a partner
+        for (const auto& own : change_.parts[k])
+            for (std::size_t n = start[own.particle]; n < start[own.particle + 1]; ++n) {
+                const std::uint32_t b = bonds.partners[n];
+                if (b == own.particle) continue;  // a vacancy
+                for (const std::uint32_t j : heirs[b]) {
+                    if (j == k) continue;
+                    const auto& theirs =
+                        *std::ranges::find(change_.parts[j], b, &Change<Dim>::Part::particle);
+                    const double weight = own.share * theirs.share;
+                    const auto [found, is_new] = at.try_emplace(j, row.size());
+                    if (is_new) row.push_back({j, 0.0, std::vector<double>(stride, 0.0)});
+                    Sum& sum = row[found->second];
+                    sum.weight += weight;
+                    const Vec<Dim> way =
+                        change_.back[own.particle] * vector_of<Dim>(theirs.offset - own.offset);
+                    std::size_t c = 0;
+                    for (const Field field : fields)
+                        for (std::size_t a = 0; a < field.components<Dim>(); ++a, ++c)
+                            sum.numbers[c] += weight * (bonds.numbers[n * stride + c] +
+                                                        (field.quantity() == Quantity::position
+                                                             ? way[static_cast<int>(a)]
+                                                             : 0.0));
+                }
+            }
+        made.count.push_back(static_cast<std::uint32_t>(row.size()));
+        for (const Sum& sum : row) {
+            made.partners.push_back(sum.partner);
+            for (const double number : sum.numbers) made.numbers.push_back(number / sum.weight);
+        }
+    }
+    bonds = std::move(made);
+}
+
+template <int Dim>
+void Memory<Dim>::pairs(Field field, std::vector<std::array<std::uint32_t, 2>>& pairs) {
+    begin(field, Holder::bond);
+    archive_(pairs);
+    if (!reading()) return;
+    expect(field, std::ranges::all_of(
+                      pairs, [&](const auto& pair) { return pair[0] < was_ && pair[1] < was_; }));
+    if (!carries()) return;
+    const auto heirs = this->heirs();
+    std::vector<std::array<std::uint32_t, 2>> made;
+    for (const auto& [a, b] : pairs)
+        for (const std::uint32_t k : heirs[a])
+            for (const std::uint32_t j : heirs[b])
+                if (k != j) made.push_back({std::min(k, j), std::max(k, j)});
+    std::ranges::sort(made);
+    made.erase(std::unique(made.begin(), made.end()), made.end());
+    pairs = std::move(made);
+}
+
+template struct Change<1>;
+template struct Change<2>;
+template struct Change<3>;
+template class Memory<1>;
+template class Memory<2>;
+template class Memory<3>;
+
+}  // namespace spam
