@@ -5,7 +5,7 @@
 #include <spam/physics/quadrilateral.hpp>
 #include <spam/setup/meshes.hpp>
 
-#include <Eigen/SVD>
+#include <gsl/gsl_linalg.h>
 
 #include <cmath>
 
@@ -62,6 +62,24 @@ Eigen::MatrixXd stress_rates(ParticleModel<2>& mesh, const Points<2>& v) {
 
 }  // namespace
 
+namespace {
+
+/// Descending. By GSL: of Eigen's decomposition this one function would be compiled longer than any other file.
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& of) {
+    Eigen::MatrixXd rows = of;  // GSL counts by rows, of which it wants as many as columns or more
+    if (rows.cols() < rows.rows()) rows.transposeInPlace();
+    const auto n = static_cast<std::size_t>(rows.rows());
+    Eigen::MatrixXd right(rows.rows(), rows.rows());
+    Eigen::VectorXd values(rows.rows()), work(rows.rows());
+    auto a = gsl_matrix_view_array(rows.data(), static_cast<std::size_t>(rows.cols()), n);
+    auto v = gsl_matrix_view_array(right.data(), n, n);
+    auto s = gsl_vector_view_array(values.data(), n), w = gsl_vector_view_array(work.data(), n);
+    gsl_linalg_SV_decomp(&a.matrix, &v.matrix, &s.vector, &w.vector);
+    return values;
+}
+
+}  // namespace
+
 double stress_rate(ParticleModel<2>& mesh, const Points<2>& v) {
     return stress_rates(mesh, v).cwiseAbs().maxCoeff();
 }
@@ -90,7 +108,7 @@ ZeroModes zero_modes(ParticleModel<2>& mesh) {
         v(k % 2, k / 2) = 1.0;
         all.col(k) = stress_rates(mesh, v).reshaped();
     }
-    const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(all).singularValues();
+    const Eigen::VectorXd values = singular_values(all);
     Eigen::Index rank = 0;
     while (rank < values.size() && values[rank] > 1e-9 * values[0]) ++rank;
     const double next = rank < values.size() ? values[rank] : 0.0;
