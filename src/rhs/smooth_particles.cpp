@@ -18,8 +18,7 @@
 namespace spam {
 namespace {
 
-constexpr FieldKind gauss_works_kind{"gauss_works", Rank::scalar, Role::memory, "1"};
-
+constexpr FieldKind works_kind{"gauss_works", Rank::scalar, Role::memory, "1"};
 Scheme validated(const Scheme& scheme, int dim) {
     scheme.validate(dim);
     return scheme;
@@ -256,7 +255,7 @@ std::vector<Remark> SmoothParticles<Dim>::watch(double t, std::span<const double
 
 template <int Dim>
 void SmoothParticles<Dim>::remember(Memory<Dim>& memory) {
-    memory.run(gauss_works_kind, gauss_works_);
+    memory.run(works_kind, gauss_works_);
     if (memory.reading()) packed_ = packed_with(ListUse::again_and_again);
 }
 
