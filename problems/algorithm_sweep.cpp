@@ -13,18 +13,10 @@
 // clumped (two particles nearer than 0.3 spacings), at most `turns` turns; the first turn is always
 // completed. One row of sweep.csv each. A sweep that was stopped, even by kill -9, goes on with the
 // same command.
-#include "reduced_units.hpp"
-#include <spam/diagnostics/shape.hpp>
+#include "common.hpp"
 #include <spam/io/study_table.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/problem/run_in_memory.hpp>
-#include <spam/spam.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <thread>
 
 namespace {
@@ -36,7 +28,7 @@ struct Parameters {
     int size = 8;
     double speed = 0.1, turns = 10.0, range = 3.0;
     double viscosity = 1.0, closest_approach = 0.7;
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int jobs = all_cores();
 
     double omega() const { return speed / size; }
     double turn() const { return 2.0 * pi / omega(); }
@@ -139,8 +131,7 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
                                                      const IntegratorOptions& integrator) {
     SmoothParticleModel<2> model(make_particles<2>(triangular_hexagon(p.size), 1.0),
                                  ElasticSolid::triangular_lattice(), scheme);
-    auto y0 = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
-                               rigid_rotation(p.omega()));
+    auto y0 = lattice_state(model, rigid_rotation(p.omega()));
     Plan<2> plan;
     plan.t_end = p.turns * p.turn();
     plan.output_every = p.turn() / 48.0;
@@ -188,12 +179,12 @@ void draw(Session& session, const Parameters& p, const std::vector<StudyTable::R
                                        words(row, "end").starts_with("whole") ? "+" : "",
                                        cell(row, "L_after_turn")));
     }
-    session.note_drawn(draw_heat_map(
-        session.plots_folder(), "sweep",
+    draw_heat_map(
+        session, "sweep",
         fmt::format("Turns until the hexagon (n = {}) is lost, and L/L(0) after one turn. Grey: at "
                     "the end more than half of L was lost",
                     p.size),
-        map));
+        map);
 }
 
 /// Best first, as a table in words.
@@ -229,15 +220,11 @@ int main(int argc, char** argv) {
     options.number("closest-approach", p.closest_approach,
                    "distance of closest approach of the combinations with reflection",
                    between(0.01, 1.0));
-    options.integer("jobs", p.jobs, "number of combinations computed at the same time",
-                    between(1, 1024));
-    options.exclude_from_case({"jobs"});
+    add_jobs_option(options, p.jobs, "number of combinations computed at the same time");
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke) {
-            if (!session.given("size")) p.size = 2;
-            if (!session.given("turns")) p.turns = 1.0;
-        }
+        session.smoke_default("size", p.size, 2);
+        session.smoke_default("turns", p.turns, 1.0);
         const auto schemes = combinations(p);
         std::vector<StudyTask> tasks;
         for (const Scheme& scheme : schemes) {

@@ -24,15 +24,10 @@
 //     --compare       the speeds of the lecture, one after the other
 //     --ends held     the outermost particles of the plate are held, so that it bends and is torn
 #include "ball_plate/impact.hpp"
-#include "reduced_units.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-namespace ball_plate {
 namespace {
+
+using namespace ball_plate;
 
 Plan<2> plan_of(const Session& session, const Parameters& p, Impact& impact) {
     Plan<2> plan;
@@ -40,16 +35,13 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Impact& impact) {
     plan.output_every = plan.t_end / 200.0;
     plan.snapshot_every = plan.t_end / 10.0;
     plan.record(columns_of(p));
-    const bool elements = p.matter.kind == MatterKind::elements;
-    for (const double part : {0.0, elements ? 0.1 : 0.2, elements ? 0.3 : 0.6, 1.0})
-        if (elements)
-            impact.frames.push_back({part * plan.t_end});
-        else
-            impact.drawn.push_back({part * plan.t_end});
-    if (elements)
-        plan.observe(keep_frames(impact.frames));
-    else
+    if (p.matter.kind == MatterKind::elements) {
+        impact.drawn = states_at<2>({0.0, 0.1, 0.3, 1.0}, plan.t_end);
+        plan.observe(keep_nearest<2>(impact.drawn, strains_of_elements));
+    } else {
+        impact.drawn = states_at<2>({0.0, 0.2, 0.6, 1.0}, plan.t_end);
         plan.observe(keep_nearest<2>(impact.drawn));
+    }
     return plan;
 }
 
@@ -57,14 +49,10 @@ void compute(Session& session, const Parameters& p) {
     std::vector<Impact> impacts;
     for (const double speed : p.compare ? speeds_of(p.matter.kind) : std::vector{p.speed}) {
         impacts.push_back(make_impact(session, p, speed));
-        if (p.compare) impacts.back().prefix = fmt::format("v_{:g}_", speed);
+        if (p.compare) impacts.back().call(fmt::format("v_{:g}", speed));
     }
-    std::vector<Case<2>> cases;
-    for (Impact& impact : impacts) {
-        std::string label = impact.prefix.substr(0, impact.prefix.rfind('_'));
-        cases.push_back({impact.model, impact.y0, plan_of(session, p, impact), std::move(label)});
-    }
-    const auto runs = session.run_all(std::move(cases));
+    const auto runs =
+        run_all(session, impacts, [&](Impact& impact) { return plan_of(session, p, impact); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, impacts[k], runs[k]);
     if (session.plots()) draw(session, p, impacts, runs);
 }
@@ -96,38 +84,30 @@ void add_options(Problem& problem, Parameters& p) {
             {"model"}, [&p] { return p.matter.kind != MatterKind::elements; },
             "has no meaning with {by}, whose ball and plate always repel each other; leave it "
             "out");
-    const auto repel = [&p] { return p.repulsion().has_value(); };
-    const std::string why = "has no meaning without a contact; give --contact repulsive";
-    options
-        .number("contact-energy", p.contact.energy, "energy e_c of the contact", between(1e-3, 1e3))
-        .only_when({"contact", "model"}, repel, why);
-    options
-        .number("contact-range", p.contact.range,
-                "distance at which particles of ball and plate touch, at most a spacing",
-                positive())
-        .only_when({"contact", "model"}, repel, why);
+    add_contact_options(options, p.contact, "particles of ball and plate");
+    options.only_when(
+        {"contact-energy", "contact-range"}, {"contact", "model"},
+        [&p] { return p.repulsion().has_value(); },
+        "has no meaning without a contact; give --contact repulsive");
     breaking::add_matter_options(
         problem, p.matter,
         {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam, MatterKind::elements});
 }
 
 }  // namespace
-}  // namespace ball_plate
 
 int main(int argc, char** argv) {
-    spam::Problem problem("ball_plate", "a ball that hits a plate, [HH07] 13", 0.1,
-                          "0.05, of molecules 0.0025, of embedded atoms 0.0125; shorter where "
-                          "cores, contact or speed need it");
-    problem.units(spam::lattice_units());
-    ball_plate::Parameters p;
-    ball_plate::add_options(problem, p);
-    return problem.main(argc, argv, [&](spam::Session& session) {
-        if (session.common().smoke) {
-            if (!session.given("radius")) p.radius = 3.0;
-            if (!session.given("columns")) p.columns = 20;
-            if (!session.given("rows")) p.rows = 4;
-        }
-        session.prefer_step(ball_plate::step_of(p));
-        ball_plate::compute(session, p);
+    Problem problem("ball_plate", "a ball that hits a plate, [HH07] 13", 0.1,
+                    "0.05, of molecules 0.0025, of embedded atoms 0.0125; shorter where "
+                    "cores, contact or speed need it");
+    problem.units(lattice_units());
+    Parameters p;
+    add_options(problem, p);
+    return problem.main(argc, argv, [&](Session& session) {
+        session.smoke_default("radius", p.radius, 3.0);
+        session.smoke_default("columns", p.columns, 20);
+        session.smoke_default("rows", p.rows, 4);
+        session.prefer_step(step_of(p));
+        compute(session, p);
     });
 }

@@ -16,16 +16,10 @@
 // form of all texts) cold particles would do work that they have no heat for, and the run stops at once; by
 // their own (the default) the energy is kept as exactly, and none becomes colder but by expanding.
 #include "blast/gas.hpp"
-#include <spam/picture/draw.hpp>
-#include <spam/spam.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-namespace blast {
 namespace {
+
+using namespace blast;
 
 constexpr double last_radius = 0.8;  // the edges are at 1
 
@@ -43,27 +37,25 @@ std::vector<Column<2>> columns_of(const Gas& gas) {
 }
 
 void report(Session& session, const Parameters& p, const Gas& gas, const RunRecord& run) {
-    const std::string prefix = gas.label.empty() ? "" : gas.label + "_";
+    const Findings findings(session, gas.prefix);
     const double t = run.statistics.t_end, R = gas.radius(t);
     const bool known = session.when_default({"gamma", "radius", "finer", "viscosity", "density",
                                              "kernel", "range"}) &&
                        p.scheme.work == Work::own && p.ratio >= 1e4 && run.complete && R > 0.6 &&
                        R < 0.9;
-    session.claim(
-        {prefix + "front", front(*gas.model, run.y), R, 0.03 * R, "Sedov's exact solution"},
-        known && gas.cells >= 48);
+    findings.claim("front", front(*gas.model, run.y), R, 0.03 * R, "Sedov's exact solution",
+                   known && gas.cells >= 48);
     const Rings rings = rings_of(*gas.model, run.y);
-    session.measure(prefix + "peak_density",
-                    *std::max_element(rings.density.begin(), rings.density.end()),
-                    fmt::format("exact: {:.4g}", (p.gamma + 1.0) / (p.gamma - 1.0)));
-    session.measure(prefix + "least_energy_ratio", run.history.smallest("least_energy_ratio"),
-                    "of the coldest particle at any time, by that at the start");
+    findings.measure("peak_density", *std::max_element(rings.density.begin(), rings.density.end()),
+                     fmt::format("exact: {:.4g}", (p.gamma + 1.0) / (p.gamma - 1.0)));
+    findings.measure("least_energy_ratio", run.history.smallest("least_energy_ratio"),
+                     "of the coldest particle at any time, by that at the start");
     const auto& energy = *std::find_if(run.drifts.begin(), run.drifts.end(),
                                        [](const Drift& d) { return d.name == "energy"; });
-    session.claim({prefix + "energy_change", energy.change, 0.0, 1e-9,
-                   "both forms of the work keep it, the integrator to its accuracy"},
-                  known && !session.given("dt") && !session.given("integrator"));
-    session.check_promises(run, prefix);
+    findings.claim("energy_change", energy.change, 0.0, 1e-9,
+                   "both forms of the work keep it, the integrator to its accuracy",
+                   known && !session.given("dt") && !session.given("integrator"));
+    findings.check_promises(run);
 }
 
 /// Radii in all runs over time, and profiles at the end.
@@ -72,27 +64,19 @@ void draw(Session& session, const Parameters& p, const std::vector<Gas>& gases,
     const double t = runs.back().statistics.t_end;
     const Gas& last = gases[runs.size() - 1];
     const double R = last.radius(t), D = 0.5 * R / t, g = p.gamma;
-    std::vector<CurvePanel> panels{{"", "t", "radius of the front", false, {}},
-                                   {"", "r", "density", false, {}},
-                                   {"", "r", "velocity", false, {}},
-                                   {"", "r", "pressure", false, {}}};
+    std::vector<CurvePanel> panels{frame("", "t", "radius of the front"), frame("", "r", "density"),
+                                   frame("", "r", "velocity"), frame("", "r", "pressure")};
     for (auto& panel : panels) panel.curves.push_back({"exact", {}, {}});
     for (int k = 0; k <= 400; ++k) {
-        panels[0].curves[0].x.push_back(t * k / 400.0);
-        panels[0].curves[0].y.push_back(last.radius(t * k / 400.0));
+        add_point(panels[0].curves[0], t * k / 400.0, last.radius(t * k / 400.0));
         const auto s = last.exact.at(k / 400.0);
         const double scale[] = {(g + 1.0) / (g - 1.0) * s.density, 2.0 / (g + 1.0) * D * s.velocity,
                                 2.0 / (g + 1.0) * D * D * s.pressure};
-        for (std::size_t q = 0; q < 3; ++q) {
-            panels[q + 1].curves[0].x.push_back(R * k / 400.0);
-            panels[q + 1].curves[0].y.push_back(scale[q]);
-        }
+        for (std::size_t q = 0; q < 3; ++q)
+            add_point(panels[q + 1].curves[0], R * k / 400.0, scale[q]);
     }
     for (std::size_t q = 0; q < 3; ++q)  // the shock, and the gas before it
-        for (const double r : {R, 1.0}) {
-            panels[q + 1].curves[0].x.push_back(r);
-            panels[q + 1].curves[0].y.push_back(q == 0 ? 1.0 : 0.0);
-        }
+        for (const double r : {R, 1.0}) add_point(panels[q + 1].curves[0], r, q == 0 ? 1.0 : 0.0);
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const Rings rings = rings_of(*gases[k].model, runs[k].y);
         const std::vector<double>* const found[] = {&rings.density, &rings.velocity,
@@ -108,43 +92,37 @@ void draw(Session& session, const Parameters& p, const std::vector<Gas>& gases,
     }
     const auto title =
         fmt::format("A plane blast, γ = {:g}, pressures {:g} : 1, at t = {:.3g}", g, p.ratio, t);
-    session.note_drawn(draw_curves(session.plots_folder(), "profiles", title, panels));
+    draw_curves(session, "profiles", title, panels);
     const ConstState<2> state(last.model->layout(), runs.back().y);
-    session.note_drawn(draw_configurations(session.plots_folder(), "density", title,
-                                           {{fmt::format("{0} x {0} particles", last.cells),
-                                             state.position(),
-                                             last.model->density(runs.back().y),
-                                             {}}},
-                                           1, "density"));
+    draw_configurations(session, "density", title,
+                        {{fmt::format("{0} x {0} particles", last.cells),
+                          state.position(),
+                          last.model->density(runs.back().y),
+                          {}}},
+                        1, "density");
 }
 
 void run(Session& session, const Parameters& p) {
-    std::vector<int> sizes{p.cells};
-    if (!p.single) sizes.push_back(2 * p.cells);
     std::vector<Gas> gases;
-    for (const int cells : sizes) {
+    for (const int cells : {p.cells, 2 * p.cells}) {
         gases.push_back(make_gas(p, cells, session.common().dry_run));
-        if (sizes.size() > 1) gases.back().label = fmt::format("{}", cells);
+        if (p.single) break;
+        gases.back().call(fmt::format("{}", cells));
     }
-    session.prefer_step(p.step(sizes.back()));
-    std::vector<Case<2>> cases;
-    for (const auto& gas : gases) {
+    session.prefer_step(p.step(gases.back().cells));
+    const auto runs = run_all(session, gases, [&](const Gas& gas) {
         Plan<2> plan;
-        plan.t_end = session.common().t_end.value_or(
-            gas.time(session.common().smoke ? 2.0 * p.radius : last_radius));
+        plan.t_end = session.end(gas.time(last_radius), gas.time(2.0 * p.radius));
         if (!gas.y0.empty()) plan.record(columns_of(gas));
-        cases.push_back({gas.model, gas.y0, std::move(plan), gas.label});
-    }
-    const auto runs = session.run_all(std::move(cases));
+        return plan;
+    });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, gases[k], runs[k]);
     if (session.plots() && !runs.empty()) draw(session, p, gases, runs);
 }
 
 }  // namespace
-}  // namespace blast
 
 int main(int argc, char** argv) {
-    using namespace blast;
     Problem problem("blast", "a plane blast against Sedov's exact solution", 0.001,
                     "0.05 spacings by the speed of sound in the hot gas");
     problem.units(reduced_units("the edge of the quarter, the density of the gas and the energy"));
@@ -161,8 +139,7 @@ int main(int argc, char** argv) {
     options.number("gamma", p.gamma, "ratio of the heat capacities", between(1.05, 5.0));
     options.number("viscosity", p.scheme.viscosity, "coefficient alpha of the artificial viscosity",
                    non_negative());
-    options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
-                            "density as a sum over neighbours, or by the continuity equation");
+    add_density_option(options, p.scheme.density);
     options.choice<Work>(
         "work", p.scheme.work, {Work::mean, Work::own},
         "what changes a particle's energy: work by the mean pressure of each pair, or by "
@@ -177,7 +154,7 @@ int main(int argc, char** argv) {
     options.flag("single", p.single,
                  "compute this number of particles only, not four times as many");
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 20;
+        session.smoke_default("cells", p.cells, 20);
         run(session, p);
     });
 }

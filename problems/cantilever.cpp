@@ -21,14 +21,10 @@
 //
 // SPHinXsys's stored result of this case is 0.2747 (total Lagrangian), 0.2859 (updated).
 #include "cantilever/plate.hpp"
-#include <spam/core/error.hpp>
 
-#include <fmt/format.h>
-
-#include <cmath>
-
-namespace cantilever {
 namespace {
+
+using namespace cantilever;
 
 /// The amplitude of the thin beam's motion by the length.
 double amplitude(const Parameters& p) {
@@ -38,60 +34,50 @@ double amplitude(const Parameters& p) {
 
 void report(Session& session, const Parameters& p, const std::vector<Plate>& plates,
             const std::vector<RunRecord>& runs) {
+    const Findings findings(session);
     std::vector<double> periods;
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        const std::string& prefix = plates[k].prefix;
+        const Findings of_plate(session, plates[k].prefix);
         const History& h = runs[k].history;
         const double T = period_of(p, h),
                      derived = layered_period(p.beam, plates[k].layers, p.range());
-        session.check_promises(runs[k], prefix);
-        session.measure(prefix + "largest_tip", h.largest("tip"));
+        of_plate.check_promises(runs[k]);
+        of_plate.measure("largest_tip", h.largest("tip"));
         if (!(T > 0.0)) continue;
         periods.push_back(T);
         const bool known = runs[k].complete && p.lagrangian() && p.gravity == 0.0 &&
                            plates[k].layers >= 10 && p.range() >= 1.5 && p.kappa() <= 0.1 &&
                            amplitude(p) < 0.7 && p.beam.length >= 8.0 * p.beam.thickness &&
                            runs[k].statistics.t_end >= 1.9 * T;
-        session.claim({prefix + "period", T, derived, 0.01 * derived,
-                       "derived for layers (cantilever/beam.hpp)"},
-                      known);
-        session.measure(prefix + "period_by_beam", T / p.beam.period(),
-                        "by that of a beam with shear and rotary inertia");
+        of_plate.claim("period", T, derived, 0.01 * derived,
+                       "derived for layers (cantilever/beam.hpp)", known);
+        of_plate.measure("period_by_beam", T / p.beam.period(),
+                         "by that of a beam with shear and rotary inertia");
     }
-    session.measure("thin_period", p.beam.thin_period(), "Landau & Lifshitz");
-    session.measure("beam_period", p.beam.period(), "with shear and rotary inertia");
+    findings.measure("thin_period", p.beam.thin_period(), "Landau & Lifshitz");
+    findings.measure("beam_period", p.beam.period(), "with shear and rotary inertia");
     if (periods.size() == 3)
-        session.claim(
-            {"period_of_many_layers", limit_of_doubling(periods[0], periods[1], periods[2]),
-             p.beam.period(), 0.01 * p.beam.period(), "beam with shear and rotary inertia"},
-            p.lagrangian() && p.gravity == 0.0 && p.range() <= 2.0 && p.layers >= 10 &&
-                amplitude(p) < 0.7 && !session.common().smoke);
+        findings.claim("period_of_many_layers",
+                       limit_of_doubling(periods[0], periods[1], periods[2]), p.beam.period(),
+                       0.01 * p.beam.period(), "beam with shear and rotary inertia",
+                       p.lagrangian() && p.gravity == 0.0 && p.range() <= 2.0 && p.layers >= 10 &&
+                           amplitude(p) < 0.7 && !session.common().smoke);
 }
 
 void compute(Session& session, const Parameters& p) {
-    std::vector<Plate> plates;
-    const std::vector<int> counts = p.compare
-                                        ? std::vector<int>{p.layers / 2, p.layers, 2 * p.layers}
-                                        : std::vector<int>{p.layers};
-    for (const int layers : counts) {
-        plates.push_back(make_plate(p, layers));
-        if (p.compare) plates.back().prefix = fmt::format("{}_", layers);
-    }
-    session.prefer_step(0.4 * p.spacing(counts.back()) / p.beam.wave_speed());
-    std::vector<Case<2>> cases;
-    for (auto& plate : plates) {
+    auto plates = by_size(p.layers, p.compare, [&](int layers) { return make_plate(p, layers); });
+    session.prefer_step(0.4 * p.spacing(plates.back().layers) / p.beam.wave_speed());
+    const auto runs = run_all(session, plates, [&](Plate& plate) {
         Plan<2> plan;
         const double T = p.beam.period();
-        plan.t_end = session.common().t_end.value_or((session.common().smoke ? 0.1 : 2.4) * T);
+        plan.t_end = session.end(2.4 * T, 0.1 * T);
         plan.output_every = plan.t_end / 240.0;
         plan.snapshot_every = plan.t_end / 24.0;
         plan.record({tip_column(*plate.model)});
-        for (const double part : {0.0, 0.3, 0.5, 0.8}) plate.drawn.push_back({part * T});
+        plate.drawn = states_at<2>({0.0, 0.3, 0.5, 0.8}, T);
         plan.observe(keep_nearest<2>(plate.drawn));
-        cases.push_back({plate.model, plate.y0, std::move(plan),
-                         p.compare ? fmt::format("{}", plate.layers) : ""});
-    }
-    const auto runs = session.run_all(std::move(cases));
+        return plan;
+    });
     report(session, p, plates, runs);
     if (session.plots() && !runs.empty()) draw(session, p, plates, runs);
 }
@@ -109,61 +95,43 @@ void add_options(Options& options, Parameters& p) {
                    between(1e-6, 0.5));
     options.number("gravity", p.gravity, "acceleration downwards", between(-1e30, 1e30))
         .unit("m/s^2");
-    options.choice<Formulation>(
-        "formulation", p.formulation,
-        {Formulation::total_lagrangian, Formulation::updated, Formulation::material_vectors},
-        "sums over the initial neighbours, over the present ones, or over "
-        "the present ones with a memory");
+    p.add_formulation_option(options);
     options.number("range", p.given_range,
                    "range of the weight function, in spacings (default 2; 2.6 for updated)",
                    between(1.2, 6.0));
-    options
-        .number("penalty", p.penalty,
-                "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-                "material_vectors (default 2)",
-                between(0.0, 100.0))
-        .only_when(
-            {"formulation"}, [&p] { return p.remembers(); },
-            "has no meaning for --formulation updated; leave it out");
-    options
-        .number("viscosity", p.viscosity, "alpha of von Neumann's artificial viscosity",
-                between(0.0, 100.0))
-        .only_when(
-            {"formulation"}, [&p] { return !p.remembers(); },
-            "has no meaning for {by}; leave it out");
+    p.add_constants(options);
     options.flag("compare", p.compare, "compute half and twice as many layers as well");
 }
 
 void refuse_impossible(const Parameters& p) {
     if (!(p.beam.length >= 3.0 * p.beam.thickness))
-        throw InputError(fmt::format(
+        refuse(
             "length: {:g} is less than three times the thickness {:g}, which is a block and no plate; "
             "give a longer --length or a smaller --thickness",
-            p.beam.length, p.beam.thickness));
+            p.beam.length, p.beam.thickness);
     if (!(p.beam.length <= 1000.0 * p.beam.thickness))
-        throw InputError(fmt::format(
+        refuse(
             "length: {:g} is more than a thousand times the thickness {:g}; give a shorter --length "
             "or a larger --thickness",
-            p.beam.length, p.beam.thickness));
+            p.beam.length, p.beam.thickness);
     if (p.compare && p.layers < 6)
-        throw InputError(fmt::format(
+        refuse(
             "layers: --compare computes half of {} as well, and three are the fewest; give 6 or more",
-            p.layers));
+            p.layers);
 }
 
 }  // namespace
-}  // namespace cantilever
 
 int main(int argc, char** argv) {
-    spam::Problem problem("cantilever", "an oscillating plate against the theory of beams", 0.1,
-                          "0.4 spacings by the speed of waves");
+    Problem problem("cantilever", "an oscillating plate against the theory of beams", 0.1,
+                    "0.4 spacings by the speed of waves");
     problem.units(
         {.length = "m", .mass = "kg", .time = "s", .stress = "Pa", .of_unit_thickness = true});
-    cantilever::Parameters p;
-    cantilever::add_options(problem.options(), p);
-    return problem.main(argc, argv, [&](spam::Session& session) {
-        if (session.common().smoke && !session.given("layers")) p.layers = p.compare ? 6 : 3;
-        cantilever::refuse_impossible(p);
-        cantilever::compute(session, p);
+    Parameters p;
+    add_options(problem.options(), p);
+    return problem.main(argc, argv, [&](Session& session) {
+        session.smoke_default("layers", p.layers, p.compare ? 6 : 3);
+        refuse_impossible(p);
+        compute(session, p);
     });
 }

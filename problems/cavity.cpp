@@ -12,12 +12,7 @@
 //     |  <-  <-  <-  |
 //      ==============           at rest
 #include "cavity/centre_line.hpp"
-#include "reduced_units.hpp"
 #include "taylor_green/stirred_fluid.hpp"
-#include <spam/picture/draw.hpp>
-#include <spam/problem/nearest_state.hpp>
-
-#include <fmt/format.h>
 
 using namespace spam;
 using namespace cavity;
@@ -28,13 +23,9 @@ namespace {
 /// Until the end, L/U each: after ten the flow is steady but for some .004 of noise.
 constexpr double turns = 12.0;
 
-struct Flow {
-    double L, speed;
-    bool ghias;  ///< it is the flow of Ghia, Ghia and Shin
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0;
-    std::string label{};
-    std::vector<NearestState<2>> drawn{};
+struct Flow : Variant<2> {
+    double L = 0.0, speed = 0.0;
+    bool ghias = false;  ///< it is the flow of Ghia, Ghia and Shin
     std::shared_ptr<CentreLine> line{};
 
     double turn() const { return L / speed; }
@@ -57,7 +48,10 @@ Flow make_flow(const Parameters& p, int cells, bool only_described) {
     const auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(L, L),
                                      {{"moving", fmt::format("moving:{}", p.speed)}});
     auto model = stirred::make_model(p, cells, box);
-    Flow flow{L, p.speed, p.reynolds == 100.0 && under_a_lid(box, p.speed), nullptr, {}};
+    Flow flow;
+    flow.L = L;
+    flow.speed = p.speed;
+    flow.ghias = p.reynolds == 100.0 && under_a_lid(box, p.speed);
     if (!only_described) {
         const Points<2>& x = model->particles().reference_position;
         flow.y0 = model->state(x, Points<2>::Zero(2, x.cols()));
@@ -78,8 +72,7 @@ Column<2> stirred_column(double speed) {
 
 Plan<2> plan_of(const Session& session, const Parameters& p, Flow& flow) {
     Plan<2> plan;
-    plan.t_end =
-        session.common().t_end.value_or((session.common().smoke ? 0.05 : turns) * flow.turn());
+    plan.t_end = session.end(turns * flow.turn(), 0.05 * flow.turn());
     plan.snapshot_every = plan.t_end / 10.0;
     plan.output_every = plan.t_end / 100.0;
     plan.record({stirred_column(p.speed)});
@@ -87,44 +80,39 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Flow& flow) {
     flow.line =
         std::make_shared<CentreLine>(p.scheme, flow.L, p.speed, (5.0 / 6.0 - 1e-9) * plan.t_end);
     plan.observe(flow.line->observer(flow.ghias));
-    for (const double part : {0.1, 1.0}) flow.drawn.push_back({part * plan.t_end});
+    flow.drawn = states_at<2>({0.1, 1.0}, plan.t_end);
     plan.observe(keep_nearest(flow.drawn));
     return plan;
 }
 
 /// Mean force of a wall over the last sixth of the run, by U^2 L.
 double drag(const Flow& flow, const RunRecord& run, const std::string& impulse) {
-    const double until = run.history.last("t"), since = 5.0 / 6.0 * until;
-    return (run.history.last(impulse) - run.history.at(since, impulse)) /
-           (until - run.history.at(since, "t")) / (flow.speed * flow.speed * flow.L);
+    return run.history.mean_rate(impulse, 5.0 / 6.0) / (flow.speed * flow.speed * flow.L);
 }
 
 void report(Session& session, const Flow& flow, const RunRecord& run) {
-    const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
+    const Findings findings(session, flow.prefix);
     const bool known = session.when_default(stirred::decisive_options()) && flow.ghias &&
                        run.complete && flow.L >= 40.0 &&
                        run.statistics.t_end >= 0.99 * turns * flow.turn();
     if (flow.ghias) {
         const auto u = flow.line->mean();
         for (std::size_t k = 0; k < ghia().size(); ++k)
-            session.claim({fmt::format("{}u_at_{:.4f}", prefix, ghia()[k].y), u[k], ghia()[k].u,
-                           0.03, "Ghia, Ghia and Shin 1982"},
-                          known);
-        session.measure(prefix + "off_ghia", CentreLine::off_ghia(u),
-                        "the largest of these differences");
-        session.claim({prefix + "off_converged", CentreLine::off_converged(u), 0.0, 0.015,
-                       "largest difference, Marchi, Suero and Araki 2009"},
-                      known);
+            findings.claim(fmt::format("u_at_{:.4f}", ghia()[k].y), u[k], ghia()[k].u, 0.03,
+                           "Ghia, Ghia and Shin 1982", known);
+        findings.measure("off_ghia", CentreLine::off_ghia(u), "the largest of these differences");
+        findings.claim("off_converged", CentreLine::off_converged(u), 0.0, 0.015,
+                       "largest difference, Marchi, Suero and Araki 2009", known);
     }
-    session.measure(prefix + "stirred", run.history.last("stirred"), "v^2/U^2 in the mean");
+    findings.measure("stirred", run.history.last("stirred"), "v^2/U^2 in the mean");
     for (const bool upper : {false, true})
         if (const std::string side = Sides::name(1, upper);
             run.complete && !flow.model->box().wall(1, upper).open())
-            session.measure(prefix + "drag_" + side, drag(flow, run, "impulse_" + side + "_x"),
-                            "force along x by that wall, by U^2 L, over the last sixth");
-    session.measure(prefix + "reflections", static_cast<double>(flow.model->reflections()),
-                    "particles that crossed a wall");
-    session.check_promises(run, prefix);
+            findings.measure("drag_" + side, drag(flow, run, "impulse_" + side + "_x"),
+                             "force along x by that wall, by U^2 L, over the last sixth");
+    findings.measure("reflections", static_cast<double>(flow.model->reflections()),
+                     "particles that crossed a wall");
+    findings.check_promises(run);
 }
 
 void draw_profiles(Session& session, const Parameters& p, const std::vector<Flow>& flows,
@@ -132,21 +120,18 @@ void draw_profiles(Session& session, const Parameters& p, const std::vector<Flow
     CurvePanel panel{"", "u/U at x = L/2", "y/L", false, {}};
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const auto [heights, u] = flows[k].line->profile();
-        panel.curves.push_back({.title = fmt::format("{0} x {0}", flows[k].L),
-                                .x = u,
-                                .y = heights,
-                                .style = static_cast<int>(k) + 2});
+        panel.curves.push_back({fmt::format("{0} x {0}", flows[k].L), u, heights, Mark::line,
+                                static_cast<int>(k) + 2});
     }
     if (flows.front().ghias) {
-        Curve points{.title = "Ghia et al.", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
-        for (const auto& [y, u] : ghia()) points.x.push_back(u), points.y.push_back(y);
+        Curve points{"Ghia et al.", {}, {}, Mark::points, 1};
+        for (const auto& [y, u] : ghia()) add_point(points, u, y);
         panel.curves.push_back(points);
     }
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "profile",
-                    fmt::format("Lid-driven cavity, Re = {:g}, t = {:.3g} L/U", p.reynolds,
-                                runs.back().statistics.t_end / flows.back().turn()),
-                    {panel}));
+    draw_curves(session, "profile",
+                fmt::format("Lid-driven cavity, Re = {:g}, t = {:.3g} L/U", p.reynolds,
+                            runs.back().statistics.t_end / flows.back().turn()),
+                {panel});
 }
 
 void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
@@ -158,31 +143,22 @@ void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
         if (state.there()) {
             panels.push_back(speed_panel(fmt::format("t = {:.3g} L/U", state.t / flow.turn()),
                                          *flow.model, state));
-            panels.back().outlines = {
-                Points<2>{{0.0, flow.L, flow.L, 0.0}, {0.0, 0.0, flow.L, flow.L}}};
+            panels.back().outlines = {rectangle({0.0, 0.0}, {flow.L, flow.L})};
         }
     if (!panels.empty())
-        session.note_drawn(
-            draw_configurations(session.plots_folder(), "configurations",
-                                fmt::format("Lid-driven cavity, {} particles, Re = {:g}",
-                                            flow.model->particles().size(), p.reynolds),
-                                panels, panels.size(), "speed"));
+        draw_configurations(session, "configurations",
+                            fmt::format("Lid-driven cavity, {} particles, Re = {:g}",
+                                        flow.model->particles().size(), p.reynolds),
+                            panels, panels.size(), "speed");
 }
 
 void run(Session& session, const Parameters& p) {
-    std::vector<Flow> flows;
-    std::vector<int> sizes{p.cells};
-    if (p.compare) sizes = {p.cells / 2, p.cells, 2 * p.cells};
-    for (const int cells : sizes) {
-        flows.push_back(make_flow(p, cells, session.common().dry_run));
-        if (p.compare) flows.back().label = fmt::format("{}", cells);
-    }
-    session.prefer_step(
-        stirred::step_of(p, p.viscosity(sizes.front()), flows.front().model->box()));
-    std::vector<Case<2>> cases;
-    for (auto& flow : flows)
-        cases.push_back({flow.model, flow.y0, plan_of(session, p, flow), flow.label});
-    const auto runs = session.run_all(std::move(cases));
+    auto flows = by_size(p.cells, p.compare,
+                         [&](int cells) { return make_flow(p, cells, session.common().dry_run); });
+    const int fewest = static_cast<int>(flows.front().L);
+    session.prefer_step(stirred::step_of(p, p.viscosity(fewest), flows.front().model->box()));
+    const auto runs =
+        run_all(session, flows, [&](Flow& flow) { return plan_of(session, p, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
     if (flows.front().ghias)
         for (std::size_t k = 1; k < runs.size(); ++k) {
@@ -217,7 +193,7 @@ int main(int argc, char** argv) {
                        .remark = stirred::sides_remark});
     p.sides = &sides;
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 12;
+        session.smoke_default("cells", p.cells, 12);
         run(session, p);
     });
 }

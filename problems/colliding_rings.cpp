@@ -16,47 +16,25 @@
 // Where the rings have parted, part of their kinetic energy is in vibrations: restitution is the speed at
 // which the centres part by the one at which they met.
 #include "breaking/pieces.hpp"
-#include "formulation.hpp"
-#include "reduced_units.hpp"
-#include "stiffness.hpp"
-#include <spam/material/polynomial_solid.hpp>
-#include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/problem/nearest_state.hpp>
-#include <spam/rhs/contact.hpp>
-#include <spam/rhs/material_vectors.hpp>
-#include <spam/rhs/total_lagrangian.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
+#include "solid_choice.hpp"
 
 namespace {
 
 using namespace spam;
 
-const double rho = std::sqrt(4.0 / 3.0);   // stress-free; mass and spacing are 1
-const double eta = std::sqrt(3.0 / 16.0);  // = lambda
+struct Parameters : SolidChoice {
+    Parameters() { viscosity = 1.0; }
 
-struct Parameters {
     double radius = 16.0, inner_radius = 12.0;
     double speed = 0.05;  // of each ring
     double offset = 0.0;
-    Formulation formulation = Formulation::total_lagrangian;
-    double range = 3.0, viscosity = 1.0;
-    std::optional<double> penalty;
+    double range = 3.0;
     ContactScheme contact{};
 
     /// How long they take, up to a factor: a ring bends in a time that grows like radius^2 by thickness, and
     /// goes its own radius.
     double time() const {
         return radius * radius / (radius - inner_radius) / 64.0 + radius / speed / 320.0;
-    }
-
-    double kappa() const {
-        return penalty.value_or(formulation == Formulation::material_vectors
-                                    ? MaterialVectorScheme::default_penalty
-                                    : 0.1);
     }
 };
 
@@ -68,17 +46,17 @@ Points<2> ring(const Parameters& p) {
     return disk(Eigen::all, kept);
 }
 
-[[noreturn]] void refuse(const Parameters& p) {
-    throw InputError(
-        fmt::format("inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
-                    "leave two spacings or more between the two",
-                    p.radius, p.inner_radius));
+[[noreturn]] void refuse_no_ring(const Parameters& p) {
+    refuse(
+        "inner-radius: what is left of a disk of radius {:g} beyond {:g} is no ring; "
+        "leave two spacings or more between the two",
+        p.radius, p.inner_radius);
 }
 
 /// The left ring, and its mirror image: what the one loses on its way the other loses as well.
 Particles<2> two_rings(const Parameters& p) {
     Points<2> left = ring(p);
-    if (left.cols() == 0) refuse(p);
+    if (left.cols() == 0) refuse_no_ring(p);
     left.row(0).array() -= p.radius + 1.0;
     left.row(1).array() -= 0.5 * p.offset;
     const auto one = make_particles<2>(left, 1.0);
@@ -89,24 +67,11 @@ Particles<2> two_rings(const Parameters& p) {
 
 std::unique_ptr<ParticleModel<2>> make_model(const Parameters& p) {
     auto model = std::make_unique<ParticleModel<2>>(two_rings(p));
-    if (model->particles().bodies() != 2) refuse(p);
+    if (model->particles().bodies() != 2) refuse_no_ring(p);
     const std::size_t n = model->particles().size() / 2;
-    const auto solid = ElasticSolid::triangular_lattice();
     for (const std::size_t first : {std::size_t{0}, n})
-        if (p.formulation == Formulation::updated)
-            model->add_term_among<SmoothParticles<2>>(
-                first, n, solid,
-                Scheme{.angular_momentum = AngularMomentum::torque_pair,
-                       .viscosity = p.viscosity,
-                       .range = p.range});
-        else if (p.formulation == Formulation::material_vectors)
-            model->add_term_among<MaterialVectors<2>>(
-                first, n, PolynomialSolid::like(solid),
-                MaterialVectorScheme{rho, p.range, p.kappa()});
-        else
-            model->add_term_among<TotalLagrangian<2>>(
-                first, n, StVenantKirchhoff::like(solid),
-                TotalLagrangianScheme{rho, p.range, p.kappa()});
+        p.add_term(*model, first, n, ElasticSolid::triangular_lattice(), triangular_density,
+                   p.range, {.angular_momentum = AngularMomentum::torque_pair});
     model->add_term<Contact<2>>(p.contact);
     return model;
 }
@@ -150,33 +115,32 @@ double parted_at(const History& h) {
 }
 
 void report(Session& session, const RunRecord& run) {
+    const Findings findings(session);
     const History& h = run.history;
-    session.claim({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
-                   "no two particles of different rings nearer than half a spacing"},
-                  session.at_default({"contact-energy", "contact-range", "speed"}));
+    findings.claim("closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
+                   "no two particles of different rings nearer than half a spacing",
+                   session.at_default({"contact-energy", "contact-range", "speed"}));
     const double parted = parted_at(h);
     const bool known =
         run.complete && run.statistics.t_end >= 600.0 &&
         session.when_default({"radius", "inner-radius", "speed", "offset", "formulation", "range",
                               "penalty", "contact-energy", "contact-range"});
-    session.claim({"contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
-                   "contact does not hold on to anything"},
-                  known);
-    session.claim({"parting_speed", h.last("parting_speed"), 0.0394, 0.003,
-                   "an independent program of the same equations"},
-                  known);
+    findings.claim("contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
+                   "contact does not hold on to anything", known);
+    findings.claim("parting_speed", h.last("parting_speed"), 0.0394, 0.003,
+                   "an independent program of the same equations", known);
     if (parted >= 0.0) {
-        session.measure("parted_at", parted);
-        session.measure("restitution", -h.last("parting_speed") / h.first("parting_speed"));
+        findings.measure("parted_at", parted);
+        findings.measure("restitution", -h.last("parting_speed") / h.first("parting_speed"));
     }
-    session.measure("largest_contact_energy",
-                    h.largest("contact_energy") / (h.first("kinetic") + h.first("internal")),
-                    "by the energy at the start");
-    session.measure("smallest_separation", h.smallest("separation"));
-    session.measure("closest_pair", h.smallest("closest_pair"));
-    session.measure("pieces", h.last("pieces"),
-                    "linked by pairs nearer than 1.5 spacings, at the end");
-    session.check_promises(run);
+    findings.measure("largest_contact_energy",
+                     h.largest("contact_energy") / (h.first("kinetic") + h.first("internal")),
+                     "by the energy at the start");
+    findings.measure("smallest_separation", h.smallest("separation"));
+    findings.measure("closest_pair", h.smallest("closest_pair"));
+    findings.measure("pieces", h.last("pieces"),
+                     "linked by pairs nearer than 1.5 spacings, at the end");
+    findings.check_promises(run);
 }
 
 void draw(Session& session, const ParticleModel<2>& model,
@@ -187,19 +151,13 @@ void draw(Session& session, const ParticleModel<2>& model,
         panels.back().outlines.clear();
     }
     const History& h = run.history;
-    const auto t = h.column("t");
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
-                                           "Two elastic rings collide", panels, 2, "speed"));
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "curves", "Two elastic rings collide",
-                    {{"", "t", "distance of the centres", false, {{"", t, h.column("separation")}}},
-                     {"",
-                      "t",
-                      "energy",
-                      false,
-                      {{"kinetic", t, h.column("kinetic")},
-                       {"elastic and contact", t, h.column("internal")},
-                       {"contact", t, h.column("contact_energy")}}}}));
+    draw_configurations(session, "configurations", "Two elastic rings collide", panels, 2, "speed");
+    draw_curves(session, "curves", "Two elastic rings collide",
+                {over_time("", h, "distance of the centres", {{"", "separation"}}),
+                 over_time("", h, "energy",
+                           {{"kinetic", "kinetic"},
+                            {"elastic and contact", "internal"},
+                            {"contact", "contact_energy"}})});
 }
 
 void add_options(Options& options, Parameters& p) {
@@ -210,32 +168,11 @@ void add_options(Options& options, Parameters& p) {
     options.number("speed", p.speed, "speed of each ring at the start", between(1e-4, 2.0));
     options.number("offset", p.offset, "height of one centre above the other",
                    between(-2000.0, 2000.0));
-    options.choice<Formulation>(
-        "formulation", p.formulation,
-        {Formulation::total_lagrangian, Formulation::updated, Formulation::material_vectors},
-        "sums over the initial neighbours, over the present ones, or over "
-        "the present ones with a memory");
+    p.add_formulation_option(options);
     options.number("range", p.range, "distance at which the weight function vanishes",
                    between(1.1, 20.0));
-    options
-        .number("penalty", p.penalty,
-                "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-                "material_vectors (default 2)",
-                between(0.0, 100.0))
-        .only_when(
-            {"formulation"}, [&p] { return p.formulation != Formulation::updated; },
-            "has no meaning for --formulation updated; leave it out");
-    options
-        .number("viscosity", p.viscosity, "alpha of von Neumann's artificial viscosity",
-                between(0.0, 100.0))
-        .only_when(
-            {"formulation"}, [&p] { return p.formulation == Formulation::updated; },
-            "has no meaning for {by}; leave it out");
-    options.number("contact-energy", p.contact.energy, "energy e_c of the contact",
-                   between(1e-3, 1e3));
-    options.number("contact-range", p.contact.range,
-                   "distance at which particles of different rings touch, at most a spacing",
-                   positive());
+    p.add_constants(options);
+    add_contact_options(options, p.contact, "particles of different rings");
 }
 
 }  // namespace
@@ -255,7 +192,7 @@ int main(int argc, char** argv) {
         session.prefer_step(0.1 * relative_step(p.contact, {.energy = 0.3}) *
                             relative_step(p.speed, 0.25));
         const auto model = make_model(p);
-        auto y0 = initial_state<2>(*model, rho, eta, [&](const Point<2>& x) {
+        auto y0 = lattice_state(*model, [&](const Point<2>& x) {
             return Point<2>(x.x() < 0.0 ? p.speed : -p.speed, 0.0);
         });
         Plan<2> plan;
@@ -263,8 +200,7 @@ int main(int argc, char** argv) {
             session.common().t_end.value_or((smoke ? 40.0 : 640.0) * (p.time() / usual.time()));
         plan.snapshot_every = plan.t_end / 20.0;
         plan.record(columns(*model->term<Contact<2>>()));
-        std::vector<NearestState<2>> drawn;
-        for (const double part : {0.0, 0.2, 0.5, 1.0}) drawn.push_back({part * plan.t_end});
+        auto drawn = states_at<2>({0.0, 0.2, 0.5, 1.0}, plan.t_end);
         plan.observe(keep_nearest<2>(drawn));
         const auto run = session.run<2>(*model, std::move(y0), std::move(plan));
         report(session, run);

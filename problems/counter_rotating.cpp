@@ -14,25 +14,14 @@
 // nothing to do. Only a constraint for each body,
 //     P_b/R_b - M_b R_b + X_b = 0     for b = 1, 2
 // keeps both. Run twice: torques balanced for each body, and for all together.
-#include "reduced_units.hpp"
-#include <spam/problem/nearest_state.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
+#include "common.hpp"
 
 namespace {
 
 using namespace spam;
 using std::numbers::pi;
 
-struct Hexagons {
-    std::string title;
-    std::shared_ptr<SmoothParticleModel<2>> model;
-    std::vector<NearestState<2>> end{};
-};
+using Hexagons = Variant<2, SmoothParticleModel<2>>;
 
 /// The second hexagon is the mirror image of the first in the y axis.
 Points<2> two_hexagons(int size, double gap) {
@@ -53,7 +42,7 @@ VelocityField<2> against_each_other(double omega, double shift) {
     };
 }
 
-double drift(const History& h, const char* column) {
+double drift(const History& h, const std::string& column) {
     return h.largest_change(column) / std::abs(h.first(column));
 }
 
@@ -62,27 +51,23 @@ void draw(Session& session, const std::vector<Hexagons>& pairs, const std::vecto
     std::vector<ConfigurationPanel> panels;
     std::vector<CurvePanel> curves;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        panels.push_back(speed_panel(pairs[k].title, *pairs[k].model, pairs[k].end.front()));
+        panels.push_back(speed_panel(pairs[k].title, *pairs[k].model, pairs[k].drawn.front()));
         panels.back().outlines.clear();  // of two bodies there is no single one
         const History& h = runs[k].history;
-        auto t = h.column("t");
-        for (double& x : t) x /= turn;
-        CurvePanel panel{pairs[k].title, "turns", "L(t) / |L(0)| of each body", false, {}};
-        for (const char* name : {"angular_momentum_body_1", "angular_momentum_body_2"}) {
-            auto L = h.column(name);
-            const double scale = std::abs(L.front());
-            for (double& x : L) x /= scale;
-            panel.curves.push_back(
-                {name == std::string("angular_momentum_body_1") ? "left" : "right", t, L});
+        const auto t = divided(h.column("t"), turn);
+        CurvePanel panel = frame(pairs[k].title, "turns", "L(t) / |L(0)| of each body");
+        for (const char* side : {"left", "right"}) {
+            const auto L = h.column(side == std::string("left") ? "angular_momentum_body_1"
+                                                                : "angular_momentum_body_2");
+            panel.curves.push_back({side, t, divided(L, std::abs(L.front()))});
         }
         curves.push_back(panel);
     }
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "configurations",
+    draw_configurations(
+        session, "configurations",
         fmt::format("Counter-rotating hexagons at t = {:.4g}", runs.front().statistics.t_end),
-        panels, panels.size(), "speed"));
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "curves", "Counter-rotating hexagons", curves));
+        panels, panels.size(), "speed");
+    draw_curves(session, "curves", "Counter-rotating hexagons", curves);
 }
 
 }  // namespace
@@ -109,10 +94,8 @@ int main(int argc, char** argv) {
             throw InputError(
                 "angular-momentum: free balances nothing, for one body or for all; use gauss, "
                 "torque_particle or torque_pair");
-        if (session.common().smoke) {
-            if (!session.given("size")) size = 3;
-            if (!session.given("turns")) turns = 0.1;
-        }
+        session.smoke_default("size", size, 3);
+        session.smoke_default("turns", turns, 0.1);
         const double omega = speed / size, turn = 2.0 * pi / omega;
         const double gap = 2.0 * session.scheme().range + 2.0;
 
@@ -121,67 +104,55 @@ int main(int argc, char** argv) {
         if (session.given("balance")) balances = {session.scheme().balance};
 
         std::vector<Hexagons> pairs;
-        std::vector<Case<2>> cases;
+        const double t_end = session.common().t_end.value_or(turns * turn);
         for (const Balance balance : balances) {
             Scheme scheme = session.scheme();
             scheme.balance = balance;
-            const double t_end = session.common().t_end.value_or(turns * turn);
-            pairs.push_back(
-                {balance == Balance::body ? "balance of each body" : "balance of all together",
-                 std::make_shared<SmoothParticleModel<2>>(
-                     make_particles<2>(two_hexagons(size, gap), 1.0),
-                     ElasticSolid::triangular_lattice(), scheme),
-                 {{t_end}}});
+            Hexagons pair{.title = balance == Balance::body ? "balance of each body"
+                                                            : "balance of all together"};
+            if (balances.size() > 1) pair.label = to_string(balance);
+            if (!pairs.empty()) pair.prefix = "global_";
+            pair.model = std::make_shared<SmoothParticleModel<2>>(
+                make_particles<2>(two_hexagons(size, gap), 1.0), ElasticSolid::triangular_lattice(),
+                scheme);
+            pair.y0 = lattice_state(*pair.model, against_each_other(omega, size + 0.5 * gap));
+            pair.drawn = {{t_end}};
+            pairs.push_back(std::move(pair));
         }
-        for (Hexagons& pair : pairs) {
-            Plan<2> plan{.t_end = pair.end.front().wanted};
+        const auto runs = run_all(session, pairs, [&](Hexagons& pair) {
+            Plan<2> plan{.t_end = t_end};
             plan.record({closest_pair_column<2>()});
-            plan.observe(keep_nearest<2>(pair.end));
-            auto y0 = initial_state<2>(*pair.model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
-                                       against_each_other(omega, size + 0.5 * gap));
-            cases.push_back(
-                {pair.model, std::move(y0), std::move(plan),
-                 pairs.size() > 1 ? std::string(to_string(pair.model->scheme().balance)) : ""});
-        }
-        const auto runs = session.run_all(std::move(cases));
-
-        // what was found
+            plan.observe(keep_nearest<2>(pair.drawn));
+            return plan;
+        });
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const History& h = runs[k].history;
             const Scheme& scheme = pairs[k].model->scheme();
             const bool kept = scheme.balance == Balance::body &&
                               scheme.angular_momentum != AngularMomentum::gauss;
-            const std::string prefix = balances.size() > 1 && k > 0 ? "global_" : "";
-            for (const int body : {1, 2}) {
-                const double change =
-                    drift(h, body == 1 ? "angular_momentum_body_1" : "angular_momentum_body_2");
-                const std::string name =
-                    fmt::format("{}angular_momentum_drift_body_{}", prefix, body);
-                if (kept)
-                    session.check({name, change, 0.0,
-                                   scheme.angular_momentum == AngularMomentum::torque_pair &&
-                                           scheme.transport != Transport::plain
-                                       ? 1e-10
-                                       : 1e-8,
-                                   "[HHM04] IX: a balance for each body"});
-                else
-                    session.measure(name, change);
-            }
-            session.check({prefix + "angular_momentum_sum",
-                           h.largest_change("angular_momentum") /
-                               std::abs(h.first("angular_momentum_body_1")),
-                           0.0, 1e-10,
-                           "mirror images: the sum vanishes whatever each of them loses"});
-            session.check_promises(runs[k], prefix);
+            const double tolerance = scheme.angular_momentum == AngularMomentum::torque_pair &&
+                                             scheme.transport != Transport::plain
+                                         ? 1e-10
+                                         : 1e-8;
+            const Findings findings(session, pairs[k].prefix);
+            for (const int body : {1, 2})
+                findings.claim(fmt::format("angular_momentum_drift_body_{}", body),
+                               drift(h, fmt::format("angular_momentum_body_{}", body)), 0.0,
+                               tolerance, "[HHM04] IX: a balance for each body", kept);
+            findings.check(
+                "angular_momentum_sum",
+                h.largest_change("angular_momentum") / std::abs(h.first("angular_momentum_body_1")),
+                0.0, 1e-10, "mirror images: the sum vanishes whatever each of them loses");
+            findings.check_promises(runs[k]);
         }
         if (runs.size() == 2) {
             auto names = Problem::scheme_option_names();
             names.insert(names.end(),
                          {"kernel", "range", "size", "speed", "turns", "t-end", "integrator"});
-            session.claim(
-                {"global_balance_loses", drift(runs[1].history, "angular_momentum_body_1"), 0.39,
-                 0.04, "[HHM04] IX: the global sum constrains nothing"},
-                runs[1].complete && session.when_default(names));
+            Findings(session).claim("global_balance_loses",
+                                    drift(runs[1].history, "angular_momentum_body_1"), 0.39, 0.04,
+                                    "[HHM04] IX: the global sum constrains nothing",
+                                    runs[1].complete && session.when_default(names));
         }
         if (session.plots()) draw(session, pairs, runs, turn);
     });

@@ -16,27 +16,16 @@
 // L - angular impulse and E - work are kept through plastic flow and contact. E contains what has been spent
 // on plastic flow. When the walls are gone nobody touches anybody: folds that were pressed together do not
 // stick.
-#include "reduced_units.hpp"
-#include "stiffness.hpp"
-#include <spam/core/error.hpp>
+#include "common.hpp"
 #include <spam/external/rigid_wall.hpp>
 #include <spam/material/hencky_solid.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/rhs/contact.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
 
 namespace {
 
 using namespace spam;
 
-const double rho = std::sqrt(4.0 / 3.0);       // stress-free; mass and spacing are 1
-const double modulus = std::sqrt(3.0 / 16.0);  // lambda = eta
+const double rho = triangular_density, modulus = triangular_modulus;
 constexpr double wall_energy = 0.2, wall_range = 0.7;
 
 struct Parameters {
@@ -99,97 +88,63 @@ std::vector<Column<2>> columns(const Contact<2>& contact) {
 }
 
 void report(Session& session, const Parameters& p, const RunRecord& run) {
+    const Findings findings(session);
     const History& h = run.history;
     const bool crushed = run.complete && run.statistics.t_end >= p.turning_time();
     const bool released = run.complete && run.statistics.t_end >= 0.99 * p.t_end();
     const bool known =
         session.when_default({"columns", "rows", "speed", "width", "yield-stress", "hardening",
                               "amplitude", "range", "penalty", "contact-energy", "contact-range"});
-    session.claim({"closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
-                   "no two particles that touch are nearer than half a spacing"},
-                  session.at_default({"contact-energy", "contact-range"}) && p.speed <= 0.08);
+    findings.claim("closest_contact", h.smallest("closest_contact"), 0.75, 0.25,
+                   "no two particles that touch are nearer than half a spacing",
+                   session.at_default({"contact-energy", "contact-range"}) && p.speed <= 0.08);
     if (crushed)
-        session.claim({"touched", h.largest("contact_energy") > 0.0 ? 1.0 : 0.0, 1.0, 0.0,
-                       "the sheet has folded upon itself"},
-                      known);
+        findings.claim("touched", h.largest("contact_energy") > 0.0 ? 1.0 : 0.0, 1.0, 0.0,
+                       "the sheet has folded upon itself", known);
     if (released)
-        session.claim({"contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
-                       "contact does not hold on to anything"},
-                      known);
-    session.check({"energy_less_wall_work",
+        findings.claim("contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
+                       "contact does not hold on to anything", known);
+    findings.check("energy_less_wall_work",
                    std::abs((h.last("energy") - h.last("work")) - h.first("energy")) /
                        std::max(h.largest("energy"), 1e-300),
-                   0.0, 1e-3, "by the largest energy"});
-    session.measure("largest_contact_energy", h.largest("contact_energy"));
-    session.measure("wall_work", h.last("work"));
-    session.measure("plastic_work", h.last("plastic_work"));
-    session.measure("shortest_length", h.smallest("length"));
-    session.measure("length", h.last("length"));
-    session.measure("height", h.last("height"));
-    session.measure("closest_pair", h.smallest("closest_pair"));
-    session.check_promises(run);
+                   0.0, 1e-3, "by the largest energy");
+    findings.measure("largest_contact_energy", h.largest("contact_energy"));
+    findings.measure("wall_work", h.last("work"));
+    findings.measure("plastic_work", h.last("plastic_work"));
+    findings.measure("shortest_length", h.smallest("length"));
+    findings.measure("length", h.last("length"));
+    findings.measure("height", h.last("height"));
+    findings.measure("closest_pair", h.smallest("closest_pair"));
+    findings.check_promises(run);
 }
 
-/// The sheet at a wanted time, or at the snapshot next to it.
-struct Shape {
-    double wanted;
-    double t = -1.0;
-    Points<2> position{};
-    std::vector<double> strain{};
-    void remember(Archive& archive) { archive(t, position, strain); }
-};
-
-Observer<2> keep_shapes(std::vector<Shape>& shapes) {
-    return {.on_snapshot =
-                [&shapes](double t, const Model<2>& model, std::span<const double> y) {
-                    const ConstState<2> state(model.layout(), y);
-                    const auto strain = state.field(field_kind::plastic_strain);
-                    for (Shape& shape : shapes)
-                        if (shape.t < 0.0 ||
-                            std::abs(t - shape.wanted) < std::abs(shape.t - shape.wanted))
-                            shape = {shape.wanted,
-                                     t,
-                                     state.position(),
-                                     {strain.data(), strain.data() + strain.size()}};
-                },
-            .memory =
-                [&shapes](Archive& archive) {
-                    for (Shape& shape : shapes) shape.remember(archive);
-                }};
+std::vector<double> plastic_strains(const Model<2>& model, std::span<const double> y) {
+    const auto strain = ConstState<2>(model.layout(), y).field(field_kind::plastic_strain);
+    return {strain.data(), strain.data() + strain.size()};
 }
 
-void draw(Session& session, const Parameters& p, const std::vector<Shape>& shapes,
+void draw(Session& session, const Parameters& p, const std::vector<NearestState<2>>& drawn,
           const RunRecord& run) {
     std::vector<ConfigurationPanel> panels;
     double last = -1.0;
-    for (const Shape& shape : shapes) {
+    for (const auto& shape : drawn) {
         if (!(shape.t > last)) continue;  // a run that ended before its time
         last = shape.t;
-        panels.push_back({fmt::format("t = {:.3g}", shape.t), shape.position, shape.strain, {}});
+        panels.push_back({fmt::format("t = {:.3g}", shape.t), shape.position, shape.values, {}});
         const double high = shape.position.row(1).maxCoeff() + 2.0,
                      low = shape.position.row(1).minCoeff() - 2.0, half = p.half_width(shape.t);
-        for (const double side : {-1.0, 1.0}) {
-            Points<2> wall(2, 4);
-            wall << side * half, side * (half + 0.6), side * (half + 0.6), side * half, low, low,
-                high, high;
-            panels.back().outlines.push_back(wall);
-        }
+        for (const double side : {-1.0, 1.0})
+            panels.back().outlines.push_back(
+                rectangle({side * half, low}, {side * (half + 0.6), high}));
     }
-    const History& h = run.history;
-    const auto t = h.column("t");
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
-                                           "A plastic sheet between two walls", panels, 3,
-                                           "plastic strain"));
-    session.note_drawn(draw_curves(session.plots_folder(), "curves",
-                                   "A plastic sheet between walls",
-                                   {{"",
-                                     "t",
-                                     "energy",
-                                     false,
-                                     {{"work of the walls", t, h.column("work")},
-                                      {"plastic work", t, h.column("plastic_work")},
-                                      {"kinetic", t, h.column("kinetic")},
-                                      {"contact", t, h.column("contact_energy")}}}}));
+    draw_configurations(session, "configurations", "A plastic sheet between two walls", panels, 3,
+                        "plastic strain");
+    draw_curves(session, "curves", "A plastic sheet between walls",
+                {over_time("", run.history, "energy",
+                           {{"work of the walls", "work"},
+                            {"plastic work", "plastic_work"},
+                            {"kinetic", "kinetic"},
+                            {"contact", "contact_energy"}})});
 }
 
 void add_options(Options& options, Parameters& p) {
@@ -209,10 +164,7 @@ void add_options(Options& options, Parameters& p) {
                    between(1.2, 6.0));
     options.number("penalty", p.penalty, "penalty kappa against zero-energy modes",
                    between(0.0, 100.0));
-    options.number("contact-energy", p.contact.energy, "energy e_c of the contact",
-                   between(1e-3, 1e3));
-    options.number("contact-range", p.contact.range,
-                   "distance at which folds of the sheet touch, at most a spacing", positive());
+    add_contact_options(options, p.contact, "folds of the sheet");
 }
 
 }  // namespace
@@ -224,15 +176,14 @@ int main(int argc, char** argv) {
     Parameters p;
     add_options(problem.options(), p);
     return problem.main(argc, argv, [&](Session& session) {
-        const bool smoke = session.common().smoke;
-        if (smoke && !session.given("columns")) p.columns = 24;
-        if (smoke && !session.given("rows")) p.rows = 2;
-        if (smoke && !session.given("width")) p.width = 5.0;
-        if (smoke && !session.given("speed")) p.speed = 0.08;
+        session.smoke_default("columns", p.columns, 24);
+        session.smoke_default("rows", p.rows, 2);
+        session.smoke_default("width", p.width, 5.0);
+        session.smoke_default("speed", p.speed, 0.08);
         if (!(p.width < 2.0 * p.start()))
-            throw InputError(fmt::format(
+            refuse(
                 "width: the walls begin {:g} apart and cannot come in to {:g}; give a smaller --width",
-                2.0 * p.start(), p.width));
+                2.0 * p.start(), p.width);
         session.prefer_step(0.1 * relative_step(p.contact, Parameters{}.contact));
         const auto model = make_model(p);
         auto y0 = initial_state<2>(*model, rho, p.yield_stress, slight_bend(p));
@@ -241,12 +192,11 @@ int main(int argc, char** argv) {
         plan.t_end = session.common().t_end.value_or(p.t_end());
         plan.snapshot_every = plan.t_end / 40.0;
         plan.record(columns(*model->term<Contact<2>>()));
-        std::vector<Shape> shapes{{0.0}};
-        for (const double part : {0.4, 0.7, 0.9, 1.0}) shapes.push_back({part * p.turning_time()});
-        shapes.push_back({p.t_end()});
-        plan.observe(keep_shapes(shapes));
+        auto drawn = states_at<2>({0.0, 0.4, 0.7, 0.9, 1.0}, p.turning_time());
+        drawn.push_back({p.t_end()});
+        plan.observe(keep_nearest<2>(drawn, plastic_strains));
         const auto run = session.run<2>(*model, std::move(y0), std::move(plan));
         report(session, p, run);
-        if (session.plots()) draw(session, p, shapes, run);
+        if (session.plots()) draw(session, p, drawn, run);
     });
 }

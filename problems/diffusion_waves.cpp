@@ -13,25 +13,13 @@
 // lattice that shears has besides a weak spring, of either sign, proportional to its pressure.
 #include "diffusion_waves/diffusion_waves.hpp"
 
-#include "reduced_units.hpp"
+#include "common.hpp"
 #include <spam/external/clamp.hpp>
-#include <spam/material/ideal_gas.hpp>
 #include <spam/material/van_der_waals.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-namespace diffusion_waves {
-
-using namespace spam;
 
 namespace {
+
+using namespace spam;
 
 enum class Wave { both, thermal, shear };
 
@@ -77,10 +65,8 @@ struct Parameters {
 
 constexpr double lattice_life = 60.0;
 
-struct Experiment {
+struct Experiment : Variant<2, Model<2>> {
     Wave wave;
-    std::shared_ptr<Model<2>> model;
-    std::vector<double> y0;
 };
 
 /// `only_described`: in a dry run, which computes no state.
@@ -98,7 +84,7 @@ Experiment prepare(const Parameters& p, Wave wave, bool only_described) {
     const Points<2> x = model->particles().reference_position;
     Points<2> v = Points<2>::Zero(2, x.cols());
     if (wave == Wave::shear) v.row(0) = p.amplitude * (p.k() * x.row(1).array()).sin();
-    Experiment e{wave, nullptr, {}};
+    Experiment e{{}, wave};
     if (wave == Wave::thermal) model->add(std::make_unique<Clamp<2>>());  // only energies change
     if (!only_described) {
         e.y0 = model->state(x, v, p.temperature);
@@ -141,23 +127,21 @@ bool is_known(const Session& session, const Parameters& p, Wave wave, double t) 
     return exact && p.amplitude >= 1e-6 && calm && smooth && p.amplitude / rate < 0.01;
 }
 
-void report(Session& session, const Parameters& p, Wave wave, const RunRecord& run,
-            const std::string& prefix) {
-    session.check_promises(run, prefix);
+void report(Session& session, const Parameters& p, const Experiment& e, const RunRecord& run) {
+    const Findings findings(session, e.prefix);
+    const Wave wave = e.wave;
+    findings.check_promises(run);
     const History& h = run.history;
     const double t = h.last("t"), left = h.last("amplitude");
     const bool known = is_known(session, p, wave, t);
-    session.claim(
-        {prefix + "amplitude_left", left, p.expected(wave, t), wave == Wave::thermal ? 1e-6 : 1e-4,
-         "[HH07] 4, with gradient sums over the lattice"},
-        known);
+    findings.claim("amplitude_left", left, p.expected(wave, t), wave == Wave::thermal ? 1e-6 : 1e-4,
+                   "[HH07] 4, with gradient sums over the lattice", known);
     if (wave == Wave::thermal && left > 0.0)
-        session.claim(
-            {prefix + "rate_by_continuum", -std::log(left) / (t * p.continuum_rate(wave)),
-             p.exact().factor, 1e-4, "c^2/rho_s^3 of the lattice: 0.9398 for 24 cells, h = 3"},
-            known);
-    session.measure(prefix + "amplitude_left_in_continuum", std::exp(-p.continuum_rate(wave) * t),
-                    "for comparison");
+        findings.claim("rate_by_continuum", -std::log(left) / (t * p.continuum_rate(wave)),
+                       p.exact().factor, 1e-4,
+                       "c^2/rho_s^3 of the lattice: 0.9398 for 24 cells, h = 3", known);
+    findings.measure("amplitude_left_in_continuum", std::exp(-p.continuum_rate(wave) * t),
+                     "for comparison");
 }
 
 void draw(Session& session, const Parameters& p, const std::vector<Experiment>& experiments,
@@ -166,48 +150,41 @@ void draw(Session& session, const Parameters& p, const std::vector<Experiment>& 
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const Wave wave = experiments[k].wave;
         const auto t = runs[k].history.column("t");
-        CurvePanel panel{wave == Wave::thermal ? "temperature, particles nailed down"
-                                               : "shear wave, particles free",
-                         "t",
-                         "amplitude by its start",
-                         true,
-                         {}};
-        Curve lattice{.title = "lattice sums", .x = t, .y = {}};
-        Curve continuum{.title = "continuum", .x = t, .y = {}};
+        CurvePanel panel = frame(wave == Wave::thermal ? "temperature, particles nailed down"
+                                                       : "shear wave, particles free",
+                                 "t", "amplitude by its start", true);
+        Curve lattice{"lattice sums", t, {}};
+        Curve continuum{"continuum", t, {}};
         for (const double time : t) {
             lattice.y.push_back(p.expected(wave, time));
             continuum.y.push_back(std::exp(-p.continuum_rate(wave) * time));
         }
-        Curve measured{.title = "smooth particles", .x = {}, .y = {}, .mark = Mark::points};
-        for (std::size_t row = 0; row < t.size(); row += std::max<std::size_t>(1, t.size() / 24)) {
-            measured.x.push_back(t[row]);
-            measured.y.push_back(runs[k].history.column("amplitude")[row]);
-        }
+        Curve measured{"smooth particles", {}, {}, Mark::points};
+        const auto amplitude = runs[k].history.column("amplitude");
+        for (std::size_t row = 0; row < t.size(); row += std::max<std::size_t>(1, t.size() / 24))
+            add_point(measured, t[row], amplitude[row]);
         panel.curves = {lattice, continuum, measured};
         panels.push_back(panel);
     }
-    session.note_drawn(draw_curves(
-        session.plots_folder(), "decay",
-        fmt::format("{0} × {0} smooth particles, range {1:g}", p.cells, p.scheme.range), panels));
+    draw_curves(session, "decay",
+                fmt::format("{0} × {0} smooth particles, range {1:g}", p.cells, p.scheme.range),
+                panels);
 }
 
 void refuse_impossible(const Parameters& p) {
     if (p.cells <= 2.0 * p.scheme.range)
-        throw InputError(fmt::format(
+        refuse(
             "cells: a box of {} must be wider than twice the range {:g}; give at least {} "
             "cells, or a shorter --range",
-            p.cells, p.scheme.range, static_cast<int>(2.0 * p.scheme.range) + 1));
+            p.cells, p.scheme.range, static_cast<int>(2.0 * p.scheme.range) + 1);
     if (p.wave != Wave::shear && p.amplitude >= p.temperature)
-        throw InputError(
-            fmt::format("amplitude: {:g} takes the temperature {:g} below zero; give a smaller one",
-                        p.amplitude, p.temperature));
+        refuse("amplitude: {:g} takes the temperature {:g} below zero; give a smaller one",
+               p.amplitude, p.temperature);
 }
 
 }  // namespace
-}  // namespace diffusion_waves
 
 int main(int argc, char** argv) {
-    using namespace diffusion_waves;
     Problem problem("diffusion_waves",
                     "heat and momentum diffuse through smooth particles, [HH07] 4");
     problem.units(gas_units());
@@ -243,8 +220,7 @@ int main(int argc, char** argv) {
         .only_when(
             {"wave"}, [&p] { return p.wave != Wave::thermal; },
             "has no part in a thermal wave; leave it out");
-    options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
-                            "density as a sum over neighbours, or by the continuity equation");
+    add_density_option(options, p.scheme.density);
     options.choice<MeanDensityKind>("mean-density", p.scheme.mean_density,
                                     {MeanDensityKind::arithmetic, MeanDensityKind::geometric},
                                     "mean density of a pair, in gradients");
@@ -260,22 +236,18 @@ int main(int argc, char** argv) {
         for (const Wave wave : {Wave::thermal, Wave::shear})
             if (p.wave == wave || p.wave == Wave::both)
                 experiments.push_back(prepare(p, wave, session.common().dry_run));
-        const bool single = experiments.size() == 1;
-        std::vector<Case<2>> cases;
-        for (auto& e : experiments) {
+        if (p.wave == Wave::both)
+            for (auto& e : experiments) e.call(std::string(to_string(e.wave)));
+        const auto runs = run_all(session, experiments, [&](const Experiment& e) {
             Plan<2> plan;
             const double life = 1.0 / p.continuum_rate(e.wave);
-            plan.t_end = session.common().t_end.value_or(session.common().smoke ? 0.1 * life
-                                                         : e.wave == Wave::thermal
-                                                             ? 3.0 * life
-                                                             : std::min(3.0 * life, lattice_life));
+            plan.t_end = session.end(
+                e.wave == Wave::thermal ? 3.0 * life : std::min(3.0 * life, lattice_life),
+                0.1 * life);
             plan.record({amplitude_column(p, e.wave)});
-            cases.push_back(
-                {e.model, e.y0, std::move(plan), single ? "" : std::string(to_string(e.wave))});
-        }
-        const auto runs = session.run_all(std::move(cases));
-        for (std::size_t k = 0; k < runs.size(); ++k)
-            report(session, p, experiments[k].wave, runs[k], single ? "" : runs[k].label + "_");
+            return plan;
+        });
+        for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, experiments[k], runs[k]);
         if (session.plots()) draw(session, p, experiments, runs);
     });
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The words of the option --formulation. A problem offers those that it has.
+// Words for formulations and schemes: of the option --formulation, of which a problem offers those that it has, and of
+// pictures.
 #pragma once
 
+#include <spam/physics/scheme.hpp>
+
+#include <string>
 #include <string_view>
 
 namespace spam {
@@ -15,6 +19,26 @@ enum class Formulation {
 inline std::string_view to_string(Formulation formulation) {
     constexpr std::string_view names[] = {"updated", "total_lagrangian", "material_vectors"};
     return names[static_cast<int>(formulation)];
+}
+
+/// For pictures: the velocity that moves particles; `plain`: of their own.
+inline std::string velocity_title(Transport transport, std::string_view plain) {
+    if (transport == Transport::plain) return std::string(plain);
+    return transport == Transport::average ? "⟨v⟩" : "⟨v⟩ Monaghan";
+}
+/// For pictures, behind the velocity: what keeps the angular momentum, if anything.
+inline std::string torque_title(AngularMomentum law) {
+    switch (law) {
+        case AngularMomentum::torque_pair:
+            return ", pair torque";
+        case AngularMomentum::torque_particle:
+            return ", particle torque";
+        case AngularMomentum::gauss:
+            return ", Gauss";
+        case AngularMomentum::free:
+            break;
+    }
+    return "";
 }
 
 }  // namespace spam

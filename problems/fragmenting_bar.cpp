@@ -21,9 +21,6 @@
 //     --compare                        that beside plain velocities, ⟨v⟩_Monaghan, and balanced torques
 #include "breaking/pieces.hpp"
 #include "fragmenting_bar/account.hpp"
-#include "reduced_units.hpp"
-
-#include <fmt/format.h>
 
 namespace fragmenting_bar {
 namespace {
@@ -61,8 +58,7 @@ void add_options(Problem& problem, Parameters& p) {
 
 Plan<2> plan_of(const Session& session, const Parameters& p, Bar& bar, double row_interval) {
     Plan<2> plan;
-    plan.t_end =
-        session.common().t_end.value_or(p.target.time(session.common().smoke ? 20.0 : 200.0));
+    plan.t_end = session.end(p.target.time(200.0), p.target.time(20.0));
     plan.output_every = row_interval;
     if (p.compare) plan.step = bar.label == "material_vectors" ? step_of_vectors : step;
     plan.record({closest_pair_column<2>(),
@@ -80,29 +76,29 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Bar& bar, double ro
                           return ledger.find_bodies(t, m, y, row_interval);
                       },
                   .memory = [&ledger](Archive& archive) { archive(ledger); }});
-    bar.drawn.clear();
-    for (const double part : p.compare ? std::vector{0.2, 0.5} : std::vector{0.0, 0.15, 0.5, 1.0})
-        bar.drawn.push_back({part * plan.t_end});
+    bar.drawn = p.compare ? states_at<2>({0.2, 0.5}, plan.t_end)
+                          : states_at<2>({0.0, 0.15, 0.5, 1.0}, plan.t_end);
     plan.observe(keep_nearest<2>(bar.drawn));
     return plan;
 }
 
 void report(Session& session, const Parameters& p, const Bar& bar, const RunRecord& run) {
+    const Findings findings(session, bar.prefix);
     check_account(session, bar, run);
-    session.check_promises(run, bar.prefix);
+    findings.check_promises(run);
     const History& h = run.history;
-    session.measure(bar.prefix + "bodies", static_cast<double>(bar.model->particles().bodies()),
-                    "do not act on each other");
+    findings.measure("bodies", static_cast<double>(bar.model->particles().bodies()),
+                     "do not act on each other");
     auto options = Problem::scheme_option_names();
     options.insert(options.end(), {"columns", "rows", "projectile", "speed", "offset", "kernel",
                                    "range", "t-end", "formulation", "compare"});
-    session.claim({bar.prefix + "pieces", h.last("pieces"), 5.0, 2.0,
-                   "connected within 1.5 spacings, five particles or more"},
-                  run.complete && session.when_default(options));
+    findings.claim("pieces", h.last("pieces"), 5.0, 2.0,
+                   "connected within 1.5 spacings, five particles or more",
+                   run.complete && session.when_default(options));
     if (!p.compare) return;
-    session.measure(bar.prefix + "angular_momentum_ratio",
-                    h.last("angular_momentum") / h.first("angular_momentum"));
-    session.measure(bar.prefix + "closest_pair", h.smallest("closest_pair"));
+    findings.measure("angular_momentum_ratio",
+                     h.last("angular_momentum") / h.first("angular_momentum"));
+    findings.measure("closest_pair", h.smallest("closest_pair"));
 }
 
 void compute(Session& session, const Parameters& p) {
@@ -114,14 +110,9 @@ void compute(Session& session, const Parameters& p) {
         bars = compared(p, session.scheme());
     else
         bars.push_back(make_bar(p, session.scheme(), p.vectors()));
-    std::vector<Case<2>> cases;
-    for (Bar& bar : bars) {
-        auto y0 = p.target.start(*bar.model);
-        bar.ledger->find_bodies(0.0, *bar.model, y0, row_interval);
-        cases.push_back({bar.model, std::move(y0), plan_of(session, p, bar, row_interval),
-                         p.compare ? bar.label : ""});
-    }
-    const auto runs = session.run_all(std::move(cases));
+    for (Bar& bar : bars) bar.ledger->find_bodies(0.0, *bar.model, bar.y0, row_interval);
+    const auto runs =
+        run_all(session, bars, [&](Bar& bar) { return plan_of(session, p, bar, row_interval); });
     for (std::size_t k = 0; k < runs.size(); ++k) {
         bars[k].ledger->close(runs[k].statistics.t_end, *bars[k].model, runs[k].y);
         const RunFolder folder =
@@ -136,13 +127,13 @@ void compute(Session& session, const Parameters& p) {
 }  // namespace fragmenting_bar
 
 int main(int argc, char** argv) {
-    spam::Problem problem("fragmenting_bar", "a bar broken by a projectile, [HHM04] IX",
-                          fragmenting_bar::step);
-    problem.units(spam::lattice_units());
-    fragmenting_bar::Parameters p;
-    fragmenting_bar::add_options(problem, p);
-    return problem.main(argc, argv, [&](spam::Session& session) {
+    using namespace fragmenting_bar;
+    Problem problem("fragmenting_bar", "a bar broken by a projectile, [HHM04] IX", step);
+    problem.units(lattice_units());
+    Parameters p;
+    add_options(problem, p);
+    return problem.main(argc, argv, [&](Session& session) {
         make_small(session, p.target);
-        fragmenting_bar::compute(session, p);
+        compute(session, p);
     });
 }

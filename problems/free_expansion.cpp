@@ -31,16 +31,10 @@
 //     --cost             seconds against the number of particles, exercise 4
 //     --movie            frames, and a film where ffmpeg is installed
 #include "free_expansion/gas.hpp"
-#include "reduced_units.hpp"
-#include <spam/core/error.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-namespace free_expansion {
 namespace {
+
+using namespace free_expansion;
 
 /// Cells along an edge from --particles, where that was given.
 void settle_particles(Session& session, Parameters& p) {
@@ -49,13 +43,11 @@ void settle_particles(Session& session, Parameters& p) {
     const int edge =
         p.dimension == 1 ? n : static_cast<int>(std::lround(std::sqrt(static_cast<double>(n))));
     if (p.dimension == 2 && edge * edge != n)
-        throw InputError(
-            fmt::format("particles: {} is not a square; near it are {} and {}", n,
-                        static_cast<int>(std::pow(std::floor(std::sqrt(n)), 2)),
-                        static_cast<int>(std::pow(std::floor(std::sqrt(n)) + 1.0, 2))));
+        refuse("particles: {} is not a square; near it are {} and {}", n,
+               static_cast<int>(std::pow(std::floor(std::sqrt(n)), 2)),
+               static_cast<int>(std::pow(std::floor(std::sqrt(n)) + 1.0, 2)));
     if (session.given("cells") && session.given("particles") && p.cells != edge)
-        throw InputError(
-            fmt::format("particles: {} and --cells {} contradict; leave one out", n, p.cells));
+        refuse("particles: {} and --cells {} contradict; leave one out", n, p.cells);
     p.cells = edge;
     session.leave_out_of_case({"cells"});
 }
@@ -111,16 +103,13 @@ void run(Session& session, const Parameters& p) {
     for (const int cells : sizes) {
         gases.push_back(make_gas<Dim>(cells, p));
         if (!p.compare) continue;
-        gases.back().label = fmt::format("n{}", cells);
-        gases.back().prefix = gases.back().label + "_";
+        gases.back().call(fmt::format("n{}", cells));
     }
     const double plateau = Dim == 1 ? 3.0 * sizes.back() : std::max(1.5 * sizes.back(), 60.0);
-    const double t_end = session.common().t_end.value_or(smoke ? 24.0 : plateau);
-    std::vector<Case<Dim>> cases;
-    for (auto& gas : gases)
-        cases.push_back(
-            {gas.model, gas.y0, plan_of(session, gas, p, t_end, sizes.back()), gas.label});
-    const auto runs = session.run_all(std::move(cases));
+    const double t_end = session.end(plateau, 24.0);
+    const auto runs = run_all(session, gases, [&](Gas<Dim>& gas) {
+        return plan_of(session, gas, p, t_end, sizes.back());
+    });
     for (std::size_t k = 0; k < runs.size(); ++k) check(session, p, gases[k], runs[k]);
     if (p.movie) make_movie(session, session.folder());
     if (!session.plots()) return;
@@ -129,10 +118,8 @@ void run(Session& session, const Parameters& p) {
 }
 
 }  // namespace
-}  // namespace free_expansion
 
 int main(int argc, char** argv) {
-    using namespace free_expansion;
     Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25,
                     "0.25, on a line 0.125, or shorter where the range is short");
     problem.units(fluid_units());

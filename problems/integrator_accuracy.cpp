@@ -12,14 +12,8 @@
 //                               the second derivative of y' errs by h^3, whatever the method
 // A force that jumps:           torque_particle: order one
 // Velocities that jump:         reflection: found in time, so that orders stay
-#include "reduced_units.hpp"
-#include <spam/spam.hpp>
+#include "common.hpp"
 #include <spam/study/work_precision.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <numbers>
 
 namespace {
 
@@ -84,7 +78,7 @@ int main(int argc, char** argv) {
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("problem")) p.problem = "md";
+        session.smoke_default("problem", p.problem, "md");
         auto trials = systems(p);
         if (p.problem != "all")
             std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });

@@ -9,16 +9,9 @@
 //     md                 the same of points and springs
 //     wave               a standing wave in smooth particles, `periods` periods
 //     hexagon            smooth particles, torques of pairs balanced: one turn, they last no longer
-#include "reduced_units.hpp"
+#include "common.hpp"
 #include <spam/analysis/plane_wave.hpp>
-#include <spam/spam.hpp>
 #include <spam/study/drift_study.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -83,11 +76,9 @@ int main(int argc, char** argv) {
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke) {
-            if (!session.given("size")) p.size = 3;
-            if (!session.given("turns")) p.turns = 0.2;
-            if (!session.given("periods")) p.periods = 2.0;
-        }
+        session.smoke_default("size", p.size, 3);
+        session.smoke_default("turns", p.turns, 0.2);
+        session.smoke_default("periods", p.periods, 2.0);
         auto trials = systems(p);
         if (p.problem != "all")
             std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });

@@ -15,28 +15,14 @@
 // Fluid and molecules differ by rounding. In a chaotic system every difference grows like
 // exp(lambda t), lambda the largest Lyapunov exponent: that of rounding as fast as that of the moved
 // molecule.
-#include "reduced_units.hpp"
-#include <spam/diagnostics/fits.hpp>
+#include "common.hpp"
 #include <spam/material/embedded_atom.hpp>
-#include <spam/material/lucy_gas.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/pair_potentials.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-#include <spam/setup/drawn.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-namespace isomorphism {
-
-using namespace spam;
 
 namespace {
+
+using namespace spam;
 
 enum class Law { both, lucy, embedded_atom };
 
@@ -61,11 +47,7 @@ Points<2> random_velocities(Eigen::Index n, double speed) {
     return speed * std::sqrt(static_cast<double>(n) / v.squaredNorm()) * v;
 }
 
-struct Experiment {
-    std::string label, title;
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0;
-};
+using Experiment = Variant<2>;
 
 /// The same particles three times, one set behind the other.
 Particles<2> three_times(const Particles<2>& one) {
@@ -90,7 +72,7 @@ Experiment prepare(const Parameters& p, Law law) {
     const Fluid matter = law == Law::lucy ? Fluid{LucyGas{}} : Fluid{EmbeddedAtom{}};
 
     Experiment e;
-    e.label = to_string(law);
+    if (p.law == Law::both) e.call(std::string(to_string(law)));
     e.title = law == Law::lucy ? "Lucy gas" : "embedded atoms";
     e.model = std::make_shared<ParticleModel<2>>(three_times(particles), box);
     e.model->add_term_among<SmoothParticles<2>>(fluid * n, n, matter, scheme);
@@ -150,35 +132,32 @@ Growth measure(const History& h) {
     return {growth(h, "separation", 1e-12, 1e-3), growth(h, "separation_moved", 1e-6, 1e-2)};
 }
 
-void report(Session& session, const Parameters& p, const RunRecord& run,
-            const std::string& prefix) {
+void report(Session& session, const Parameters& p, const Experiment& e, const RunRecord& run) {
+    const Findings findings(session, e.prefix);
     const History& h = run.history;
-    session.check_promises(run, prefix);
+    findings.check_promises(run);
     // Claimed where the exponent is known to leave ten orders of magnitude to t = 10.
     const bool known = p.speed <= 0.5 && p.range >= 2.5 && p.range <= 4.0;
     if (h.last("t") >= 10.0)
-        session.claim({prefix + "separation_at_10", h.at(10.0, "separation"), 0.0, 1e-10,
-                       "the same motion up to rounding, [HH07] 6"},
-                      known);
+        findings.claim("separation_at_10", h.at(10.0, "separation"), 0.0, 1e-10,
+                       "the same motion up to rounding, [HH07] 6", known);
     const Growth found = measure(h);
     if (found.moved)
-        session.measure(prefix + "lyapunov_exponent", found.moved->slope,
-                        "measured: growth of a displacement");
+        findings.measure("lyapunov_exponent", found.moved->slope,
+                         "measured: growth of a displacement");
     // Slow molecules stay near their lattice for long, and the two growths are not those of one motion.
     const bool mixed = p.speed >= 0.1;
     if (found.rounding && found.moved)
-        session.claim({prefix + "divergence_rate", found.rounding->slope, found.moved->slope,
-                       0.15 * found.moved->slope, "rounding grows at the Lyapunov exponent"},
-                      mixed);
+        findings.claim("divergence_rate", found.rounding->slope, found.moved->slope,
+                       0.15 * found.moved->slope, "rounding grows at the Lyapunov exponent", mixed);
 }
 
 Curve fitted(const History& h, const char* column, const std::optional<LineFit>& fit, int like) {
-    Curve line{.title = "", .x = {}, .y = {}, .like = like};
+    Curve line{"", {}, {}, Mark::line, 0, like};
     if (!fit) return line;
     const auto t = h.column("t");
     for (const double time : {t.front(), t.back()}) {
-        line.x.push_back(time);
-        line.y.push_back(std::exp(fit->intercept + fit->slope * time));
+        add_point(line, time, std::exp(fit->intercept + fit->slope * time));
     }
     // Only where there is something to compare with.
     const double low = 0.3 * std::max(h.smallest(column), 1e-16), high = 3.0 * h.largest(column);
@@ -196,10 +175,10 @@ void draw(Session& session, const std::vector<Experiment>& experiments,
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const History& h = runs[k].history;
         const Growth found = measure(h);
-        CurvePanel panel{experiments[k].title, "t", "rms distance", true, {}};
-        panel.curves.push_back({"fluid and molecules", h.column("t"), h.column("separation")});
-        panel.curves.push_back(
-            {"molecules, one moved", h.column("t"), h.column("separation_moved")});
+        CurvePanel panel = over_time(
+            experiments[k].title, h, "rms distance",
+            {{"fluid and molecules", "separation"}, {"molecules, one moved", "separation_moved"}},
+            true);
         panel.curves.push_back(fitted(h, "separation", found.rounding, 1));
         panel.curves.push_back(fitted(h, "separation_moved", found.moved, 2));
         if (found.rounding && found.moved)
@@ -207,16 +186,13 @@ void draw(Session& session, const std::vector<Experiment>& experiments,
                 fmt::format(": λ = {:.3f} and {:.3f}", found.rounding->slope, found.moved->slope);
         panels.push_back(panel);
     }
-    session.note_drawn(draw_curves(session.plots_folder(), "divergence",
-                                   "Smooth particles and molecules part at the Lyapunov exponent",
-                                   panels));
+    draw_curves(session, "divergence",
+                "Smooth particles and molecules part at the Lyapunov exponent", panels);
 }
 
 }  // namespace
-}  // namespace isomorphism
 
 int main(int argc, char** argv) {
-    using namespace isomorphism;
     Problem problem("isomorphism", "smooth-particle fluids that move like molecules, [HH07] 6",
                     0.05);
     problem.units(fluid_units());
@@ -232,28 +208,24 @@ int main(int argc, char** argv) {
                    "initial displacement of one molecule of the second copy", between(1e-12, 1e-2));
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 8;
+        session.smoke_default("cells", p.cells, 8);
         if (p.cells <= 2.0 * p.range)
-            throw InputError(fmt::format(
+            refuse(
                 "cells: a box of {} must be wider than twice the range {:g}; give at least {} "
                 "cells, or a shorter --range",
-                p.cells, p.range, static_cast<int>(2.0 * p.range) + 1));
+                p.cells, p.range, static_cast<int>(2.0 * p.range) + 1);
         std::vector<Experiment> experiments;
         for (const Law law : {Law::lucy, Law::embedded_atom})
             if (p.law == law || p.law == Law::both) experiments.push_back(prepare(p, law));
-        const bool single = experiments.size() == 1;
-
-        std::vector<Case<2>> cases;
-        for (auto& e : experiments) {
+        const auto runs = run_all(session, experiments, [&](const Experiment&) {
             Plan<2> plan;
-            plan.t_end = session.common().t_end.value_or(session.common().smoke ? 12.0 : 200.0);
+            plan.t_end = session.end(200.0, 12.0);
             plan.output_every = 0.5;
             plan.record({separation_column("separation", fluid, molecules),
                          separation_column("separation_moved", molecules, moved)});
-            cases.push_back({e.model, e.y0, std::move(plan), single ? "" : e.label});
-        }
-        const auto runs = session.run_all(std::move(cases));
-        for (const auto& run : runs) report(session, p, run, single ? "" : run.label + "_");
+            return plan;
+        });
+        for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, experiments[k], runs[k]);
         if (session.plots()) draw(session, experiments, runs);
     });
 }

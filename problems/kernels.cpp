@@ -13,18 +13,9 @@
 // 2. The largest and smallest density sum_j w(|r - r_j|) anywhere between the particles of a line, a
 //    square and a triangular lattice of spacing 1, relative to particles per volume, for ten ranges h.
 //    Both would be 1 for infinitely many neighbours. Nothing moves here.
+#include "common.hpp"
 #include "kernels/lattices.hpp"
-#include <spam/io/csv.hpp>
-#include <spam/kernel/any_weight.hpp>
 #include <spam/kernel/weight_integrals.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -93,45 +84,34 @@ struct Profile {
 
 template <int Dim>
 void compare_with_gaussian(Session& session, const Parameters& p) {
-    std::vector<CurvePanel> panels{{"weight function", "r/s", "w s^D", false, {}},
-                                   {"gradient", "r/s", "w' s^{D+1}", false, {}},
-                                   {"Laplacian", "r/s", "∇²w s^{D+2}", false, {}}};
-    panels[0].y_label = fmt::format("w s{}", Dim == 1 ? "" : Dim == 2 ? "²" : "³");
-    panels[1].y_label = fmt::format("w' s{}", Dim == 1 ? "²" : Dim == 2 ? "³" : "⁴");
-    panels[2].y_label = fmt::format("∇²w s{}", Dim == 1 ? "³" : Dim == 2 ? "⁴" : "⁵");
-    std::vector<double> r, value, slope, laplacian;
-    for (int k = 0; k <= 400; ++k) {
-        r.push_back(0.01 * k);
-        value.push_back(Gaussian<Dim>::value(r.back()));
-        slope.push_back(Gaussian<Dim>::slope(r.back()));
-        laplacian.push_back(Gaussian<Dim>::laplacian(r.back()));
-    }
-    panels[0].curves.push_back({"Gaussian", r, value});
-    panels[1].curves.push_back({"Gaussian", r, slope});
-    panels[2].curves.push_back({"Gaussian", r, laplacian});
+    const char* const powers[] = {"", "²", "³", "⁴", "⁵"};
+    std::vector<CurvePanel> panels{
+        frame("weight function", "r/s", fmt::format("w s{}", powers[Dim - 1])),
+        frame("gradient", "r/s", fmt::format("w' s{}", powers[Dim])),
+        frame("Laplacian", "r/s", fmt::format("∇²w s{}", powers[Dim + 1]))};
+    panels[0].curves.push_back(graph("Gaussian", 0.0, 4.0, 400, Gaussian<Dim>::value));
+    panels[1].curves.push_back(graph("Gaussian", 0.0, 4.0, 400, Gaussian<Dim>::slope));
+    panels[2].curves.push_back(graph("Gaussian", 0.0, 4.0, 400, Gaussian<Dim>::laplacian));
     for (const auto& law : p.laws()) {
         const AnyWeight<Dim> w = weight_function<Dim>(law, 1.0);
         const Profile<Dim> profile(w);
-        const std::string name = fmt::format("{}_{}d_", law, Dim);
-        session.check({name + "integral", moment(w, 0), 1.0, 1e-13, "[HH01] eq 7"});
-        session.measure(name + "width", profile.width, "s/h, measured");
-        session.measure(name + "from_gaussian", profile.from_gaussian(), "of w(0), measured");
-        panels[0].curves.push_back(
-            {.title = title_of(law), .x = profile.r, .y = profile.value, .style = style_of(law)});
-        panels[1].curves.push_back(
-            {.title = title_of(law), .x = profile.r, .y = profile.slope, .style = style_of(law)});
-        panels[2].curves.push_back({.title = title_of(law),
-                                    .x = profile.r,
-                                    .y = profile.laplacian,
-                                    .style = style_of(law)});
+        const Findings findings(session, fmt::format("{}_{}d_", law, Dim));
+        findings.check("integral", moment(w, 0), 1.0, 1e-13, "[HH01] eq 7");
+        findings.measure("width", profile.width, "s/h, measured");
+        findings.measure("from_gaussian", profile.from_gaussian(), "of w(0), measured");
+        const auto add = [&](CurvePanel& panel, const std::vector<double>& y) {
+            panel.curves.push_back({title_of(law), profile.r, y, Mark::line, style_of(law)});
+        };
+        add(panels[0], profile.value);
+        add(panels[1], profile.slope);
+        add(panels[2], profile.laplacian);
     }
     if (session.plots())
-        session.note_drawn(draw_curves(
-            session.plots_folder(), fmt::format("weight_functions_{}d", Dim),
-            fmt::format("Weight functions in {0} dimension{1} beside a "
-                        "Gaussian of the same width, s² = ⟨r²⟩{2}",
-                        Dim, Dim == 1 ? "" : "s", Dim == 1 ? "" : fmt::format("/{}", Dim)),
-            panels));
+        draw_curves(session, fmt::format("weight_functions_{}d", Dim),
+                    fmt::format("Weight functions in {0} dimension{1} beside a "
+                                "Gaussian of the same width, s² = ⟨r²⟩{2}",
+                                Dim, Dim == 1 ? "" : "s", Dim == 1 ? "" : fmt::format("/{}", Dim)),
+                    panels);
 }
 
 // ---- 2: lattices ----
@@ -238,9 +218,9 @@ void draw_table(Session& session, const Parameters& p, const std::vector<Table>&
                                        : fmt::format("{:.6f}\n{:.6f}", e.least, e.largest));
             }
     }
-    session.note_drawn(draw_heat_map(
-        session.plots_folder(), "density_extremes",
-        "Smallest and largest density between particles at spacing 1, relative to the mean", map));
+    draw_heat_map(
+        session, "density_extremes",
+        "Smallest and largest density between particles at spacing 1, relative to the mean", map);
 }
 
 void draw_ripple(Session& session, const Parameters& p) {
@@ -256,8 +236,7 @@ void draw_ripple(Session& session, const Parameters& p) {
             panels.back().curves.push_back(curve);
         }
     }
-    session.note_drawn(draw_curves(session.plots_folder(), "density_ripple",
-                                   "How unevenly lattices of spacing 1 fill space", panels));
+    draw_curves(session, "density_ripple", "How unevenly lattices of spacing 1 fill space", panels);
 }
 
 }  // namespace
@@ -283,9 +262,8 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         if (p.ranges > 1 && p.largest <= p.smallest)
-            throw InputError(fmt::format(
-                "largest-range: {:g} is not above smallest-range, {:g}; give a larger one",
-                p.largest, p.smallest));
+            refuse("largest-range: {:g} is not above smallest-range, {:g}; give a larger one",
+                   p.largest, p.smallest);
         session.begin_analysis(
             {fmt::format("weights     Lucy, Monaghan, w_{}", p.family),
              fmt::format("lattices    line, square, triangular, particles at spacing 1, {} ranges "

@@ -20,18 +20,12 @@
 // With --potential one lattice under one choice of potentials is analysed, and nothing moves.
 #include "lattice_stability/motion.hpp"
 #include "lattice_stability/strength.hpp"
-#include "reduced_units.hpp"
 #include <spam/kernel/kernel.hpp>
 #include <spam/kernel/weight_integrals.hpp>
-#include <spam/spam.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-namespace lattice_stability {
 namespace {
+
+using namespace lattice_stability;
 
 // rk4 takes omega t (omega dt)^5/72 of the energy of a vibration: with the fastest, omega = 1.42 of both
 // potentials, 2e-6 until t = 600, and less than 1e-6 of all of it. dt = 0.05 would be too long.
@@ -86,16 +80,16 @@ void check_motion(Session& session, const Parameters& p, const std::vector<Sampl
         {"lattice", "kernel", "block", "speed", "strength", "surface-tension", "misfit"});
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const Acting acting = samples[k].acting;
-        const std::string prefix = fmt::format("{}_", to_string(acting));
+        const Findings findings(session, samples[k].prefix);
         const History& h = runs[k].history;
         const bool melts = acting == Acting::density;
-        session.claim({prefix + "rms_displacement", h.last("rms_displacement"), melts ? 3.5 : 0.0,
+        findings.claim("rms_displacement", h.last("rms_displacement"), melts ? 3.5 : 0.0,
                        melts ? 2.0 : 0.15,
                        melts ? "[HH07] 8: melts; above 1.5 spacings"
-                             : "[HH07] 8: is held; below 0.15 spacings"},
-                      known && *p.range == range_of_dynamics && h.last("t") == 600.0 &&
-                          (melts || acting == Acting::both));
-        session.check_promises(runs[k], prefix);
+                             : "[HH07] 8: is held; below 0.15 spacings",
+                       known && *p.range == range_of_dynamics && h.last("t") == 600.0 &&
+                           (melts || acting == Acting::both));
+        findings.check_promises(runs[k]);
     }
 }
 
@@ -112,8 +106,7 @@ void table_and_motion(Session& session, Parameters& p) {
     session.prefer_step(step_of(p));
     std::vector<Sample> samples;
     for (const Acting acting : all_potentials) samples.push_back(make_sample(p, acting, *p.range));
-    std::vector<Case<2>> cases;
-    for (Sample& sample : samples) {
+    const auto runs = run_all(session, samples, [&](Sample& sample) {
         Plan<2> plan;
         plan.t_end = session.common().smoke ? 6.0 : 600.0;
         plan.snapshot_every = plan.t_end / 200.0;
@@ -123,10 +116,8 @@ void table_and_motion(Session& session, Parameters& p) {
         plan.observe({.columns = {rms_displacement_column()},
                       .on_snapshot = follow,
                       .memory = [&sample](Archive& archive) { archive(sample.paths); }});
-        cases.push_back(
-            {sample.model, sample.y0, std::move(plan), std::string(to_string(sample.acting))});
-    }
-    const auto runs = session.run_all(std::move(cases));
+        return plan;
+    });
     if (runs.size() < samples.size() || !runs.back().complete) return;
 
     std::vector<Analysed> all;
@@ -150,10 +141,8 @@ void table_and_motion(Session& session, Parameters& p) {
 }
 
 }  // namespace
-}  // namespace lattice_stability
 
 int main(int argc, char** argv) {
-    using namespace lattice_stability;
     Problem problem("lattice_stability",
                     "which potentials of the density hold a lattice together, [HH07] 8", step,
                     "0.03, shorter with steeper weights or stronger potentials");
@@ -193,8 +182,8 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         if (session.given("potential")) return analyse_one(session, p);
         if (session.common().smoke && !p.range) p.range = 2.5;
-        if (session.common().smoke && !session.given("cells")) p.cells = 8;
-        if (session.common().smoke && !session.given("block")) p.block = 8;
+        session.smoke_default("cells", p.cells, 8);
+        session.smoke_default("block", p.block, 8);
         table_and_motion(session, p);
     });
 }

@@ -17,44 +17,28 @@
 // order at which the period converges.
 // Numbers of the projectile scatter: what breaks where is decided by the last digits.
 #include "material_vectors_study/trials.hpp"
-#include "reduced_units.hpp"
-#include <spam/picture/draw.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <chrono>
-#include <functional>
 #include <thread>
 
-namespace material_vectors_study {
 namespace {
+
+using namespace material_vectors_study;
 
 using Row = StudyTable::Row;
 
-const std::vector<std::string> columns{"case",
-                                       "penalty",
-                                       "reach",
-                                       "power",
-                                       "range",
-                                       "tension_borne",
-                                       "lowest_frequency",
-                                       "beam_error_coarse",
-                                       "beam_error",
-                                       "beam_error_fine",
-                                       "disorder_error",
-                                       "hexagon_closest_pair",
-                                       "hexagon_shape_error",
-                                       "hexagon_energy_drift",
-                                       "shot_closest_pair",
-                                       "shot_energy_drift",
-                                       "shot_heat",
-                                       "shot_pieces",
-                                       "seconds"};
+const std::vector<std::string> columns{
+    // the scheme
+    "case", "penalty", "reach", "power", "range",
+    // of lattices and of a beam
+    "tension_borne", "lowest_frequency", "beam_error_coarse", "beam_error", "beam_error_fine",
+    // of a hexagon and of a shot
+    "disorder_error", "hexagon_closest_pair", "hexagon_shape_error", "hexagon_energy_drift",
+    "shot_closest_pair", "shot_energy_drift", "shot_heat", "shot_pieces", "seconds"};
 
 struct Parameters {
     Sizes sizes;
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int jobs = all_cores();
 };
 
 /// A number that is changed, and the values it takes.
@@ -222,10 +206,8 @@ void draw(Session& session, const Parameters& p, const std::vector<Row>& rows) {
     const auto add = [&](const std::string& name, const std::vector<Row>& some) {
         LogLogCurve a{picture.key.size(), false, {}, {}}, b = a;
         for (const Row& row : some) {
-            a.x.push_back(100.0 * std::abs(cell(row, "beam_error")));
-            a.y.push_back(cell(row, "tension_borne"));
-            b.x.push_back(100.0 * std::abs(cell(row, "disorder_error")));
-            b.y.push_back(cell(row, "tension_borne"));
+            add_point(a, 100.0 * std::abs(cell(row, "beam_error")), cell(row, "tension_borne"));
+            add_point(b, 100.0 * std::abs(cell(row, "disorder_error")), cell(row, "tension_borne"));
         }
         elastic.curves.push_back(std::move(a));
         disorder.curves.push_back(std::move(b));
@@ -252,14 +234,12 @@ void draw(Session& session, const Parameters& p, const std::vector<Row>& rows) {
     const Row& best = rows[best_of(rows)];
     if (&best != &rows.front()) add(fmt::format("κ = {}, power {}", best[1], best[3]), {best});
     picture.panels = {elastic, disorder};
-    session.note_drawn(draw_log_log(session.plots_folder(), "material_vectors_study", picture));
+    draw_log_log(session, "material_vectors_study", picture);
 }
 
 }  // namespace
-}  // namespace material_vectors_study
 
 int main(int argc, char** argv) {
-    using namespace material_vectors_study;
     Problem problem("material_vectors_study",
                     "penalty and weights of material vectors, tried on lattices, a hexagon, a beam "
                     "and a projectile");
@@ -273,9 +253,7 @@ int main(int argc, char** argv) {
     options.number("turns", p.sizes.turns, "turns of the hexagon", positive());
     options.number("shot-time", p.sizes.shot_time, "time from the start of the projectile",
                    positive());
-    options.integer("jobs", p.jobs, "number of schemes computed at the same time",
-                    between(1, 1024));
-    options.exclude_from_case({"jobs"});
+    add_jobs_option(options, p.jobs, "number of schemes computed at the same time");
 
     return problem.main(argc, argv, [&](Session& session) {
         const bool smoke = session.common().smoke;

@@ -18,19 +18,10 @@
 // 2. In motion: the kinetic energy of each of the three stays what it is. With a resistance to the hourglass
 //    (rhs/elements.hpp) it is gone before the end.
 #include "mesh_modes/zero_modes.hpp"
-#include "reduced_units.hpp"
-#include <spam/picture/draw.hpp>
-#include <spam/setup/initial_state.hpp>
-#include <spam/spam.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-namespace mesh_modes {
 namespace {
+
+using namespace mesh_modes;
 
 struct Parameters {
     int elements = 4;
@@ -38,15 +29,9 @@ struct Parameters {
     HourglassControl control{0.1, 0.0};
 };
 
-struct Moving {
+struct Moving : Variant<2> {
     Mode mode;
     bool resisted;
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0;
-
-    std::string label() const {
-        return fmt::format("{}_{}", to_string(mode), resisted ? "resisted" : "free");
-    }
 };
 
 /// A single element cannot turn against another one.
@@ -59,10 +44,9 @@ std::vector<Moving> make_moving(const Parameters& p) {
     std::vector<Moving> all;
     for (const bool resisted : {false, true})
         for (const Mode mode : modes_of(p.elements)) {
-            Moving one{mode,
-                       resisted,
-                       make_mesh(p.elements, resisted ? p.control : HourglassControl{}),
-                       {}};
+            Moving one{{}, mode, resisted};
+            one.call(fmt::format("{}_{}", to_string(mode), resisted ? "resisted" : "free"));
+            one.model = make_mesh(p.elements, resisted ? p.control : HourglassControl{});
             one.y0 = initial_state<2>(*one.model, 1.0, p.speed, at_rest<2>());
             State<2>(one.model->layout(), one.y0).velocity() =
                 p.speed * velocities(*one.model, mode);
@@ -75,6 +59,7 @@ std::vector<Moving> make_moving(const Parameters& p) {
 
 /// Meshes of 1 x 1 to 8 x 8 and the one that moves.
 void count_modes(Session& session, const Parameters& p) {
+    const Findings findings(session);
     std::vector<int> sizes{1, 2, 3, 4, 5, 6, 7, 8};
     if (p.elements > 8) sizes.push_back(p.elements);
     double gap = HUGE_VAL;
@@ -82,36 +67,35 @@ void count_modes(Session& session, const Parameters& p) {
         const auto mesh = make_mesh(n, {});
         const ZeroModes found = zero_modes(*mesh);
         gap = std::min(gap, found.gap);
-        session.check({fmt::format("zero_modes_{}", n), static_cast<double>(found.count),
+        findings.check(fmt::format("zero_modes_{}", n), static_cast<double>(found.count),
                        n == 1 ? 2.0 : 3.0, 0.0,
                        n == 1 ? "8 velocities, 3 rigid motions, 3 strains"
-                              : "[HH01], Fig. 1: the hourglass in two directions, the butterfly"});
+                              : "[HH01], Fig. 1: the hourglass in two directions, the butterfly");
     }
-    session.measure("gap_of_singular_values", gap, "between modes that cost energy and others");
+    findings.measure("gap_of_singular_values", gap, "between modes that cost energy and others");
     const auto mesh = make_mesh(p.elements, {});
     for (const Mode mode : modes_of(p.elements))
-        session.check({fmt::format("{}_stress_rate", to_string(mode)),
+        findings.check(fmt::format("{}_stress_rate", to_string(mode)),
                        stress_rate(*mesh, velocities(*mesh, mode)), 0.0, 1e-14,
-                       "velocity gradients at centres are zero or turns"});
+                       "velocity gradients at centres are zero or turns");
 }
 
 void report(Session& session, const Parameters& p, const Moving& one, const RunRecord& run) {
     const History& h = run.history;
-    const std::string prefix = one.label() + "_";
+    const Findings findings(session, one.prefix);
     const double start = h.first("kinetic");
     // Turned by more than a little, elements of one colour spread those of the other.
     const double turned = p.speed * run.statistics.t_end * run.statistics.t_end;
     if (!one.resisted)
-        session.claim({prefix + "kinetic_change", h.largest_change("kinetic") / start, 0.0, 1e-14,
-                       "no stress resists it"},
-                      one.mode != Mode::butterfly || turned < 1e-8);
+        findings.claim("kinetic_change", h.largest_change("kinetic") / start, 0.0, 1e-14,
+                       "no stress resists it", one.mode != Mode::butterfly || turned < 1e-8);
     else
-        session.claim(
-            {prefix + "kinetic_left", h.last("kinetic") / start, 0.0,
-             one.mode == Mode::butterfly ? 1e-3 : 1e-9, "what resists the hourglass brakes it"},
-            session.when_default(
-                {"elements", "speed", "hourglass-viscosity", "hourglass-stiffness", "t-end"}));
-    session.check_promises(run, prefix);
+        findings.claim("kinetic_left", h.last("kinetic") / start, 0.0,
+                       one.mode == Mode::butterfly ? 1e-3 : 1e-9,
+                       "what resists the hourglass brakes it",
+                       session.when_default({"elements", "speed", "hourglass-viscosity",
+                                             "hourglass-stiffness", "t-end"}));
+    findings.check_promises(run);
 }
 
 /// The nodes moved so that the fastest go a quarter of a side; elements coloured by how far they have turned, in
@@ -123,17 +107,16 @@ ConfigurationPanel panel_of(const Moving& one, const std::string& title) {
     ConfigurationPanel panel{title, X + moved, turns(*one.model, moved), {}, {}};
     for (double& turn : panel.colour) turn *= 180.0 / std::numbers::pi;
     panel.elements.assign(elements.begin(), elements.end());
-    const double low = X.minCoeff(), high = X.maxCoeff();
-    Points<2> square(2, 4);
-    square << low, high, high, low, low, low, high, high;
-    panel.outlines.push_back(square);
+    panel.outlines.push_back(
+        rectangle(Point<2>::Constant(X.minCoeff()), Point<2>::Constant(X.maxCoeff())));
     return panel;
 }
 
 void draw(Session& session, const Parameters& p, const std::vector<Moving>& all,
           const std::vector<RunRecord>& runs) {
     std::vector<ConfigurationPanel> panels;
-    CurvePanel kinetic{"resisted: kinetic energy, in parts of the first", "t", "K/K₀", true, {}};
+    CurvePanel kinetic =
+        frame("resisted: kinetic energy, in parts of the first", "t", "K/K₀", true);
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const std::string name = all[k].mode == Mode::butterfly     ? "butterfly, s (x, -y)"
                                  : all[k].mode == Mode::hourglass_x ? "hourglass, s (1, 0)"
@@ -142,28 +125,21 @@ void draw(Session& session, const Parameters& p, const std::vector<Moving>& all,
             panels.push_back(panel_of(all[k], name));
             continue;
         }
-        Curve curve{name, runs[k].history.column("t"), runs[k].history.column("kinetic")};
-        const double start = curve.y.front();
-        for (double& value : curve.y) value /= start;
-        kinetic.curves.push_back(std::move(curve));
+        const auto K = runs[k].history.column("kinetic");
+        kinetic.curves.push_back({name, runs[k].history.column("t"), divided(K, K.front())});
     }
     const auto title =
         fmt::format("Motions that no stress resists, {0} x {0} elements", p.elements);
-    session.note_drawn(draw_configurations(session.plots_folder(), "modes", title, panels,
-                                           panels.size(), "turned, degrees",
-                                           ColourScale::about_zero));
-    session.note_drawn(draw_curves(session.plots_folder(), "kinetic", title, {kinetic}));
+    draw_configurations(session, "modes", title, panels, panels.size(), "turned, degrees",
+                        ColourScale::about_zero);
+    draw_curves(session, "kinetic", title, {kinetic});
 }
 
 void compute(Session& session, const Parameters& p) {
-    const auto all = make_moving(p);
-    std::vector<Case<2>> cases;
-    for (const Moving& one : all) {
-        Plan<2> plan;
-        plan.t_end = session.common().smoke ? 10.0 : 40.0;
-        cases.push_back({one.model, one.y0, std::move(plan), one.label()});
-    }
-    const auto runs = session.run_all(std::move(cases));
+    auto all = make_moving(p);
+    const auto runs = run_all(session, all, [&](const Moving&) {
+        return Plan<2>{.t_end = session.common().smoke ? 10.0 : 40.0};
+    });
     if (runs.size() < all.size() || !runs.back().complete) return;
     count_modes(session, p);
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, all[k], runs[k]);
@@ -171,10 +147,8 @@ void compute(Session& session, const Parameters& p) {
 }
 
 }  // namespace
-}  // namespace mesh_modes
 
 int main(int argc, char** argv) {
-    using namespace mesh_modes;
     Problem problem("mesh_modes",
                     "motions of a mesh of one-point elements that nothing resists, [HH01]", 0.05);
     problem.units(lattice_units());

@@ -26,21 +26,10 @@
 // cells, unless given) and fits the order at which the error falls to that of long waves (0.8 %).
 #include "plane_wave/block_rotation.hpp"
 #include "plane_wave/input.hpp"
-#include "reduced_units.hpp"
 #include <spam/analysis/lattice_modes.hpp>
 #include <spam/analysis/periodic_solid.hpp>
-#include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/pair_torques.hpp>
 #include <spam/kernel/weight_integrals.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/problem/nearest_state.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -108,27 +97,25 @@ Plan<2> plan_of(Ringing& one, const Parameters& p, double t_end, double shortest
 
 void report_periods(Session& session, const Parameters& p, const Ringing& one,
                     const RunRecord& run) {
-    const auto measured = [&](const char* name, double value) {
-        session.measure(one.prefix + name, value);
-    };
-    session.check_promises(run, one.prefix);
-    measured("period_lattice", one.period_lattice());
-    measured("period_continuum", one.period_continuum());
+    const Findings findings(session, one.prefix);
+    findings.check_promises(run);
+    findings.measure("period_lattice", one.period_lattice());
+    findings.measure("period_continuum", one.period_continuum());
     const double period =
         period_of_zeros(run.history.column("t"), run.history.column("wave_velocity"));
     if (!(period > 0.0)) return;  // too short to tell
     const Scheme& scheme = one.solid.model->scheme();
     const double strain = one.wave.amplitude * one.wave.k;
     if (strain < 0.0032 && scheme.angular_momentum == AngularMomentum::free)  // 0.01 in 24 cells
-        session.check({one.prefix + "period", period, one.period_lattice(),
-                       0.005 * one.period_lattice(), "linear analysis of the lattice"});
+        findings.check("period", period, one.period_lattice(), 0.005 * one.period_lattice(),
+                       "linear analysis of the lattice");
     else
-        session.claim({one.prefix + "period", period, one.transverse() ? 35.5 : 20.5, 0.5,
-                       "[HHM04] V: period 35; Fig. 3"},
-                      p.cells == 24 && p.amplitude == 0.25 && scheme.kernel == Kernel::lucy &&
-                          scheme.range == 3.0);
-    measured("period_shift", period / one.period_lattice() - 1.0);
-    measured("period_error", period / one.period_continuum() - 1.0);
+        findings.claim("period", period, one.transverse() ? 35.5 : 20.5, 0.5,
+                       "[HHM04] V: period 35; Fig. 3",
+                       p.cells == 24 && p.amplitude == 0.25 && scheme.kernel == Kernel::lucy &&
+                           scheme.range == 3.0);
+    findings.measure("period_shift", period / one.period_lattice() - 1.0);
+    findings.measure("period_error", period / one.period_continuum() - 1.0);
 }
 
 /// Blocks along y at one time against the formula, and with their own second moments in it.
@@ -182,9 +169,7 @@ Torques torques_at_start(const Ringing& one, double side) {
 
 void report_turning(Session& session, const Parameters& p, const Ringing& one,
                     const Torques& torques, const BlockProfile& turned) {
-    const auto measured = [&](const char* name, double value) {
-        session.measure(one.prefix + name, value);
-    };
+    const Findings findings(session, one.prefix);
     // The formulas expand in block and range over the wave (off by 12 % at 1.5 for the range); a range
     // below 2.5 has too few neighbours for integrals. Others: the range at which Lucy's is as wide.
     const Scheme& scheme = one.solid.model->scheme();
@@ -192,24 +177,25 @@ void report_turning(Session& session, const Parameters& p, const Ringing& one,
     const double range = std::sqrt(28.0 / 5.0 * r2), k = one.wave.k;
     const bool long_wave = p.block * k < 1.2 && p.block >= 2.0 && range * k < 1.22 && range >= 2.5;
     const auto claim = [&](const char* name, double value, double expected, const char* source) {
-        if (!long_wave) return measured(name, value);
-        session.check({one.prefix + name, value, expected, 0.1 * std::abs(expected), source});
+        if (!long_wave) return findings.measure(name, value);
+        findings.check(name, value, expected, 0.1 * std::abs(expected), source);
     };
     const char* own = "[HHM04] V, with the blocks' own sum m dy^2 for rho d^4/12";
     const BlockProfile& blocks = torques.blocks;
-    measured("block_torque_ratio", best_factor(blocks.angular_momentum, blocks.formula));
+    findings.measure("block_torque_ratio", best_factor(blocks.angular_momentum, blocks.formula));
     claim("block_torque_ratio_own_moment", best_factor(blocks.angular_momentum, blocks.own_formula),
           1.0, own);
     const double t = one.turned.front().t;
     if (t > 0.1 * one.period_lattice() && t < 0.4 * one.period_lattice()) {
-        measured("block_angular_momentum_ratio",
-                 best_factor(turned.angular_momentum, turned.formula));
+        findings.measure("block_angular_momentum_ratio",
+                         best_factor(turned.angular_momentum, turned.formula));
         claim("block_angular_momentum_ratio_own_moment",
               best_factor(turned.angular_momentum, turned.own_formula), 1.0, own);
     }
     const double d = p.block;
     const double region = best_factor(torques.region, torques.invariant);
-    measured("torque_ratio", 0.5 * region / (one.wave.density * d * d));  // T_i : (d^4/12) [...]
+    findings.measure("torque_ratio",
+                     0.5 * region / (one.wave.density * d * d));  // T_i : (d^4/12) [...]
     claim("torque_ratio_region", region, -6.0 * r2 / (d * d),
           "expansion of T_i: rho d^2 T_i = -(6 <r^2>/d^2) (d^4/24) curl div sigma");
 }
@@ -219,42 +205,34 @@ void report_turning(Session& session, const Parameters& p, const Ringing& one,
 void draw_energies(Session& session, const std::vector<Ringing>& all,
                    const std::vector<RunRecord>& runs) {
     std::vector<CurvePanel> panels;
-    for (std::size_t n = 0; n < runs.size(); ++n) {
-        const History& h = runs[n].history;
-        CurvePanel panel{"", "t", "energy", false, {}};
-        panel.title = fmt::format("{} wave, amplitude {:g}", to_string(all[n].wave.polarization),
-                                  all[n].wave.amplitude);
-        panel.curves = {{"internal", h.column("t"), h.column("internal")},
-                        {"kinetic", h.column("t"), h.column("kinetic")}};
-        panels.push_back(std::move(panel));
-    }
-    session.note_drawn(draw_curves(
-        session.plots_folder(), "energies",
-        fmt::format("Standing waves in {} particles", runs.front().statistics.particles), panels));
+    for (std::size_t n = 0; n < runs.size(); ++n)
+        panels.push_back(over_time(
+            fmt::format("{} wave, amplitude {:g}", to_string(all[n].wave.polarization),
+                        all[n].wave.amplitude),
+            runs[n].history, "energy", {{"internal", "internal"}, {"kinetic", "kinetic"}}));
+    draw_curves(session, "energies",
+                fmt::format("Standing waves in {} particles", runs.front().statistics.particles),
+                panels);
 }
 
 void draw_turning(Session& session, const Parameters& p, const Torques& torques,
                   const BlockProfile& turned) {
     const auto panel = [](const char* title, const char* label, const BlockProfile& blocks) {
-        return CurvePanel{title,
-                          "y/λ",
-                          label,
-                          false,
-                          {{"blocks", blocks.y, blocks.angular_momentum},
-                           {"own Σ m δy²", blocks.y, blocks.own_formula},
-                           {"ρ d⁴/12", blocks.y, blocks.formula}}};
+        CurvePanel of_blocks = frame(title, "y/λ", label);
+        of_blocks.curves = {{"blocks", blocks.y, blocks.angular_momentum},
+                            {"own Σ m δy²", blocks.y, blocks.own_formula},
+                            {"ρ d⁴/12", blocks.y, blocks.formula}};
+        return of_blocks;
     };
     const auto now = panel("angular momentum, a quarter of a period", "L of a block", turned);
     const auto rate = panel("its rate at the start", "dL/dt of a block", torques.blocks);
-    session.note_drawn(draw_curves(session.plots_folder(), "blocks",
-                                   fmt::format("Blocks of {0:g} × {0:g} in the wave", p.block),
-                                   {now, rate}));
+    draw_curves(session, "blocks", fmt::format("Blocks of {0:g} × {0:g} in the wave", p.block),
+                {now, rate});
     CurvePanel region{"torques of smooth particles at the start", "y/λ", "torque", false, {}};
     region.curves = {{"ρ d² T_i", torques.y, torques.region},
                      {"(d⁴/24) curl div σ", torques.y, torques.invariant}};
     const CurvePanel pairs{"pair torques at the start", "T_ij", "pairs", false, {torques.pairs}};
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "torques", "Torques in the wave", {region, pairs}));
+    draw_curves(session, "torques", "Torques in the wave", {region, pairs});
 }
 
 /// Error of the period against linear elasticity over sizes, one order a polarization.
@@ -286,8 +264,7 @@ void compare_sizes(Session& session, const std::vector<Ringing>& all,
         panel.curves.push_back({name, k2, error});
     }
     if (session.plots() && !panel.curves.empty())
-        session.note_drawn(
-            draw_curves(session.plots_folder(), "sizes", "Waves of three lengths", {panel}));
+        draw_curves(session, "sizes", "Waves of three lengths", {panel});
 }
 
 }  // namespace
@@ -313,7 +290,7 @@ int main(int argc, char** argv) {
     problem.use_scheme();
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = p.compare_sizes ? 16 : 10;
+        session.smoke_default("cells", p.cells, p.compare_sizes ? 16 : 10);
         if (p.compare_sizes && !session.given("amplitude")) p.amplitude = 0.01 * p.cells / 24.0;
         const bool single = session.given("polarization");
         refuse_blocks(options, p);
@@ -322,8 +299,7 @@ int main(int argc, char** argv) {
         std::vector<double> periods;
         for (const auto& one : all) periods.push_back(one.period_lattice());
         const auto [shortest, longest] = std::ranges::minmax(periods);
-        const double most = (session.common().smoke ? 1.7 : 3.0) * longest;
-        const double t_end = session.common().t_end.value_or(most);
+        const double t_end = session.end(3.0 * longest, 1.7 * longest);
         refuse_too_short(p, t_end, longest);
         std::vector<Case<2>> cases;
         for (auto& one : all)

@@ -21,24 +21,12 @@
 // --compare runs all of them with steps and tolerances of their own: comparison.csv, and error against work
 // in one picture. It reports what the tolerance of adaptive steps does not control. 15 s
 #include "plastic_block/block.hpp"
-#include "reduced_units.hpp"
-#include <spam/picture/draw.hpp>
-#include <spam/problem/nearest_state.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <thread>
 
-namespace plastic_block {
 namespace {
 
-Column<2> plastic_work_column() {
-    return {"plastic_work", [](const Model<2>& model, std::span<const double> y) {
-                return plastic_work(model, y);
-            }};
-}
+using namespace plastic_block;
 
 Column<2> plastic_strain_column() {
     return {"largest_plastic_strain", [](const Model<2>& model, std::span<const double> y) {
@@ -47,6 +35,18 @@ Column<2> plastic_strain_column() {
             }};
 }
 
+void report(Session& session, const Parameters& p, const RunRecord& run) {
+    const double energy = std::abs(run.history.last("energy") / run.history.first("energy") - 1.0);
+    const bool known = run.complete && p.yielding != Yielding::after_steps &&
+                       session.integrator().method == "rk4" &&
+                       session.integrator().dt.value_or(1.0) <= 0.25;
+    const Findings findings(session);
+    findings.claim("energy_change", energy, 0.0, 2e-6, "no plastic work is added to e", known);
+    findings.measure_last(run.history, {"plastic_work", "largest_plastic_strain"});
+    findings.check_promises(run);
+}
+
+/// As many as a run of its own length has.
 struct Snapshot {
     double t;
     Points<2> position;
@@ -54,34 +54,18 @@ struct Snapshot {
     void remember(Archive& archive) { archive(t, position, strain); }
 };
 
-void report(Session& session, const Parameters& p, const RunRecord& run) {
-    const double energy = std::abs(run.history.last("energy") / run.history.first("energy") - 1.0);
-    const bool known = run.complete && p.yielding != Yielding::after_steps &&
-                       session.integrator().method == "rk4" &&
-                       session.integrator().dt.value_or(1.0) <= 0.25;
-    session.claim({"energy_change", energy, 0.0, 2e-6, "no plastic work is added to e"}, known);
-    session.measure("plastic_work", run.history.last("plastic_work"));
-    session.measure("largest_plastic_strain", run.history.last("largest_plastic_strain"));
-    session.check_promises(run);
-}
-
 void draw(Session& session, const std::vector<Snapshot>& snapshots, const RunRecord& run) {
     std::vector<ConfigurationPanel> panels;
     for (const Snapshot& one : snapshots)
         panels.push_back({fmt::format("t = {:.3g}", one.t), one.position, one.strain, {}});
-    session.note_drawn(draw_configurations(session.plots_folder(), "plastic_strain",
-                                           "Yielding block: plastic strain", panels, panels.size(),
-                                           "plastic strain"));
-    const auto t = run.history.column("t");
-    session.note_drawn(draw_curves(session.plots_folder(), "energies", "Yielding block",
-                                   {{"",
-                                     "t",
-                                     "energy",
-                                     false,
-                                     {{"kinetic", t, run.history.column("kinetic")},
-                                      {"internal", t, run.history.column("internal")},
-                                      {"plastic work", t, run.history.column("plastic_work")},
-                                      {"total", t, run.history.column("energy")}}}}));
+    draw_configurations(session, "plastic_strain", "Yielding block: plastic strain", panels,
+                        panels.size(), "plastic strain");
+    draw_curves(session, "energies", "Yielding block",
+                {over_time("", run.history, "energy",
+                           {{"kinetic", "kinetic"},
+                            {"internal", "internal"},
+                            {"plastic work", "plastic_work"},
+                            {"total", "energy"}})});
 }
 
 void run_one(Session& session, const Parameters& p) {
@@ -89,7 +73,7 @@ void run_one(Session& session, const Parameters& p) {
     Plan<2> plan;
     plan.t_end = session.common().smoke ? 5.0 : 20.0;
     plan.snapshot_every = 0.25 * session.common().t_end.value_or(plan.t_end);
-    plan.record({plastic_work_column(), plastic_strain_column()});
+    plan.record({{"plastic_work", plastic_work}, plastic_strain_column()});
     std::vector<Snapshot> snapshots;
     plan.observe({.on_snapshot =
                       [&](double t, const Model<2>& model, std::span<const double> y) {
@@ -104,14 +88,11 @@ void run_one(Session& session, const Parameters& p) {
 }
 
 }  // namespace
-}  // namespace plastic_block
 
 int main(int argc, char** argv) {
-    using namespace plastic_block;
     Problem problem("plastic_block", "a free block that bends, yields and keeps its energy", 0.25);
     problem.units(lattice_units());
     Parameters p;
-    p.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     auto& options = problem.options();
     options.integer("columns", p.columns, "particles along the block", between(4, 1000));
     options.integer("rows", p.rows, "rows of particles", between(3, 1000));
@@ -153,9 +134,8 @@ int main(int argc, char** argv) {
             [&p] { return p.compare || p.formulation == Formulation::total_lagrangian; },
             "has a meaning for --formulation total_lagrangian alone");
     options.flag("compare", p.compare, "errors, orders and work of all forms");
-    options.integer("jobs", p.jobs, "runs of --compare computed at the same time", between(1, 1024))
+    add_jobs_option(options, p.jobs, "runs of --compare computed at the same time")
         .needs("compare");
-    options.exclude_from_case({"jobs"});
     options.exclude("compare", {"formulation", "yield"},
                     "has no effect with {by}, which runs all of them; leave one out");
     return problem.main(argc, argv, [&](Session& session) {

@@ -27,22 +27,16 @@
 //                        factor of three. The particles' onset is later: at rest they are in order, and resist
 //                        weak rolls as a solid does. 2 min
 #include "rayleigh_benard/convection.hpp"
-#include "reduced_units.hpp"
-#include <spam/core/error.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-namespace rayleigh_benard {
 namespace {
+
+using namespace rayleigh_benard;
 
 constexpr double weak_roll = 1e-3;
 
-Plan<2> plan_of(const Session& session, Convection& gas, double t_end) {
+Plan<2> plan_of(const Session& session, const Convection& gas) {
     Plan<2> plan;
-    plan.t_end = session.common().t_end.value_or(t_end);
+    plan.t_end = session.end(80.0 * gas.layer.L, 6.0);
     plan.output_every = plan.t_end / 160.0;
     plan.record({roll_amplitude_column(gas.layer)});
     return plan;
@@ -50,6 +44,7 @@ Plan<2> plan_of(const Session& session, Convection& gas, double t_end) {
 
 void report(Session& session, const Parameters& p, const Convection& gas, const RunRecord& run,
             const GridRun& twin) {
+    const Findings findings(session);
     const auto t = run.history.column("t");
     const std::size_t from = middle(t), to = t.size() - 1;
     const double bottom = nusselt(gas.layer, t, run.history.column("heat_bottom"), from, to, false);
@@ -62,21 +57,20 @@ void report(Session& session, const Parameters& p, const Convection& gas, const 
                                              "work", "kernel", "range"}) &&
                        session.when_default(p.sides->names()) && long_enough;
     const bool still = gas.layer.rayleigh <= 1000.0;
-    session.claim({"nusselt_bottom", bottom, 1.8, 0.15, "an independent computation"}, known);
-    session.claim({"nusselt_top", top, 1.8, 0.15, "an independent computation"}, known);
-    session.claim({"nusselt_difference", top - bottom, 0.0, 0.1, "in the steady state"}, known);
-    session.measure("nusselt_of_grid", of_grid, "finite differences, both plates");
-    session.claim({"nusselt_by_grid", mean / of_grid, 1.0, 0.1, "finite differences"}, known);
-    session.measure("roll_amplitude", run.history.last("roll_amplitude"));
-    session.measure("roll_amplitude_of_grid", twin.roll.back(), "finite differences");
+    findings.claim("nusselt_bottom", bottom, 1.8, 0.15, "an independent computation", known);
+    findings.claim("nusselt_top", top, 1.8, 0.15, "an independent computation", known);
+    findings.claim("nusselt_difference", top - bottom, 0.0, 0.1, "in the steady state", known);
+    findings.measure("nusselt_of_grid", of_grid, "finite differences, both plates");
+    findings.claim("nusselt_by_grid", mean / of_grid, 1.0, 0.1, "finite differences", known);
+    findings.measure("roll_amplitude", run.history.last("roll_amplitude"));
+    findings.measure("roll_amplitude_of_grid", twin.roll.back(), "finite differences");
     if (still && p.roll > 0.0)
-        session.claim(
-            {"roll_left", run.history.last("roll_amplitude") / run.history.first("roll_amplitude"),
-             0.0, 0.1, "below the onset rolls die out"},
-            long_enough);
-    session.measure("reflections", static_cast<double>(gas.model->reflections()),
-                    "particles that crossed a plate");
-    session.check_promises(run);
+        findings.claim("roll_left",
+                       run.history.last("roll_amplitude") / run.history.first("roll_amplitude"),
+                       0.0, 0.1, "below the onset rolls die out", long_enough);
+    findings.measure("reflections", static_cast<double>(gas.model->reflections()),
+                     "particles that crossed a plate");
+    findings.check_promises(run);
 }
 
 /// Sound goes as the root of the temperature; slow convection means quick diffusion.
@@ -87,12 +81,11 @@ double step_of(const Convection& gas) {
 }
 
 void run_one(Session& session, const Parameters& p) {
-    Convection gas = make_convection(p, p.rayleigh, session.common().dry_run);
-    const double t_end = session.common().smoke ? 6.0 : 80.0 * gas.layer.L;
+    std::vector<Convection> gases{make_convection(p, p.rayleigh, session.common().dry_run)};
+    const Convection& gas = gases.front();
     session.prefer_step(step_of(gas));
-    std::vector<Case<2>> cases;
-    cases.push_back({gas.model, gas.y0, plan_of(session, gas, t_end), ""});
-    const auto runs = session.run_all(std::move(cases));
+    const auto runs =
+        run_all(session, gases, [&](const Convection& one) { return plan_of(session, one); });
     if (!runs.front().complete) return;
     Grid grid(gas.layer, gas.model->box(), p.height);
     GridRun twin;
@@ -133,16 +126,12 @@ void run_scan(Session& session, const Parameters& p) {
     double step = HUGE_VAL;
     for (const double Ra : scan.rayleigh) {
         gases.push_back(make_convection(p, Ra, session.common().dry_run));
-        gases.back().label = fmt::format("ra{:g}", Ra);
+        gases.back().call(fmt::format("ra{:g}", Ra));
         step = std::min(step, step_of(gases.back()));
     }
     session.prefer_step(step);
-    std::vector<Case<2>> cases;
-    for (auto& gas : gases)
-        cases.push_back({gas.model, gas.y0,
-                         plan_of(session, gas, session.common().smoke ? 6.0 : 80.0 * gas.layer.L),
-                         gas.label});
-    const auto runs = session.run_all(std::move(cases));
+    const auto runs =
+        run_all(session, gases, [&](const Convection& one) { return plan_of(session, one); });
     if (runs.size() < gases.size() ||
         !std::all_of(runs.begin(), runs.end(), [](const auto& run) { return run.complete; }))
         return;
@@ -184,10 +173,8 @@ void run_scan(Session& session, const Parameters& p) {
 }
 
 }  // namespace
-}  // namespace rayleigh_benard
 
 int main(int argc, char** argv) {
-    using namespace rayleigh_benard;
     Problem problem("rayleigh_benard", "convection between a hot and a cold plate, [HH07] 12", 0.2,
                     "0.2, or shorter where heat diffuses fast or the lower plate is hotter");
     problem.units(gas_units());
@@ -209,8 +196,7 @@ int main(int argc, char** argv) {
     options.number("roll", p.roll, "speed of the rolls at the start; that of sound is 1.4",
                    between(0.0, 0.3));
     add_friction_option(options, p.friction);
-    options.choice<Density>("density", p.density, {Density::summed, Density::continuity},
-                            "density as a sum over neighbours, or by the continuity equation");
+    add_density_option(options, p.density);
     options.choice<Work>(
         "work", p.work, {Work::mean, Work::own},
         "what changes a particle's energy: work by the mean stress of each pair, or by its "
@@ -221,7 +207,7 @@ int main(int argc, char** argv) {
     options.exclude("scan", {"rayleigh"},
                     "has no effect with {by} (seven Rayleigh numbers); leave one out");
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("height")) p.height = 10;
+        session.smoke_default("height", p.height, 10);
         if (p.scan && !session.given("roll")) p.roll = 0.2;
         if (p.scan && p.roll == 0.0)
             throw InputError("roll: 0 leaves nothing that could stay with --scan; give 0.2");

@@ -16,20 +16,14 @@
 // the outline given. Names in result.json: density_scatter is the standard deviation of densities
 // (Lucy, range 3) over their mean: of all particles, the wall's part included, and of those off the
 // border by more than the range.
+#include "common.hpp"
 #include "relaxation/quality.hpp"
 #include <spam/external/friction.hpp>
-#include <spam/io/csv.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/rhs/pair_potentials.hpp>
-#include <spam/spam.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-namespace relaxation {
 namespace {
+
+using namespace relaxation;
 
 constexpr double at_rest_below = 1e-5;  // rms speed, of that of sound: the run ends
 constexpr double longest = 1000.0;      // a late defect may still move
@@ -130,7 +124,6 @@ void write_mesh(const RunFolder& folder, const Particles<2>& particles, const Re
 
 void draw(Session& session, const Region& region, const Ruler& ruler, const RunRecord& run,
           const Points<2>& x_0, const Points<2>& x) {
-    const auto folder = session.plots_folder();
     const auto panel = [&](const std::string& title, const Points<2>& at,
                            std::vector<double> colour) {
         return ConfigurationPanel{.title = title,
@@ -141,34 +134,25 @@ void draw(Session& session, const Region& region, const Ruler& ruler, const RunR
     const auto percent = [&](const Points<2>& at) { return 100.0 * scatter(ruler.density(at)); };
     const auto before = fmt::format("t = 0: density scatter {:.3g} %", percent(x_0));
     const auto after = fmt::format("t = {:g}: {:.2g} %", run.history.last("t"), percent(x));
-    session.note_drawn(draw_configurations(
-        folder, "configurations",
-        fmt::format("{} particles before and after viscous relaxation", x.cols()),
-        {panel(before, x_0, ruler.density(x_0)), panel(after, x, ruler.density(x))}, 2, "density"));
+    draw_configurations(session, "configurations",
+                        fmt::format("{} particles before and after viscous relaxation", x.cols()),
+                        {panel(before, x_0, ruler.density(x_0)), panel(after, x, ruler.density(x))},
+                        2, "density");
     const auto count = ruler.neighbours(x);
-    session.note_drawn(draw_configurations(
-        folder, "neighbours", "Neighbours of particles",
+    draw_configurations(
+        session, "neighbours", "Neighbours of particles",
         {panel("off the border six, but for defects", x, {count.begin(), count.end()})}, 1,
-        "nearer than 1.47"));
+        "nearer than 1.47");
     const History& h = run.history;
-    const CurvePanel evenness{.title = "evenness",
-                              .x_label = "t",
-                              .y_label = "relative standard deviation",
-                              .log_y = true,
-                              .curves = {{"density", h.column("t"), h.column("density_scatter")}}};
-    const CurvePanel motion{.title = "motion",
-                            .x_label = "t",
-                            .y_label = "rms speed",
-                            .log_y = true,
-                            .curves = {{"speed", h.column("t"), h.column("rms_speed")}}};
-    session.note_drawn(draw_curves(folder, "relaxation", "Coming to rest", {evenness, motion}));
+    const CurvePanel evenness = over_time("evenness", h, "relative standard deviation",
+                                          {{"density", "density_scatter"}}, true);
+    const CurvePanel motion = over_time("motion", h, "rms speed", {{"speed", "rms_speed"}}, true);
+    draw_curves(session, "relaxation", "Coming to rest", {evenness, motion});
 }
 
 }  // namespace
-}  // namespace relaxation
 
 int main(int argc, char** argv) {
-    using namespace relaxation;
     Problem problem("relaxation", "a mesh for an irregular shape by viscous relaxation, [HH07] 7");
     problem.units(reduced_units(
         "the mass of a particle, its area and the energy of two by the integral of their weight"));
@@ -194,7 +178,7 @@ int main(int argc, char** argv) {
     options.integer("seed", p.seed, "seed of the random initial places", between(0.0, 1e9));
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("particles")) p.particles = 80;
+        session.smoke_default("particles", p.particles, 80);
         // shape and places
         const Region region = region_of(p);
         auto particles = make_particles<2>(p.start == Start::random

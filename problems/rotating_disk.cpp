@@ -25,17 +25,8 @@
 // sigma_rt in proportion to the angle turned.
 #include "rotating_disk/rotating_disk.hpp"
 
-#include "reduced_units.hpp"
 #include "rotating_disk/polar_stress.hpp"
 #include <spam/external/friction.hpp>
-#include <spam/io/csv.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -48,8 +39,8 @@ std::string_view to_string(Which which) {
     return which == Which::both ? "both" : which == Which::md ? "md" : "spam";
 }
 
-const double rho = std::sqrt(4.0 / 3.0);   // stress-free; mass and spacing are 1
-const double eta = std::sqrt(3.0 / 16.0);  // = lambda
+const double rho = triangular_density;  // stress-free; mass and spacing are 1
+const double eta = triangular_modulus;  // = lambda
 const double c_L = std::sqrt(3.0 * eta / rho);
 
 struct Parameters {
@@ -64,9 +55,7 @@ struct Parameters {
 };
 
 /// A body, its elasticity, and where its rim begins: a range of smooth particles away from its edge.
-struct Body {
-    std::string label, title;
-    std::shared_ptr<ParticleModel<2>> model;
+struct Body : Variant<2> {
     double R, rim;
 };
 
@@ -74,15 +63,15 @@ struct Body {
 void refuse_empty(const Parameters& p, const Scheme& scheme, const Points<2>& x, double rim) {
     const auto r = x.colwise().norm();
     if (!(r.minCoeff() < rim))
-        throw InputError(fmt::format(
+        refuse(
             "range: no particle of a {} of radius {:g} is farther than h = {:g} from the rim, and "
             "nothing is inside; choose a shorter --range or a larger --radius",
-            to_string(p.shape), p.radius, scheme.range));
+            to_string(p.shape), p.radius, scheme.range);
     if (!(r.maxCoeff() >= rim))
-        throw InputError(fmt::format(
+        refuse(
             "range: no particle of a {} of radius {:g} is within h = {:g} of the rim; choose a "
             "longer --range",
-            to_string(p.shape), p.radius, scheme.range));
+            to_string(p.shape), p.radius, scheme.range);
 }
 
 Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
@@ -91,16 +80,18 @@ Body make_body(const Parameters& p, const Scheme& scheme, bool md) {
                                                  : triangular_hexagon(static_cast<int>(p.radius)),
                           1.0);
     const double R = std::sqrt(static_cast<double>(particles.size()) / (rho * std::numbers::pi));
-    std::shared_ptr<ParticleModel<2>> model;
+    Body body{{}, R, R - scheme.range};
+    body.call(md ? "md" : "spam");
+    body.title = md ? "molecular dynamics" : "SPAM";
     if (md)
-        model = std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
+        body.model = std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
     else
-        model = std::make_unique<SmoothParticleModel<2>>(
+        body.model = std::make_unique<SmoothParticleModel<2>>(
             std::move(particles), ElasticSolid::triangular_lattice(), scheme);
-    const double rim = R - scheme.range;
-    refuse_empty(p, scheme, model->particles().reference_position, rim);
-    if (*p.damping > 0.0) model->add(std::make_unique<Friction<2>>(*p.damping));
-    return {md ? "md" : "spam", md ? "molecular dynamics" : "SPAM", std::move(model), R, rim};
+    refuse_empty(p, scheme, body.model->particles().reference_position, body.rim);
+    if (*p.damping > 0.0) body.model->add(std::make_unique<Friction<2>>(*p.damping));
+    body.y0 = lattice_state(*body.model, rigid_rotation(p.omega()));
+    return body;
 }
 
 /// Elasticity of a body that turns as fast as this one does by now.
@@ -188,17 +179,9 @@ void check(Session& session, const Body& body, const RunRecord& run, double omeg
 // ---- pictures ----
 
 Curve exact_curve(const RotatingDisk& exact, const Component& component) {
-    Curve curve{"elasticity", {}, {}, Mark::line, 1};
-    for (int k = 0; k <= 60; ++k) {
-        curve.x.push_back(k / 60.0);
-        curve.y.push_back((exact.*component.exact)(k / 60.0 * exact.R) / exact.centre_stress());
-    }
-    return curve;
-}
-
-std::vector<double> over(std::vector<double> values, double unit) {
-    for (double& value : values) value /= unit;
-    return values;
+    return graph(
+        "elasticity", 0.0, 1.0, 60,
+        [&](double r) { return (exact.*component.exact)(r * exact.R) / exact.centre_stress(); }, 1);
 }
 
 /// Stress against radius, and the bodies coloured by it; in units of R and of the stress at the
@@ -209,12 +192,11 @@ void draw(Session& session, const std::vector<Body>& bodies, const std::vector<R
     std::vector<CurvePanel> curves;
     std::vector<ConfigurationPanel> configurations;
     for (const Component& component : components) {
-        CurvePanel panel{
-            fmt::format("{} stress", component.name), "r / R", "stress / σ₀", false, {}};
+        CurvePanel panel = frame(fmt::format("{} stress", component.name), "r / R", "stress / σ₀");
         for (std::size_t k = runs.size(); k-- > 0;) {  // the narrower cloud on top
             const auto s = polar_stress(*bodies[k].model, runs[k].y, rho);
-            panel.curves.push_back({bodies[k].title, over(s.r, exact.R),
-                                    over(s.*component.measured, unit), Mark::points,
+            panel.curves.push_back({bodies[k].title, divided(s.r, exact.R),
+                                    divided(s.*component.measured, unit), Mark::points,
                                     bodies[k].label == "md" ? 3 : 2});
         }
         panel.curves.push_back(exact_curve(exact, component));
@@ -224,17 +206,16 @@ void draw(Session& session, const std::vector<Body>& bodies, const std::vector<R
             configurations.push_back(
                 {fmt::format("{}, {} stress", bodies[k].title, component.name),
                  ConstState<2>(bodies[k].model->layout(), runs[k].y).position(),
-                 over(s.*component.measured, unit),
+                 divided(s.*component.measured, unit),
                  {}});
         }
     }
     const auto title =
         fmt::format("Rotating elastic body, {} particles, after {:.2f} rad",
                     runs.front().statistics.particles, exact.omega * runs.front().statistics.t_end);
-    const auto folder = session.plots_folder();
-    session.note_drawn(draw_curves(folder, "stress", title, curves));
-    session.note_drawn(draw_configurations(folder, "configurations", title, configurations,
-                                           runs.size(), "stress / σ₀"));
+    draw_curves(session, "stress", title, curves);
+    draw_configurations(session, "configurations", title, configurations, runs.size(),
+                        "stress / σ₀");
 }
 
 /// Every particle: distance and stress.
@@ -250,8 +231,7 @@ void write_stress(const RunFolder& folder, const Body& body, const RunRecord& ru
 
 void refuse_impossible(const Parameters& p) {
     if (p.shape == Shape::hexagon && p.radius != std::floor(p.radius))
-        throw InputError(fmt::format(
-            "radius: {} must be a whole number of spacings for --shape hexagon", p.radius));
+        refuse("radius: {} must be a whole number of spacings for --shape hexagon", p.radius);
 }
 
 }  // namespace
@@ -284,24 +264,20 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_impossible(p);
-        if (session.common().smoke && !session.given("radius")) p.radius = 7.0;
+        session.smoke_default("radius", p.radius, 7.0);
         if (!p.damping) p.damping = 3.0 * c_L / p.radius;
 
         std::vector<Body> bodies;
         for (const Which which : {Which::md, Which::spam})
             if (p.model == which || p.model == Which::both)
                 bodies.push_back(make_body(p, session.scheme(), which == Which::md));
-        std::vector<Case<2>> cases;
-        for (Body& body : bodies) {
-            auto y0 = initial_state<2>(*body.model, rho, eta, rigid_rotation(p.omega()));
+        const auto runs = run_all(session, bodies, [&](const Body& body) {
             Plan<2> plan;
             plan.t_end = 2.0 * p.traversal();
             plan.record(deviation_columns(body));
             plan.record({closest_pair_column<2>()});
-            cases.push_back({body.model, std::move(y0), std::move(plan), body.label});
-        }
-        const auto runs = session.run_all(std::move(cases));
-
+            return plan;
+        });
         for (std::size_t k = 0; k < runs.size(); ++k) {
             check(session, bodies[k], runs[k], p.omega(), runs[k].complete && is_known(session));
             write_stress(session.folder(), bodies[k], runs[k]);

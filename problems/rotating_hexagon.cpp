@@ -23,17 +23,11 @@
 // spacings, the turns run if none has.
 // Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
 // With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
-#include "reduced_units.hpp"
 #include "rotating_hexagon/hexagon.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace rotating_hexagon {
 namespace {
@@ -41,43 +35,43 @@ namespace {
 /// What distinguishes a case in a picture.
 std::string title_of(ModelKind kind, const Scheme& scheme) {
     if (kind == ModelKind::md) return "molecular dynamics";
-    std::string title = scheme.transport == Transport::plain     ? "SPAM, plain v"
-                        : scheme.transport == Transport::average ? "⟨v⟩"
-                                                                 : "⟨v⟩ Monaghan";
+    std::string title = velocity_title(scheme.transport, "SPAM, plain v");
     if (scheme.density == Density::summed) title += ", summed density";
     if (scheme.density == Density::chain_rule) title += ", chain rule";
-    if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
+    const std::string torque = torque_title(scheme.angular_momentum);
+    const bool pair = scheme.angular_momentum == AngularMomentum::torque_pair;
+    if (pair) title += torque;
     if (scheme.closest_approach > 0.0) title += fmt::format(", R = {:g}", scheme.closest_approach);
-    if (scheme.angular_momentum == AngularMomentum::torque_particle) title += ", particle torque";
-    if (scheme.angular_momentum == AngularMomentum::gauss) title += ", Gauss";
-    return title;
+    return pair ? title : title + torque;
 }
 
 }  // namespace
 
 Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
                      const std::string& label) {
-    const std::string title = title_of(kind, scheme);
+    Hexagon hexagon{.label = label, .title = title_of(kind, scheme)};
     // lattice
     auto particles = make_particles<2>(triangular_hexagon(p.size), 1.0);
     // material and scheme
-    if (kind == ModelKind::md)
-        return {label, title,
-                std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{})};
-    if (p.lagrangian())
-        return {
-            label, fmt::format("total Lagrangian, κ = {}", p.kappa()),
-            std::make_unique<TotalLagrangianModel<2>>(
-                std::move(particles), StVenantKirchhoff::like(ElasticSolid::triangular_lattice()),
-                TotalLagrangianScheme{std::sqrt(4.0 / 3.0), scheme.range, p.kappa()})};
-    if (p.material_vectors())
-        return {label, fmt::format("material vectors, κ = {}", p.kappa()),
-                std::make_unique<MaterialVectorModel<2>>(
-                    std::move(particles), PolynomialSolid::like(ElasticSolid::triangular_lattice()),
-                    MaterialVectorScheme{std::sqrt(4.0 / 3.0), scheme.range, p.kappa()})};
-    return {label, title,
-            std::make_unique<SmoothParticleModel<2>>(std::move(particles),
-                                                     ElasticSolid::triangular_lattice(), scheme)};
+    const auto solid = ElasticSolid::triangular_lattice();
+    if (kind == ModelKind::md) {
+        hexagon.model = std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
+    } else if (p.lagrangian()) {
+        hexagon.title = fmt::format("total Lagrangian, κ = {}", p.kappa());
+        hexagon.model = std::make_unique<TotalLagrangianModel<2>>(
+            std::move(particles), StVenantKirchhoff::like(solid),
+            TotalLagrangianScheme{triangular_density, scheme.range, p.kappa()});
+    } else if (p.material_vectors()) {
+        hexagon.title = fmt::format("material vectors, κ = {}", p.kappa());
+        hexagon.model = std::make_unique<MaterialVectorModel<2>>(
+            std::move(particles), PolynomialSolid::like(solid),
+            MaterialVectorScheme{triangular_density, scheme.range, p.kappa()});
+    } else {
+        hexagon.model =
+            std::make_unique<SmoothParticleModel<2>>(std::move(particles), solid, scheme);
+    }
+    hexagon.y0 = lattice_state(*hexagon.model, rigid_rotation(p.omega()));
+    return hexagon;
 }
 
 namespace {
@@ -160,10 +154,11 @@ double smallest_in_first_half(const History& h, const char* column) {
 
 void check_standard(Session& session, const RunRecord& run, const Model<2>& model,
                     const Parameters& p, const std::string& prefix) {
+    const Findings findings(session, prefix);
     const History& h = run.history;
     const auto claim = [&](const char* name, double value, double expected, double tolerance,
                            const char* source) {
-        session.check({prefix + name, value, expected, tolerance, source});
+        findings.check(name, value, expected, tolerance, source);
     };
     const auto* solid = dynamic_cast<const SmoothParticleModel<2>*>(&model);
     const bool averaged = solid && solid->scheme().transport != Transport::plain;
@@ -213,16 +208,14 @@ void check_standard(Session& session, const RunRecord& run, const Model<2>& mode
 /// What is worth knowing and not claimed.
 void report_measured(Session& session, const RunRecord& run, bool ratio_claimed,
                      const Parameters& p, const std::string& prefix) {
+    const Findings findings(session, prefix);
     const History& h = run.history;
-    const auto measured = [&](const char* name, double value) {
-        session.measure(prefix + name, value);
-    };
     if (!ratio_claimed)
-        measured("angular_momentum_ratio",
-                 h.last("angular_momentum") / h.first("angular_momentum"));
-    measured("shape_error_final", h.last("shape_error"));
-    measured("closest_pair", h.smallest("closest_pair"));
-    measured("turns_survived", survival(h).t / p.turn());
+        findings.measure("angular_momentum_ratio",
+                         h.last("angular_momentum") / h.first("angular_momentum"));
+    findings.measure("shape_error_final", h.last("shape_error"));
+    findings.measure("closest_pair", h.smallest("closest_pair"));
+    findings.measure("turns_survived", survival(h).t / p.turn());
 }
 
 }  // namespace
@@ -288,10 +281,7 @@ int main(int argc, char** argv) {
             hexagons = comparison(p, session.scheme());
 
         // initial state, observers, integration
-        std::vector<Case<2>> cases;
-        for (auto& hexagon : hexagons) {
-            auto y0 = initial_state<2>(*hexagon.model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
-                                       rigid_rotation(p.omega()));
+        const auto runs = run_all(session, hexagons, [&](Hexagon& hexagon) {
             Plan<2> plan;
             plan.t_end = p.turns ? *p.turns * p.turn() : *session.common().t_end;
             plan.snapshot_every = p.turn() / 12.0;
@@ -301,11 +291,8 @@ int main(int argc, char** argv) {
             if (plan.t_end > 0.4 * p.turn()) hexagon.drawn.push_back({p.turn() / 3.0});
             hexagon.drawn.push_back({plan.t_end});
             plan.observe(keep_nearest<2>(hexagon.drawn));
-            cases.push_back({hexagon.model, std::move(y0), std::move(plan), hexagon.label});
-        }
-        const auto runs = session.run_all(std::move(cases));
-
-        // what was found
+            return plan;
+        });
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const std::string prefix = single ? "" : runs[k].label + "_";
             const Model<2>& model = *hexagons[k].model;

@@ -18,18 +18,10 @@
 // one mode, u_x even in x and odd in y, u_y the other way round. Rayleigh and Ritz with polynomials
 // find its frequency, 3.926 c_T/side; the square of particles is softer at its edges, and slower by
 // that much the smaller it is.
-#include "reduced_units.hpp"
+#include "common.hpp"
 #include "sheared_square/vibrations.hpp"
 #include <spam/core/rigid_motion.hpp>
 #include <spam/diagnostics/outline.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -41,7 +33,7 @@ struct Parameters {
     double shear = 0.25;  // gamma
 };
 
-const double eta = std::sqrt(3.0 / 16.0);  // = lambda; density 1: mass 1, spacing 1
+const double eta = triangular_modulus;  // = lambda; density 1: mass 1, spacing 1
 const double c_T = std::sqrt(eta);
 
 // ---- elasticity: Rayleigh and Ritz ----
@@ -166,34 +158,34 @@ double relative_angular_momentum(const History& history, const Model<2>& model) 
 /// What the paper says of the motion and what elasticity says of its period.
 void check(Session& session, const Parameters& p, const Model<2>& model, const RunRecord& run,
            double elastic_period) {
+    const Findings findings(session);
     const History& h = run.history;
     const double period = measured_period(h, "shear");
     const double turned = std::abs(h.at(period, "rotation_degrees") - h.first("rotation_degrees"));
     const double swing = -h.smallest("shear") / p.shear;
     const double L = relative_angular_momentum(h, model);
-    const auto measured = [&](const char* name, double value) { session.measure(name, value); };
-    session.check_promises(run);
-    measured("period_by_elasticity", elastic_period);
+    findings.check_promises(run);
+    findings.measure("period_by_elasticity", elastic_period);
     // Larger strains are beyond linear elasticity; plain velocities let the square clump.
     const bool claimed = run.complete && h.last("t") > 1.1 * elastic_period && p.cells >= 12 &&
                          p.shear <= 0.25 && session.scheme().transport != Transport::plain &&
                          session.scheme().kernel == Kernel::lucy;
     if (claimed) {
-        session.check({"period_over_elasticity", period / elastic_period, 1.0, 1.5 / p.cells,
-                       "free vibration of an elastic square; edges are softer"});
-        session.check({"swing", swing, 1.0, 0.25, "[HHM04] Fig. 2: oscillates symmetrically"});
-        session.check({"turned_in_a_period_degrees", turned, 0.0, 1.0,
-                       "[HHM04] Fig. 2: without any rotation"});
+        findings.check("period_over_elasticity", period / elastic_period, 1.0, 1.5 / p.cells,
+                       "free vibration of an elastic square; edges are softer");
+        findings.check("swing", swing, 1.0, 0.25, "[HHM04] Fig. 2: oscillates symmetrically");
+        findings.check("turned_in_a_period_degrees", turned, 0.0, 1.0,
+                       "[HHM04] Fig. 2: without any rotation");
     }
     if (!claimed && std::isfinite(period)) {
-        measured("period_over_elasticity", period / elastic_period);
-        measured("swing", swing);
-        measured("turned_in_a_period_degrees", turned);
+        findings.measure("period_over_elasticity", period / elastic_period);
+        findings.measure("swing", swing);
+        findings.measure("turned_in_a_period_degrees", turned);
     }
     if (model.promises().angular_momentum == Promise::not_kept)
-        measured("angular_momentum", L);
+        findings.measure("angular_momentum", L);
     else
-        session.check({"angular_momentum", L, 0.0, 1e-8, "[HHM04] V: vibration without L"});
+        findings.check("angular_momentum", L, 0.0, 1e-8, "[HHM04] V: vibration without L");
 }
 
 // ---- pictures ----
@@ -229,43 +221,30 @@ void draw_configurations_of(Session& session, const Parameters& p, const Model<2
                           {outline_of(model, nearest->position),
                            outline_of(model, model.particles().reference_position)}});
     }
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "configurations",
-        fmt::format("[HHM04] Fig. 2: sheared square, u_x = {:g} y, {} particles", p.shear,
-                    model.particles().size()),
-        panels, 5, "σ_xy / η γ"));
+    draw_configurations(session, "configurations",
+                        fmt::format("[HHM04] Fig. 2: sheared square, u_x = {:g} y, {} particles",
+                                    p.shear, model.particles().size()),
+                        panels, 5, "σ_xy / η γ");
 }
 
 void draw_motion(Session& session, const Parameters& p, const RunRecord& run,
                  double elastic_period) {
     const History& h = run.history;
-    const auto t = h.column("t");
-    auto periods = t, shear = h.column("shear"), elastic = t;
-    for (double& value : periods) value /= elastic_period;
-    for (double& value : shear) value /= p.shear;
+    const auto t = h.column("t"), periods = divided(t, elastic_period);
+    auto elastic = t;
     for (double& value : elastic) value = std::cos(2.0 * pi * value / elastic_period);
     const std::string x_label = "t / period of the elastic square";
-    const CurvePanel motion{
-        "shear",
-        x_label,
-        "shear / γ",
-        false,
-        {{"particles", periods, shear}, {"elasticity, lowest mode", periods, elastic}}};
-    const CurvePanel turning{"rotation",
-                             x_label,
-                             "degrees",
-                             false,
-                             {{"long axis", periods, h.column("long_axis_degrees"), Mark::points},
-                              {"square", periods, h.column("rotation_degrees")}}};
-    const CurvePanel energy{"energy",
-                            x_label,
-                            "energy",
-                            false,
-                            {{"kinetic", periods, h.column("kinetic")},
-                             {"internal", periods, h.column("internal")},
-                             {"total", periods, h.column("energy")}}};
-    session.note_drawn(draw_curves(session.plots_folder(), "motion", "Sheared elastic square",
-                                   {motion, turning, energy}));
+    CurvePanel motion = frame("shear", x_label, "shear / γ"),
+               turning = frame("rotation", x_label, "degrees"),
+               energy = frame("energy", x_label, "energy");
+    motion.curves = {{"particles", periods, divided(h.column("shear"), p.shear)},
+                     {"elasticity, lowest mode", periods, elastic}};
+    turning.curves = {{"long axis", periods, h.column("long_axis_degrees"), Mark::points},
+                      {"square", periods, h.column("rotation_degrees")}};
+    energy.curves = {{"kinetic", periods, h.column("kinetic")},
+                     {"internal", periods, h.column("internal")},
+                     {"total", periods, h.column("energy")}};
+    draw_curves(session, "motion", "Sheared elastic square", {motion, turning, energy});
 }
 
 }  // namespace
@@ -285,7 +264,7 @@ int main(int argc, char** argv) {
     problem.use_scheme(standard);
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 12;
+        session.smoke_default("cells", p.cells, 12);
         const auto model = make_square(p, session.scheme());
         const double period = 2.0 * pi * p.cells / (shear_mode_frequency(11) * c_T);
         std::vector<Snapshot> snapshots;

@@ -20,27 +20,17 @@
 // the default with --toro) particles stay on their adiabats but for what the viscosity heats. --compare
 // computes all five by both forms with 400 to 3,200 particles: comparison.csv, errors and their orders; 2 min.
 #include "shock_tube/comparison.hpp"
-#include <spam/core/error.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/problem/sides.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-
-namespace shock_tube {
-
-using namespace spam;
 
 namespace {
+
+using namespace shock_tube;
 
 constexpr double known_until =
     0.25;  // the fan meets the left end at 0.42, the shock the right one at 0.28
 
 /// Mean pressure on a wall at an end: its impulse by the time.
-void report_ends(Session& session, const Parameters& p, const Tube& tube, const RunRecord& run,
-                 const std::string& prefix) {
+void report_ends(Session& session, const Parameters& p, const Tube& tube, const RunRecord& run) {
+    const Findings findings(session, tube.prefix);
     const double t = run.statistics.t_end;
     if (!run.complete || !(t > 0.0)) return;
     for (const bool upper : {false, true}) {
@@ -48,79 +38,71 @@ void report_ends(Session& session, const Parameters& p, const Tube& tube, const 
         const GasState& gas = upper ? p.setting.right : p.setting.left;
         if (wall.open() || gas.u != 0.0) continue;
         const std::string side = Sides::name(0, upper);
-        session.claim({prefix + "pressure_on_" + side,
+        findings.claim("pressure_on_" + side,
                        std::abs(run.history.last("impulse_" + side + "_x")) / t, gas.P,
-                       0.02 * gas.P, "of the gas at rest before that end"},
-                      wall.kind == WallKind::mirror && t <= known_until && p.standard(session) &&
-                          p.gamma <= 1.4 && tube.cells >= 800);
+                       0.02 * gas.P, "of the gas at rest before that end",
+                       wall.kind == WallKind::mirror && t <= known_until && p.standard(session) &&
+                           p.gamma <= 1.4 && tube.cells >= 800);
     }
 }
 
 void report(Session& session, const Parameters& p, const Tube& tube, const RunRecord& run) {
-    const std::string prefix = tube.label.empty() ? "" : tube.label + "_";
+    const Findings findings(session, tube.prefix);
     const double t = run.statistics.t_end;
     const bool known = session.when_default({"gamma"}) && p.standard(session) && run.complete &&
                        t > 0.75 * p.setting.t_end && t <= std::max(known_until, p.setting.t_end) &&
                        tube.cells >= 800;
-    session.measure(prefix + "density_error", density_error(tube, run.y, t), "mean |rho - exact|");
+    findings.measure("density_error", density_error(tube, run.y, t), "mean |rho - exact|");
     for (const Plateau& one : plateaus(tube, p.gamma, run.y, t))
         if (std::isfinite(one.found))  // not so early that no particle is on it
-            session.claim({prefix + one.name, one.found, one.exact, p.tolerance() * one.scale,
-                           "the exact solution of Riemann's problem"},
-                          known && p.setting.resolved);
-    report_ends(session, p, tube, run, prefix);
-    session.check_promises(run, prefix);
+            findings.claim(one.name, one.found, one.exact, p.tolerance() * one.scale,
+                           "the exact solution of Riemann's problem", known && p.setting.resolved);
+    report_ends(session, p, tube, run);
+    findings.check_promises(run);
 }
 
 /// How the error falls with the number of particles.
 void compare_sizes(Session& session, const Parameters& p, const std::vector<Tube>& tubes,
                    const std::vector<RunRecord>& runs) {
+    const Findings findings(session);
     LogLogCurve curve{.x = {}, .y = {}};
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-        curve.x.push_back(tubes[k].cells);
-        curve.y.push_back(density_error(tubes[k], runs[k].y, runs[k].statistics.t_end));
-        if (k > 0)
-            session.measure(fmt::format("order_{}_to_{}", tubes[k - 1].label, tubes[k].label),
-                            std::log2(curve.y[k - 1] / curve.y[k]), "of the density's error");
-    }
+    for (std::size_t k = 0; k < runs.size(); ++k)
+        add_point(curve, tubes[k].cells,
+                  density_error(tubes[k], runs[k].y, runs[k].statistics.t_end));
+    findings.measure_orders(labels_of(tubes), curve.y, "of the density's error");
     const double order = std::log2(curve.y.front() / curve.y.back()) / 2.0;
-    session.claim({"order", order, 1.0, 0.2, "shocks and contacts are a few particles wide"},
-                  session.when_default({"toro", "cells", "gamma"}) && p.standard(session) &&
-                      runs.back().statistics.t_end > 0.15 &&
-                      runs.back().statistics.t_end <= known_until);
+    findings.claim("order", order, 1.0, 0.2, "shocks and contacts are a few particles wide",
+                   session.when_default({"toro", "cells", "gamma"}) && p.standard(session) &&
+                       runs.back().statistics.t_end > 0.15 &&
+                       runs.back().statistics.t_end <= known_until);
     if (!session.plots()) return;
-    session.note_drawn(draw_log_log(session.plots_folder(), "error",
-                                    {.title = p.setting.title + ": mean error of the density",
-                                     .panels = {{.title = "",
-                                                 .x_label = "particles",
-                                                 .y_label = "mean |ρ - exact|",
-                                                 .curves = {curve},
-                                                 .words = fmt::format("order {:.2f}", order)}},
-                                     .columns = 1,
-                                     .key = {"smooth particles"},
-                                     .note = ""}));
+    const LogLogPanel panel{.title = "",
+                            .x_label = "particles",
+                            .y_label = "mean |ρ - exact|",
+                            .curves = {curve},
+                            .words = fmt::format("order {:.2f}", order)};
+    draw_log_log(
+        session, "error",
+        {p.setting.title + ": mean error of the density", {panel}, 1, {"smooth particles"}, ""});
 }
 
 CurvePanel panel_of(const Parameters& p, const std::vector<Tube>& tubes,
                     const std::vector<RunRecord>& runs, std::size_t which, double t) {
-    CurvePanel panel{"", "x", quantities[which], false, {}};
-    Curve exact{.title = "exact", .x = {}, .y = {}, .style = 1};
-    for (int k = -500; k <= 500; ++k) {
-        exact.x.push_back(0.001 * k);
-        exact.y.push_back(exact_value(tubes.front(), p.gamma, which, 0.001 * k, t));
-    }
+    CurvePanel panel = frame("", "x", quantities[which]);
+    Curve exact{"exact", {}, {}, Mark::line, 1};
+    for (int k = -500; k <= 500; ++k)
+        add_point(exact, 0.001 * k, exact_value(tubes.front(), p.gamma, which, 0.001 * k, t));
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ConstState<1> state(tubes[r].model->layout(), runs[r].y);
         const auto values = found(tubes[r], runs[r].y, which);
-        Curve points{.title = fmt::format("{} particles", tubes[r].cells),
-                     .x = {},
-                     .y = {},
-                     .mark = Mark::points,
-                     .style = static_cast<int>(r) + 2};
+        Curve points{fmt::format("{} particles", tubes[r].cells),
+                     {},
+                     {},
+                     Mark::points,
+                     static_cast<int>(r) + 2};
         for (Eigen::Index i = 0; i < state.position().cols(); ++i) {
             if (std::abs(state.position()(0, i)) > 0.5) continue;
-            points.x.push_back(state.position()(0, i));
-            points.y.push_back(values[static_cast<std::size_t>(i)]);
+            add_point(points, state.position()(0, i), values[static_cast<std::size_t>(i)]);
         }
         panel.curves.push_back(points);
     }
@@ -134,42 +116,30 @@ void draw(Session& session, const Parameters& p, const std::vector<Tube>& tubes,
     std::vector<CurvePanel> panels;
     for (std::size_t which = 0; which < (p.toro ? quantities.size() : 3U); ++which)
         panels.push_back(panel_of(p, tubes, runs, which, t));
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "profiles",
-                    fmt::format("{} at t = {:g}, γ = {:g}", p.setting.title, t, p.gamma), panels));
+    draw_curves(session, "profiles",
+                fmt::format("{} at t = {:g}, γ = {:g}", p.setting.title, t, p.gamma), panels);
 }
 
 void run_sizes(Session& session, const Parameters& p) {
-    std::vector<int> sizes{p.cells};
-    if (!p.single) sizes = {p.cells / 2, p.cells, 2 * p.cells};
-    std::vector<Tube> tubes;
-    for (const int cells : sizes) {
-        tubes.push_back(make_tube(p, cells, session.common().dry_run));
-        if (sizes.size() > 1) tubes.back().label = fmt::format("{}", cells);
-    }
+    auto tubes = by_size(p.cells, !p.single,
+                         [&](int cells) { return make_tube(p, cells, session.common().dry_run); });
     // Rigid sides turn particles back within a step, which costs the method its order.
     const auto is_rigid = [&](bool upper) {
         return tubes.back().model->box().wall(0, upper).kind == WallKind::rigid;
     };
-    session.prefer_step(p.step(sizes.back()) * (is_rigid(false) || is_rigid(true) ? 0.5 : 1.0));
-    std::vector<Case<1>> cases;
-    for (auto& tube : tubes) {
-        Plan<1> plan;
-        plan.t_end = session.common().t_end.value_or(p.setting.t_end /
-                                                     (session.common().smoke ? 10.0 : 1.0));
-        cases.push_back({tube.model, tube.y0, std::move(plan), tube.label});
-    }
-    const auto runs = session.run_all(std::move(cases));
+    session.prefer_step(p.step(tubes.back().cells) *
+                        (is_rigid(false) || is_rigid(true) ? 0.5 : 1.0));
+    const auto runs = run_all(session, tubes, [&](const Tube&) {
+        return Plan<1>{.t_end = session.end(p.setting.t_end, p.setting.t_end / 10.0)};
+    });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, tubes[k], runs[k]);
     if (runs.size() == 3) compare_sizes(session, p, tubes, runs);
     if (session.plots() && !runs.empty()) draw(session, p, tubes, runs);
 }
 
 }  // namespace
-}  // namespace shock_tube
 
 int main(int argc, char** argv) {
-    using namespace shock_tube;
     Problem problem(
         "shock_tube", "Sod's shock tube against the exact solution, and Toro's five", 0.1,
         "0.1 by the number of particles of the largest size, with --toro shorter where the "
@@ -187,8 +157,7 @@ int main(int argc, char** argv) {
     options.number("gamma", p.gamma, "ratio of the heat capacities", between(1.05, 5.0));
     options.number("viscosity", p.scheme.viscosity, "coefficient alpha of the artificial viscosity",
                    between(0.0, 100.0));
-    options.choice<Density>("density", p.scheme.density, {Density::summed, Density::continuity},
-                            "density as a sum over neighbours, or by the continuity equation");
+    add_density_option(options, p.scheme.density);
     options.choice<Work>(
         "work", p.scheme.work, {Work::mean, Work::own},
         "what changes a particle's energy: work by the mean pressure of each pair, or by "
@@ -208,15 +177,14 @@ int main(int argc, char** argv) {
     options.flag(
         "compare", p.compare,
         "errors and orders of all five by both forms of the work, with 400 to 3,200 particles");
-    options.integer("jobs", p.jobs, "runs of --compare computed at the same time", between(1, 1024))
+    add_jobs_option(options, p.jobs, "runs of --compare computed at the same time")
         .needs("compare");
-    options.exclude_from_case({"jobs"});
     options.exclude("compare", {"toro", "cells", "single", "work", "left", "right"},
                     "has no meaning with {by}, which says it itself; leave one out");
     return problem.main(argc, argv, [&](Session& session) {
         if (p.compare) return compare(session, p);
         p.settle(session);
-        if (session.common().smoke && !session.given("cells")) p.cells = 100;
+        session.smoke_default("cells", p.cells, 100);
         run_sizes(session, p);
     });
 }

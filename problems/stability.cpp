@@ -21,14 +21,7 @@
 // stress, which may have a shear part (--shear-stress). Its K(k), m omega^2 u = K(k) u, is Hermitian: a wave
 // grows or oscillates, and none does neither but translations. Without --penalty or --memoryless it compares
 // penalties kappa and the scheme without its memory, whose vectors are X = F^-1 r at all times.
-#include "reduced_units.hpp"
 #include "stability/lattice.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace stability {
 namespace {
@@ -125,7 +118,7 @@ int main(int argc, char** argv) {
     add_rules(options, p);
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 8;
+        session.smoke_default("cells", p.cells, 8);
         const Box<2> box = triangular_box(p.cells, p.cells);
         const bool single = p.vectors()
                                 ? p.penalty || p.memoryless

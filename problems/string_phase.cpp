@@ -24,23 +24,10 @@
 //
 // Without --core both are run; names in result.json without a prefix then belong to the one without a
 // core, names with core_ to the other. With --core E a single case is, whose names have no prefix.
-#include "reduced_units.hpp"
-#include <spam/external/friction.hpp>
+#include "relaxing_atoms.hpp"
 #include <spam/kernel/lucy.hpp>
 #include <spam/kernel/weight_integrals.hpp>
-#include <spam/material/embedded_atom.hpp>
 #include <spam/neighbors/pair_list.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/rhs/density_potentials.hpp>
-#include <spam/setup/drawn.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
 
 namespace {
 
@@ -51,22 +38,14 @@ constexpr double core_energy = 0.1;  // where both are run
 constexpr double most_pairs = 2e9;   // what a sum over pairs can take
 constexpr double widest = 1000.0;    // side of the box, in ranges
 
-struct Parameters {
+struct Parameters : RelaxingAtoms {
+    Parameters() { range = 3.5; }
+
     int particles = 320;
     double side = 20.0;
     std::optional<double> core;
-    double core_range = 0.7;
-    double damping = 0.1;
     double rho0 = 1.0;
     int seed = 1;
-    Kernel kernel = Kernel::lucy;
-    double range = 3.5;
-};
-
-struct Sample {
-    std::string label, prefix, title;
-    bool core;
-    std::shared_ptr<ParticleModel<2>> model;
 };
 
 /// The same places for every computer: the standard fixes the generator's numbers.
@@ -77,35 +56,11 @@ Points<2> random_places(const Parameters& p) {
     return x;
 }
 
-Sample make_sample(const Parameters& p, double e_c) {
-    const Box<2> box({p.side, p.side});
-    DensityPotentials potentials;
-    potentials.state = EmbeddedAtom{1.0, p.rho0};
-    if (e_c > 0.0) potentials.core = {e_c, p.core_range};
-    potentials.kernel = p.kernel;
-    potentials.range = p.range;
-    auto particles = make_particles<2>(random_places(p), 1.0, 1.0, box);
-    particles.body.assign(particles.size(), 0);  // random places make no bodies
-    auto model = std::make_unique<DensityPotentialModel<2>>(std::move(particles), potentials, box);
-    if (p.damping > 0.0)
-        model->add(std::make_unique<Friction<2>>(p.damping, FrictionOf::all_motion));
-    return {"", "",
-            e_c > 0.0 ? fmt::format("core {:g} of range {:g}", e_c, p.core_range) : "no core",
-            e_c > 0.0, std::move(model)};
-}
-
-std::vector<Sample> samples_of(const Parameters& p) {
-    std::vector<Sample> all;
-    if (p.core) {
-        all.push_back(make_sample(p, *p.core));
-        return all;
-    }
-    all.push_back(make_sample(p, 0.0));
-    all.push_back(make_sample(p, core_energy));
-    all[0].label = "no_core";
-    all[1].label = "core";
-    all[1].prefix = "core_";
-    return all;
+Variant<2> make_sample(const Parameters& p, double e_c) {
+    return p.at_rest_at(
+        random_places(p), p.potentials(p.rho0, e_c),
+        e_c > 0.0 ? fmt::format("core {:g} of range {:g}", e_c, p.core_range) : "no core",
+        Box<2>({p.side, p.side}));
 }
 
 Column<2> clumped_fraction_column() {
@@ -125,43 +80,33 @@ bool is_known(const Session& session, const Parameters& p, const RunRecord& run)
            run.statistics.t_end >= 500.0;
 }
 
-/// rms, at any time: what round-off of momenta is relative to where particles are faster than sound, 1.
-double largest_speed(const History& h) {
-    return std::sqrt(2.0 * h.largest("kinetic") / h.first("mass"));
-}
-
 /// Friction takes energy, all that there is: by how much a row lies above the one before, at most. Where
 /// it takes less than a millionth of the motion's from row to row in the mean, in a short run or at a
 /// rate next to none, rises are errors of the steps, and nothing is claimed of them.
-void claim_energy_rise(Session& session, const Sample& sample, const History& h, double n) {
+void claim_energy_rise(const Findings& findings, const History& h, double n) {
     const auto energy = h.column("energy");
-    double rise = 0.0;
-    for (std::size_t k = 1; k < energy.size(); ++k)
-        rise = std::max(rise, energy[k] - energy[k - 1]);
     const double change = h.largest("energy") - h.smallest("energy");
-    session.claim({sample.prefix + "energy_rise_per_particle", rise / n, 0.0, 1e-9,
-                   "friction takes energy and never gives it back"},
-                  !(change < 1e-6 * h.largest("kinetic") * static_cast<double>(energy.size())));
+    findings.claim("energy_rise_per_particle", largest_rise(energy) / n, 0.0, 1e-9,
+                   "friction takes energy and never gives it back",
+                   !(change < 1e-6 * h.largest("kinetic") * static_cast<double>(energy.size())));
 }
 
-void report(Session& session, const Parameters& p, const Sample& sample, const RunRecord& run) {
+void report(Session& session, const Parameters& p, const Variant<2>& sample, bool core,
+            const RunRecord& run) {
+    const Findings findings(session, sample.prefix);
     const History& h = run.history;
-    session.claim({sample.prefix + "clumped_fraction", h.last("clumped_fraction"),
-                   sample.core ? 0.0 : 0.775, sample.core ? 0.0 : 0.225,
-                   sample.core ? "[HH07] 8: a core cures the strings"
-                               : "[HH07] 8: a string phase, more than 55 % are in it"},
-                  is_known(session, p, run));
+    findings.claim("clumped_fraction", h.last("clumped_fraction"), core ? 0.0 : 0.775,
+                   core ? 0.0 : 0.225,
+                   core ? "[HH07] 8: a core cures the strings"
+                        : "[HH07] 8: a string phase, more than 55 % are in it",
+                   is_known(session, p, run));
+    check_momentum(findings, run, "pairwise forces, and a friction that stops what does not move");
     const auto n = static_cast<double>(run.statistics.particles);
-    session.check({sample.prefix + "momentum_per_particle",
-                   std::hypot(h.largest_change("momentum_x"), h.largest_change("momentum_y")) / n,
-                   0.0, 1e-12 * std::max(1.0, largest_speed(h)),
-                   "pairwise forces, and a friction that stops what does not move"});
-    claim_energy_rise(session, sample, h, n);
-    session.measure(sample.prefix + "energy_per_particle", h.last("energy") / n);
+    claim_energy_rise(findings, h, n);
+    findings.measure("energy_per_particle", h.last("energy") / n);
     // Of a few particles in a wide box, none is nearer than half of it.
-    if (std::isfinite(h.last("closest_pair")))
-        session.measure(sample.prefix + "closest_pair", h.last("closest_pair"));
-    session.check_promises(run, sample.prefix);
+    if (std::isfinite(h.last("closest_pair"))) findings.measure_last(h, {"closest_pair"});
+    findings.check_promises(run);
 }
 
 /// Of every particle, to the nearest other one; the range where there is none.
@@ -178,55 +123,50 @@ std::vector<double> nearest_distances(const Points<2>& x, double range, const Bo
     return nearest;
 }
 
-void draw(Session& session, const Parameters& p, const std::vector<Sample>& samples,
+void draw(Session& session, const Parameters& p, const std::vector<Variant<2>>& samples,
           const std::vector<RunRecord>& runs) {
-    Points<2> frame(2, 4);
-    frame << 0.0, p.side, p.side, 0.0, 0.0, 0.0, p.side, p.side;
+    const Points<2> border = rectangle({0.0, 0.0}, {p.side, p.side});
     std::vector<ConfigurationPanel> panels;
-    CurvePanel curves{
-        "", "t", fmt::format("part of the particles nearer than {:g}", near), false, {}};
+    CurvePanel curves = frame("", "t", fmt::format("part of the particles nearer than {:g}", near));
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        const auto& model = *samples[k].model;
-        const Points<2> x = ConstState<2>(model.layout(), runs[k].y).position();
-        panels.push_back({samples[k].title,
-                          model.box().wrapped(x),
-                          nearest_distances(x, p.range, model.box()),
-                          {frame}});
-        curves.curves.push_back({samples[k].title, runs[k].history.column("t"),
-                                 runs[k].history.column("clumped_fraction")});
+        const auto& box = samples[k].model->box();
+        const Points<2> x = ConstState<2>(samples[k].model->layout(), runs[k].y).position();
+        panels.push_back(
+            {samples[k].title, box.wrapped(x), nearest_distances(x, p.range, box), {border}});
+        curves.curves.push_back(over_time(samples[k].title, runs[k].history, "clumped_fraction"));
     }
     const auto title =
         fmt::format("Embedded-atom fluid at t = {:g}", runs.front().statistics.t_end);
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations", title, panels,
-                                           panels.size(), "nearest neighbour"));
-    session.note_drawn(draw_curves(session.plots_folder(), "clumped_fraction", title, {curves}));
+    draw_configurations(session, "configurations", title, panels, panels.size(),
+                        "nearest neighbour");
+    draw_curves(session, "clumped_fraction", title, {curves});
 }
 
 void refuse_impossible(const Parameters& p) {
     const double spacing =
         std::min(p.side / std::sqrt(static_cast<double>(p.particles)), 1.0 / std::sqrt(p.rho0));
     if (p.core != 0.0 && p.core_range < 0.01 * spacing)
-        throw InputError(
-            fmt::format("core-range: {:g} is below a hundredth of the spacing {:.3g}: no step "
-                        "resolves such a core; give {:.3g} or more, or --core 0",
-                        p.core_range, spacing, std::ceil(10.0 * spacing) * 0.001));
+        refuse(
+            "core-range: {:g} is below a hundredth of the spacing {:.3g}: no step "
+            "resolves such a core; give {:.3g} or more, or --core 0",
+            p.core_range, spacing, std::ceil(10.0 * spacing) * 0.001);
     if (!(p.side > 2.0 * p.range))
-        throw InputError(
-            fmt::format("side: {:g} is too short for --range {:g}: no pair may interact twice "
-                        "through the periodic border; give more than {:g}, or a shorter --range",
-                        p.side, p.range, 2.0 * p.range));
+        refuse(
+            "side: {:g} is too short for --range {:g}: no pair may interact twice "
+            "through the periodic border; give more than {:g}, or a shorter --range",
+            p.side, p.range, 2.0 * p.range);
     const double neighbours = p.particles * std::numbers::pi * std::pow(p.range / p.side, 2.0);
     if (0.5 * p.particles * neighbours > most_pairs)
-        throw InputError(
-            fmt::format("side: {} particles in a box of side {:g} have some {:.0e} neighbours "
-                        "each, too many to "
-                        "sum over; give a longer --side, fewer --particles or a shorter --range",
-                        p.particles, p.side, neighbours));
+        refuse(
+            "side: {} particles in a box of side {:g} have some {:.0e} neighbours "
+            "each, too many to "
+            "sum over; give a longer --side, fewer --particles or a shorter --range",
+            p.particles, p.side, neighbours);
     if (!(p.side <= widest * p.range))
-        throw InputError(fmt::format(
+        refuse(
             "side: {:g} is so long that particles of range {:g} never meet; give {:g} or "
             "less, or a longer --range",
-            p.side, p.range, widest * p.range));
+            p.side, p.range, widest * p.range);
 }
 
 /// 0.1 resolves the waves and cores of the standard case; steeper ones are faster.
@@ -262,25 +202,16 @@ int main(int argc, char** argv) {
     options.number("core-range", p.core_range, "distance at which cores touch", positive())
         .only_when(
             {"core"}, [&p] { return p.core != 0.0; }, "has no meaning for --core 0; leave it out");
-    options.number("damping", p.damping, "rate of the friction, gamma", between(1e-6, 100.0));
-    options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
-    options.number("range", p.range, "distance at which the weight function vanishes", positive());
+    p.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {
         refuse_impossible(p);
         session.prefer_step(step_of(p));
-        auto samples = samples_of(p);
-        std::vector<Case<2>> cases;
-        for (auto& sample : samples) {
-            auto y0 = initial_state<2>(*sample.model, 1.0, 1.0, at_rest<2>());
-            sample.model->layout().set_scale(Field::velocity, 0.1);
-            Plan<2> plan;
-            plan.t_end = session.common().smoke ? 20.0 : 500.0;
-            plan.record({clumped_fraction_column(), closest_pair_column<2>()});
-            cases.push_back({sample.model, std::move(y0), std::move(plan), sample.label});
-        }
-        const auto runs = session.run_all(std::move(cases));
-        for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, samples[k], runs[k]);
+        auto samples = one_or_both(p.core, core_energy, "core",
+                                   [&](double e_c) { return make_sample(p, e_c); });
+        const auto runs = relax(session, samples, 500.0, clumped_fraction_column());
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            report(session, p, samples[k], p.core.value_or(double(k)) > 0.0, runs[k]);
         if (session.plots()) draw(session, p, samples, runs);
     });
 }

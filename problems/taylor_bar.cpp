@@ -13,14 +13,8 @@
 // The foot's edge converges slowly: the particles at the rim have neighbours on one side alone.
 //
 //     --compare    five, six and eight particles a radius, and the order at which the errors fall. 20 min
+#include "common.hpp"
 #include "taylor_bar/bar.hpp"
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
 
 namespace taylor_bar {
 namespace {
@@ -47,8 +41,8 @@ struct Drawn {
 Plan<3> plan_of(const Session& session, const Parameters& p, const Bar& bar,
                 std::vector<Drawn>& drawn) {
     Plan<3> plan;
-    plan.t_end = session.common().t_end.value_or((session.common().smoke ? 4.0 : 80.0) *
-                                                 (p.time() / Parameters{}.time()));
+    const double slower = p.time() / Parameters{}.time();
+    plan.t_end = session.end(80.0 * slower, 4.0 * slower);
     plan.output_every = plan.t_end / 80.0;
     plan.snapshot_every = plan.t_end / 4.0;
     const auto now = std::make_shared<BarShape>();
@@ -64,23 +58,21 @@ Plan<3> plan_of(const Session& session, const Parameters& p, const Bar& bar,
     return plan;
 }
 
-void report(Session& session, const Parameters& p, const Bar& bar, const RunRecord& run) {
-    const std::string prefix = p.compare ? bar.label + "_" : "";
+void report(Session& session, const Bar& bar, const RunRecord& run) {
+    const Findings findings(session, bar.prefix);
     const bool known =
         session.when_default({"aspect", "radius", "speed", "young", "yield-stress", "hardening",
                               "poisson", "density", "range", "penalty"}) &&
         run.complete && run.statistics.t_end >= 79.0 && bar.spacing <= 0.65;
-    session.claim({prefix + "length", run.history.last("length"), known_length, 0.02 * known_length,
-                   elements},
-                  known);
-    session.claim(
-        {prefix + "foot", run.history.last("foot"), known_foot, 0.06 * known_foot, elements},
-        known);
-    session.measure(prefix + "largest_plastic_strain", run.history.last("largest_plastic_strain"));
-    session.check({prefix + "energy_change",
+    findings.claim("length", run.history.last("length"), known_length, 0.02 * known_length,
+                   elements, known);
+    findings.claim("foot", run.history.last("foot"), known_foot, 0.06 * known_foot, elements,
+                   known);
+    findings.measure("largest_plastic_strain", run.history.last("largest_plastic_strain"));
+    findings.check("energy_change",
                    run.history.largest_change("energy") / run.history.first("energy"), 0.0, 1e-3,
-                   "kinetic, elastic, the wall's and what flow takes"});
-    session.check_promises(run, prefix);
+                   "kinetic, elastic, the wall's and what flow takes");
+    findings.check_promises(run);
 }
 
 void draw(Session& session, const std::vector<Drawn>& drawn, const RunRecord& run) {
@@ -88,12 +80,12 @@ void draw(Session& session, const std::vector<Drawn>& drawn, const RunRecord& ru
     for (const Drawn& one : drawn)
         panels.push_back(
             {fmt::format("t = {:.3g} µs", one.t), one.section.position, one.section.strain, {}});
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "plastic_strain",
+    draw_configurations(
+        session, "plastic_strain",
         fmt::format("Taylor's bar, a section: length {:.2f} mm (elements {:.2f}), foot {:.2f} mm "
                     "(elements {:.2f})",
                     run.history.last("length"), known_length, run.history.last("foot"), known_foot),
-        panels, panels.size(), "plastic strain"));
+        panels, panels.size(), "plastic strain");
 }
 
 /// Errors of three sizes, and the order at which they fall.
@@ -121,12 +113,10 @@ void compute(Session& session, const Parameters& p) {
         bars.push_back(make_bar(p, p.particles_per_radius));
     session.prefer_step(bars.back().step());
     std::vector<std::vector<Drawn>> drawn(bars.size());
-    std::vector<Case<3>> cases;
-    for (std::size_t k = 0; k < bars.size(); ++k)
-        cases.push_back({bars[k].model, bars[k].y0, plan_of(session, p, bars[k], drawn[k]),
-                         p.compare ? bars[k].label : ""});
-    const auto runs = session.run_all(std::move(cases));
-    for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, bars[k], runs[k]);
+    const auto runs = run_all(session, bars, [&](const Bar& bar) {
+        return plan_of(session, p, bar, drawn[static_cast<std::size_t>(&bar - bars.data())]);
+    });
+    for (std::size_t k = 0; k < runs.size(); ++k) report(session, bars[k], runs[k]);
     if (runs.size() == bars.size() && p.compare) compare(session, bars, runs);
     if (session.plots() && runs.size() == bars.size()) draw(session, drawn.back(), runs.back());
 }
@@ -162,8 +152,7 @@ int main(int argc, char** argv) {
     options.exclude("compare", {"particles-per-radius"},
                     "has no effect with {by} (five, six and eight); leave one out");
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("particles-per-radius"))
-            p.particles_per_radius = 2;
+        session.smoke_default("particles-per-radius", p.particles_per_radius, 2);
         compute(session, p);
     });
 }

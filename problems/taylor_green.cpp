@@ -14,10 +14,7 @@
 //     --left mirror --right mirror --bottom mirror --top mirror
 //                        a quarter of a wave further the sides are planes of symmetry, and mirrors change
 //                        nothing
-#include "reduced_units.hpp"
 #include "taylor_green/vortices.hpp"
-
-#include <fmt/format.h>
 
 using namespace spam;
 using namespace taylor_green;
@@ -26,11 +23,10 @@ namespace {
 
 Plan<2> plan_of(const Session& session, Flow& flow) {
     Plan<2> plan;
-    plan.t_end =
-        session.common().t_end.value_or((session.common().smoke ? 0.02 : 1.0) * flow.exact.turn());
+    plan.t_end = session.end(flow.exact.turn(), 0.02 * flow.exact.turn());
     plan.snapshot_every = plan.t_end / 20.0;
     if (flow.known) plan.observe(compare_with_exact(flow.exact));
-    for (const double part : {0.0, 0.2, 1.0}) flow.drawn.push_back({part * plan.t_end});
+    flow.drawn = states_at<2>({0.0, 0.2, 1.0}, plan.t_end);
     plan.observe(keep_nearest(flow.drawn));
     return plan;
 }
@@ -42,38 +38,30 @@ double decay_rate(const Flow& flow, const RunRecord& run) {
 }
 
 void report(Session& session, const Parameters& p, const Flow& flow, const RunRecord& run) {
-    const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
-    session.check_promises(run, prefix);
+    const Findings findings(session, flow.prefix);
+    findings.check_promises(run);
     if (!flow.known) return;
     const double exact = 8.0 * std::numbers::pi * std::numbers::pi / p.reynolds;
     const bool known = session.when_default(stirred::decisive_options()) && run.complete &&
                        session.when_default({"disorder"}) && flow.label != "plain" &&
                        flow.exact.L >= 50.0 && run.statistics.t_end >= 0.99 * flow.exact.turn();
     const std::string source = "Taylor and Green 1937";
-    session.claim({prefix + "decay_rate", decay_rate(flow, run), exact, 0.03 * exact, source},
-                  known);
-    session.claim({prefix + "velocity_error_half",
-                   run.history.at(0.5 * flow.exact.turn(), "velocity_error"), 0.0, 0.05, source},
-                  known);
-    session.claim(
-        {prefix + "velocity_error", run.history.last("velocity_error"), 0.0, 0.05, source}, known);
-    session.measure(prefix + "largest_velocity_error", run.history.largest("velocity_error"));
+    findings.claim("decay_rate", decay_rate(flow, run), exact, 0.03 * exact, source, known);
+    findings.claim("velocity_error_half", run.history.at(0.5 * flow.exact.turn(), "velocity_error"),
+                   0.0, 0.05, source, known);
+    findings.claim("velocity_error", run.history.last("velocity_error"), 0.0, 0.05, source, known);
+    findings.measure("largest_velocity_error", run.history.largest("velocity_error"));
 }
 
+/// One or three sizes; the one without shifting beside it.
 std::vector<Flow> flows_of(const Parameters& p) {
-    if (p.compare) {
-        std::vector<Flow> flows;
-        for (const int cells : {p.cells / 2, p.cells, 2 * p.cells})
-            flows.push_back(make_flow(p, cells, fmt::format("{}", cells)));
-        return flows;
-    }
-    std::vector<Flow> flows;
-    flows.push_back(make_flow(p, p.cells, ""));
-    if (!p.shifted()) return flows;
+    auto flows = by_size(p.cells, p.compare, [&](int cells) { return make_flow(p, cells); });
+    if (p.compare || !p.shifted()) return flows;
     Parameters plain = p;
     plain.scheme.transport = Transport::plain;
-    flows.push_back(make_flow(plain, p.cells, "plain"));
-    flows.front().label = "shifting";
+    flows.push_back(make_flow(plain, p.cells));
+    flows[0].call("shifting");
+    flows[1].call("plain");
     return flows;
 }
 
@@ -82,16 +70,11 @@ void run(Session& session, const Parameters& p) {
     // Disorder goes away fast at first.
     session.prefer_step((p.disorder > 0.0 ? 0.25 : 1.0) *
                         stirred::step_of(p, flows.front().exact.nu, flows.front().model->box()));
-    std::vector<Case<2>> cases;
-    for (auto& flow : flows)
-        cases.push_back({flow.model, flow.y0, plan_of(session, flow), flow.label});
-    const auto runs = session.run_all(std::move(cases));
+    const auto runs = run_all(session, flows, [&](Flow& flow) { return plan_of(session, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
-    for (std::size_t k = 1; p.compare && flows.front().known && k < runs.size(); ++k) {
-        const auto error = [&](std::size_t n) { return runs[n].history.last("velocity_error"); };
-        session.measure(fmt::format("order_{}_to_{}", flows[k - 1].label, flows[k].label),
-                        std::log2(error(k - 1) / error(k)), "of the velocity error at the end");
-    }
+    if (p.compare && flows.front().known)
+        Findings(session).measure_orders(labels_of(flows), last_of(runs, "velocity_error"),
+                                         "of the velocity error at the end");
     if (session.plots() && !runs.empty()) draw(session, p, flows, runs);
 }
 
@@ -117,7 +100,7 @@ int main(int argc, char** argv) {
         {"seed"}, {"disorder"}, [&p] { return p.disorder > 0.0; },
         "has no meaning with {by}; it needs a disorder above 0");
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 16;
+        session.smoke_default("cells", p.cells, 16);
         run(session, p);
     });
 }

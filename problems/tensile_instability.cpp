@@ -20,20 +20,10 @@
 // almost as fast as the fastest; 1 % would come too late.)
 // Without --stress and scheme options it draws the figure: tension 0.01 and 0.02, and
 // <v>_Monaghan at 0.02. Names in result.json without a prefix belong to plain velocities at 0.02.
-#include "reduced_units.hpp"
+#include "common.hpp"
 #include <spam/analysis/kicked_lattice.hpp>
 #include <spam/analysis/periodic_solid.hpp>
 #include <spam/analysis/wave_vectors.hpp>
-#include <spam/diagnostics/fits.hpp>
-#include <spam/io/csv.hpp>
-#include <spam/picture/draw.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -52,23 +42,18 @@ struct Parameters {
     double speed = 1e-10;
 };
 
-struct Sample {
-    std::string label, prefix, title;
-    double stress;
-    std::shared_ptr<SmoothParticleModel<2>> model;
-    std::vector<double> y0{};
+struct Sample : Variant<2, SmoothParticleModel<2>> {
+    double stress = 0.0;
     std::unique_ptr<KickedLattice<2>> linear{};
 };
 
 Sample make_sample(const Parameters& p, double stress, const Scheme& scheme) {
-    Sample sample{"", "", "", stress, nullptr};
-    const char* velocity = scheme.transport == Transport::plain     ? "plain v"
-                           : scheme.transport == Transport::average ? "⟨v⟩"
-                                                                    : "⟨v⟩ Monaghan";
-    sample.title = fmt::format("s = {:g}, {}", stress, velocity);
+    Sample sample;
+    sample.stress = stress;
+    sample.title = fmt::format("s = {:g}, {}", stress, velocity_title(scheme.transport, "plain v"));
     // at rest under tension
     const auto solid = ElasticSolid::triangular_lattice();
-    const double density = std::sqrt(4.0 / 3.0);
+    const double density = triangular_density;
     auto lattice = triangular_solid(p.cells, p.cells, solid, scheme, density, stress);
     sample.model = std::move(lattice.model);
     sample.y0 = std::move(lattice.y0);
@@ -93,17 +78,16 @@ Sample make_sample(const Parameters& p, double stress, const Scheme& scheme) {
 
 std::vector<Sample> figure(const Parameters& p, const Scheme& scheme) {
     std::vector<Sample> all;
-    const auto add = [&](double stress, Transport transport, const char* label,
-                         const char* prefix) {
+    const auto add = [&](double stress, Transport transport) {
         Scheme other = scheme;
         other.transport = transport;
         all.push_back(make_sample(p, stress, other));
-        all.back().label = label;
-        all.back().prefix = prefix;
+        all.back().call(fmt::format("{}_{:g}", to_string(transport), stress));
     };
-    add(0.01, Transport::plain, "plain_0.01", "plain_0.01_");
-    add(0.02, Transport::plain, "plain_0.02", "");
-    add(0.02, Transport::monaghan, "monaghan_0.02", "monaghan_0.02_");
+    add(0.01, Transport::plain);
+    add(0.02, Transport::plain);
+    all.back().prefix = "";
+    add(0.02, Transport::monaghan);
     return all;
 }
 
@@ -144,14 +128,12 @@ double slope_of_log(const std::vector<double>& t, std::vector<double> K, const W
 }
 
 void report(Session& session, const Parameters& p, const Sample& sample, const RunRecord& run) {
+    const Findings findings(session, sample.prefix);
     const History& h = run.history;
     const auto t = h.column("t"), K = h.column("kinetic"), moved = h.column("largest_displacement");
     const auto check = [&](const char* name, double value, std::optional<double> expected,
                            double tolerance, const char* source) {
-        session.check({sample.prefix + name, value, expected, tolerance, source});
-    };
-    const auto measured = [&](const char* name, double value) {
-        session.measure(sample.prefix + name, value);
+        findings.check(name, value, expected, tolerance, source);
     };
     // The whole curve, as long as it is linear.
     const Window window = window_of(sample, h);
@@ -171,13 +153,13 @@ void report(Session& session, const Parameters& p, const Sample& sample, const R
             check("kinetic_growth_rate", rate, limit, 0.03 * limit,
                   "linear analysis, fastest wave vector of the sample");
         else
-            measured("kinetic_growth_rate", rate);
-        measured("kinetic_growth_rate_predicted", limit);
-        measured("kinetic_growth_rate_all_modes", slope_of_log(t, predicted, window));
-        measured("window_begin", t[window.fastest]);
-        measured("window_end", t[window.last - 1]);
+            findings.measure("kinetic_growth_rate", rate);
+        findings.measure("kinetic_growth_rate_predicted", limit);
+        findings.measure("kinetic_growth_rate_all_modes", slope_of_log(t, predicted, window));
+        findings.measure("window_begin", t[window.fastest]);
+        findings.measure("window_end", t[window.last - 1]);
     } else {
-        measured("kinetic_growth_rate_predicted", limit > grows ? limit : 0.0);
+        findings.measure("kinetic_growth_rate_predicted", limit > grows ? limit : 0.0);
     }
     double ratio = 0.0;
     for (std::size_t r = 0; r < t.size(); ++r)
@@ -188,11 +170,11 @@ void report(Session& session, const Parameters& p, const Sample& sample, const R
         check("largest_kinetic_ratio", ratio, 2.5, 0.5,
               "[HHM04] Fig. 1: no instability to t = 400");
     else
-        measured("largest_kinetic_ratio", ratio);
-    if (limit > grows) measured("growth_time", 2.0 / limit);
+        findings.measure("largest_kinetic_ratio", ratio);
+    if (limit > grows) findings.measure("growth_time", 2.0 / limit);
     const Point<2> k = first_zone(sample.linear->fastest());
-    measured("fastest_k_x", limit > grows ? k.x() : 0.0);
-    measured("fastest_k_y", limit > grows ? k.y() : 0.0);
+    findings.measure("fastest_k_x", limit > grows ? k.x() : 0.0);
+    findings.measure("fastest_k_y", limit > grows ? k.y() : 0.0);
 }
 
 /// Measured and foretold side by side.
@@ -220,12 +202,11 @@ void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int 
     panel.curves.push_back({sample.title, t, K});
     const std::size_t end = std::max<std::size_t>(window_of(sample, h).last, 1) - 1;
     const double limit = 2.0 * sample.linear->fastest_rate();
-    Curve line{.title = "", .x = {}, .y = {}, .like = own};
+    Curve line{"", {}, {}, Mark::line, 0, own};
     for (std::size_t r = 0; r < t.size() && limit > grows; ++r) {
         const double straight = K[end] * std::exp(limit * (t[r] - t[end]));
         if (straight < 0.1 * K.front() || t[r] > 1.05 * t[end]) continue;
-        line.x.push_back(t[r]);
-        line.y.push_back(straight);
+        add_point(line, t[r], straight);
     }
     panel.curves.push_back(std::move(line));
 }
@@ -233,12 +214,10 @@ void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int 
 /// d ln K/dt between rows, and its limit.
 void add_rate(CurvePanel& panel, const Sample& sample, const History& h, int own) {
     const auto t = h.column("t"), K = h.column("kinetic");
-    Curve rate{sample.title, {}, {}}, limit{.title = "", .x = {}, .y = {}, .like = own};
+    Curve rate{sample.title, {}, {}}, limit{"", {}, {}, Mark::line, 0, own};
     for (std::size_t r = 1; r < t.size(); ++r) {
-        rate.x.push_back(0.5 * (t[r] + t[r - 1]));
-        rate.y.push_back(std::log(K[r] / K[r - 1]) / (t[r] - t[r - 1]));
-        limit.x.push_back(rate.x.back());
-        limit.y.push_back(2.0 * sample.linear->fastest_rate());
+        add_point(rate, 0.5 * (t[r] + t[r - 1]), std::log(K[r] / K[r - 1]) / (t[r] - t[r - 1]));
+        add_point(limit, rate.x.back(), 2.0 * sample.linear->fastest_rate());
     }
     panel.curves.push_back(std::move(rate));
     panel.curves.push_back(std::move(limit));
@@ -257,11 +236,10 @@ void draw(Session& session, const std::vector<Sample>& samples,
     }
     std::vector<CurvePanel> panels{kinetic};
     if (drawn > 0) panels.push_back(rate);
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "kinetic_energy",
-                    fmt::format("One moving particle in a lattice of {} under tension s",
-                                runs.front().statistics.particles),
-                    panels));
+    draw_curves(session, "kinetic_energy",
+                fmt::format("One moving particle in a lattice of {} under tension s",
+                            runs.front().statistics.particles),
+                panels);
 }
 
 }  // namespace
@@ -284,10 +262,7 @@ int main(int argc, char** argv) {
     options.only_when(of_one, {}, [&] { return !options.first_given(of_one).empty(); }, {});
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 10;
-        double t_end = session.common().smoke ? 20.0 : 450.0;
-        if (session.common().t_end) t_end = *session.common().t_end;
-
+        session.smoke_default("cells", p.cells, 10);
         const bool single = !options.first_given(of_one).empty();
         std::vector<Sample> samples;
         if (single)
@@ -295,15 +270,12 @@ int main(int argc, char** argv) {
         else
             samples = figure(p, session.scheme());
 
-        std::vector<Case<2>> cases;
-        for (auto& sample : samples) {
+        const auto runs = run_all(session, samples, [&](const Sample&) {
             Plan<2> plan;
-            plan.t_end = t_end;
+            plan.t_end = session.end(450.0, 20.0);
             plan.record({largest_displacement_column(), closest_pair_column<2>()});
-            cases.push_back({sample.model, sample.y0, std::move(plan), sample.label});
-        }
-        const auto runs = session.run_all(std::move(cases));
-
+            return plan;
+        });
         for (std::size_t n = 0; n < runs.size(); ++n) report(session, p, samples[n], runs[n]);
         write_comparison(session.folder(), samples, runs);
         if (session.plots()) draw(session, samples, runs);

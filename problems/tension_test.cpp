@@ -25,13 +25,11 @@
 // bar of the lecture parts at t = 620), at 0.41 with 1/200, which is the default. The others flow, and part at
 // lower loads when these grow more slowly; motion is chaotic, and --seed changes loads by a tenth. Without
 // a core smooth particles clump before they part.
-#include "reduced_units.hpp"
 #include "tension_test/bar.hpp"
 
-#include <fmt/format.h>
-
-namespace tension_test {
 namespace {
+
+using namespace tension_test;
 
 Plan<2> plan_of(const Session& session, PulledBar& bar, bool several) {
     Plan<2> plan;
@@ -46,11 +44,11 @@ Plan<2> plan_of(const Session& session, PulledBar& bar, bool several) {
             return t && h.last("t") >= 1.03 * *t;
         }});
     if (several)
-        bar.drawn = {{0.6 * plan.t_end}};
+        bar.drawn = states_at<2>({0.6}, plan.t_end);
     else if (bar.load_rate > 0.0)
-        bar.drawn = {{0.0}, {0.4 * plan.t_end}, {0.6 * plan.t_end}};
+        bar.drawn = states_at<2>({0.0, 0.4, 0.6}, plan.t_end);
     else
-        bar.drawn = {{0.0}, {0.2 * plan.t_end}, {0.4 * plan.t_end}};
+        bar.drawn = states_at<2>({0.0, 0.2, 0.4}, plan.t_end);
     plan.observe(keep_nearest<2>(bar.drawn));
     return plan;
 }
@@ -63,14 +61,11 @@ void compute(Session& session, const Parameters& p) {
         Matter matter = p.matter;
         matter.kind = kind;
         bars.push_back(make_bar(session, p, matter));
-        if (several) bars.back().prefix = std::string(to_string(kind)) + "_";
+        if (several) bars.back().call(std::string(to_string(kind)));
     }
     if (!several) session.prefer_step(bars.front().step);
-    std::vector<Case<2>> cases;
-    for (PulledBar& bar : bars)
-        cases.push_back({bar.model, bar.y0, plan_of(session, bar, several),
-                         several ? std::string(to_string(bar.kind)) : ""});
-    const auto runs = session.run_all(std::move(cases));
+    const auto runs =
+        run_all(session, bars, [&](PulledBar& bar) { return plan_of(session, bar, several); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, bars[k], runs[k]);
     if (session.plots()) draw(session, bars, runs);
 }
@@ -110,21 +105,18 @@ void add_options(Problem& problem, Parameters& p) {
 }
 
 }  // namespace
-}  // namespace tension_test
 
 int main(int argc, char** argv) {
-    spam::Problem problem("tension_test", "a tapered bar under tension, [HH07] 13", 0.25);
-    problem.units(spam::lattice_units());
-    tension_test::Parameters p;
-    tension_test::add_options(problem, p);
-    return problem.main(argc, argv, [&](spam::Session& session) {
-        if (session.common().smoke) {
-            if (!session.given("columns")) p.columns = 16;
-            if (!session.given("rows")) p.rows = 6;
-        }
+    Problem problem("tension_test", "a tapered bar under tension, [HH07] 13", 0.25);
+    problem.units(lattice_units());
+    Parameters p;
+    add_options(problem, p);
+    return problem.main(argc, argv, [&](Session& session) {
+        session.smoke_default("columns", p.columns, 16);
+        session.smoke_default("rows", p.rows, 6);
         if (p.matter.kind == breaking::MatterKind::elements)
-            tension_test::compute_elements(session, p);
+            compute_elements(session, p);
         else
-            tension_test::compute(session, p);
+            compute(session, p);
     });
 }

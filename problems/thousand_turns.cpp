@@ -10,20 +10,11 @@
 //
 // The first are as many as --turns, its tenth, hundredth and thousandth part. Every configuration is kept as a table
 // of x, y and velocities.
-#include "reduced_units.hpp"
-#include <spam/diagnostics/shape.hpp>
-#include <spam/io/csv.hpp>
+#include "common.hpp"
 #include <spam/io/text_file.hpp>
 #include <spam/material/polynomial_solid.hpp>
-#include <spam/problem/nearest_state.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/material_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
 
 namespace {
 
@@ -57,7 +48,7 @@ std::vector<Hexagon> hexagons(const Parameters& p, bool smoke) {
              [solid](Particles<2> particles) {
                  return std::make_unique<MaterialVectorModel<2>>(
                      std::move(particles), PolynomialSolid::like(solid),
-                     MaterialVectorScheme{.density = std::sqrt(4.0 / 3.0)});
+                     MaterialVectorScheme{.density = triangular_density});
              }},
             {"monaghan_pair_viscous",
              "paper's best",
@@ -107,10 +98,8 @@ NearestState<2> kept(const RunFolder& folder, const std::string& name, std::size
 std::optional<StudyTable::Row> turn(const Parameters& p, const Hexagon& one,
                                     const RunFolder& folder) {
     std::shared_ptr<Model<2>> model = make_model(p, one);
-    auto y0 = initial_state<2>(*model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
-                               rigid_rotation(p.speed / p.size));
-    std::vector<NearestState<2>> states;
-    for (const double turns : one.turns) states.push_back({turns * p.turn()});
+    auto y0 = lattice_state(*model, rigid_rotation(p.speed / p.size));
+    auto states = states_at<2>(one.turns, p.turn());
     Plan<2> plan;
     plan.t_end = one.turns.back() * p.turn();
     plan.output_every = std::min(p.turn() / 16.0, plan.t_end / 16.0);
@@ -150,10 +139,10 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& all
                 panels.back().outlines.clear();
         }
     }
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "thousand_turns",
+    draw_configurations(
+        session, "thousand_turns",
         fmt::format("Rotating elastic hexagon, {} particles", 1 + 3 * p.size * (p.size + 1)),
-        panels, all.front().turns.size(), "speed"));
+        panels, all.front().turns.size(), "speed");
 }
 
 }  // namespace
@@ -171,10 +160,8 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         const bool smoke = session.common().smoke;
-        if (smoke) {
-            if (!session.given("size")) p.size = 2;
-            if (!session.given("turns")) p.turns = 2.0;
-        }
+        session.smoke_default("size", p.size, 2);
+        session.smoke_default("turns", p.turns, 2.0);
         const auto all = hexagons(p, smoke);
         std::vector<StudyTask> tasks;
         for (const Hexagon& one : all) {

@@ -12,21 +12,13 @@
 //                                 because it cannot do otherwise: no new neighbours, no flow, no
 //                                 fragments
 //     material vectors            sums over present neighbours with a memory: they may change
-#include "reduced_units.hpp"
-#include <spam/diagnostics/shape.hpp>
+#include "common.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
-#include <spam/spam.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <thread>
 
 namespace {
@@ -39,7 +31,7 @@ constexpr double rows_per_turn = 48.0;
 struct Parameters {
     int size = 8;
     double speed = 0.1, turns = 100.0;
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int jobs = all_cores();
     double turn() const { return 2.0 * pi * size / speed; }
 };
 
@@ -51,41 +43,30 @@ struct Contestant {
 
 std::vector<Contestant> contestants() {
     using enum AngularMomentum;
-    const auto smooth = Contestant::smooth;
     const auto plain = Transport::plain, average = Transport::average,
                monaghan = Transport::monaghan;
-    return {
-        {"molecular_dynamics", "molecular dynamics", Contestant::springs},
-        {"plain", "v", smooth, {.transport = plain}},
-        {"plain_pair",
-         "v, pair torque",
-         smooth,
-         {.transport = plain, .angular_momentum = torque_pair}},
-        {"average", "⟨v⟩", smooth, {.transport = average}},
-        {"average_pair",
-         "⟨v⟩, pair torque",
-         smooth,
-         {.transport = average, .angular_momentum = torque_pair}},
-        {"monaghan", "⟨v⟩ Monaghan", smooth, {.transport = monaghan}},
-        {"monaghan_particle",
-         "⟨v⟩ Monaghan, particle torque",
-         smooth,
-         {.transport = monaghan, .angular_momentum = torque_particle}},
-        {"monaghan_pair",
-         "⟨v⟩ Monaghan, pair torque",
-         smooth,
-         {.transport = monaghan, .angular_momentum = torque_pair}},
-        {"monaghan_pair_reflected",
-         "the same, reflected at 0.7",
-         smooth,
-         {.transport = monaghan, .angular_momentum = torque_pair, .closest_approach = 0.7}},
-        {"monaghan_pair_viscous",
-         "the same, viscosity 1 instead",
-         smooth,
-         {.transport = monaghan, .angular_momentum = torque_pair, .viscosity = 1.0}},
-        {"total_lagrangian", "total Lagrangian", Contestant::lagrangian},
-        {"material_vectors", "material vectors", Contestant::vectors},
+    std::vector<Contestant> all{{"molecular_dynamics", "molecular dynamics", Contestant::springs}};
+    const auto add = [&](const char* name, const char* title, const Scheme& scheme) {
+        all.push_back({name, title, Contestant::smooth, scheme});
     };
+    const Scheme best{.transport = monaghan, .angular_momentum = torque_pair};
+    Scheme reflected = best, viscous = best;
+    reflected.closest_approach = 0.7;
+    viscous.viscosity = 1.0;
+    add("plain", "v", {.transport = plain});
+    add("plain_pair", "v, pair torque", {.transport = plain, .angular_momentum = torque_pair});
+    add("average", "⟨v⟩", {.transport = average});
+    add("average_pair", "⟨v⟩, pair torque",
+        {.transport = average, .angular_momentum = torque_pair});
+    add("monaghan", "⟨v⟩ Monaghan", {.transport = monaghan});
+    add("monaghan_particle", "⟨v⟩ Monaghan, particle torque",
+        {.transport = monaghan, .angular_momentum = torque_particle});
+    add("monaghan_pair", "⟨v⟩ Monaghan, pair torque", best);
+    add("monaghan_pair_reflected", "the same, reflected at 0.7", reflected);
+    add("monaghan_pair_viscous", "the same, viscosity 1 instead", viscous);
+    all.push_back({"total_lagrangian", "total Lagrangian", Contestant::lagrangian});
+    all.push_back({"material_vectors", "material vectors", Contestant::vectors});
+    return all;
 }
 
 std::unique_ptr<Model<2>> model_of(const Parameters& p, const Contestant& one) {
@@ -96,11 +77,11 @@ std::unique_ptr<Model<2>> model_of(const Parameters& p, const Contestant& one) {
     if (one.kind == Contestant::lagrangian)
         return std::make_unique<TotalLagrangianModel<2>>(
             std::move(particles), StVenantKirchhoff::like(solid),
-            TotalLagrangianScheme{std::sqrt(4.0 / 3.0), 3.0, 0.1});
+            TotalLagrangianScheme{triangular_density, 3.0, 0.1});
     if (one.kind == Contestant::vectors)
         return std::make_unique<MaterialVectorModel<2>>(
             std::move(particles), PolynomialSolid::like(solid),
-            MaterialVectorScheme{.density = std::sqrt(4.0 / 3.0)});
+            MaterialVectorScheme{.density = triangular_density});
     return std::make_unique<SmoothParticleModel<2>>(std::move(particles), solid, one.scheme);
 }
 
@@ -112,8 +93,7 @@ const std::vector<std::string> columns{"case",         "turns_survived", "end",
 std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const Contestant& one,
                                                      const IntegratorOptions& integrator) {
     std::shared_ptr<Model<2>> model = model_of(p, one);
-    auto y0 = initial_state<2>(*model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0),
-                               rigid_rotation(p.speed / p.size));
+    auto y0 = lattice_state(*model, rigid_rotation(p.speed / p.size));
     Plan<2> plan;
     plan.t_end = p.turns * p.turn();
     plan.output_every = p.turn() / rows_per_turn;
@@ -167,11 +147,10 @@ void draw(Session& session, const Parameters& p, const std::vector<Contestant>& 
                               : all[k].kind == Contestant::springs ? 1
                                                                    : 2});
     }
-    session.note_drawn(
-        draw_bars(session.plots_folder(), "turns_survived",
-                  fmt::format("Rotating hexagon, {} particles: turns until its shape is lost",
-                              1 + 3 * p.size * (p.size + 1)),
-                  chart));
+    draw_bars(session, "turns_survived",
+              fmt::format("Rotating hexagon, {} particles: turns until its shape is lost",
+                          1 + 3 * p.size * (p.size + 1)),
+              chart);
 }
 
 }  // namespace
@@ -188,14 +167,11 @@ int main(int argc, char** argv) {
         {[](double v) { return v >= 1e-6 && v <= 1.0; },
          "between 1e-06 and 1 (nothing that turns as fast as sound, 1.06, keeps its shape)"});
     options.number("turns", p.turns, "largest number of nominal turns", positive());
-    options.integer("jobs", p.jobs, "number of cases computed at the same time", between(1, 1024));
-    options.exclude_from_case({"jobs"});
+    add_jobs_option(options, p.jobs, "number of cases computed at the same time");
 
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke) {
-            if (!session.given("size")) p.size = 2;
-            if (!session.given("turns")) p.turns = 0.5;
-        }
+        session.smoke_default("size", p.size, 2);
+        session.smoke_default("turns", p.turns, 0.5);
         const auto all = contestants();
         std::vector<StudyTask> tasks;
         for (const Contestant& one : all)

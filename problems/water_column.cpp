@@ -34,16 +34,12 @@
 //                     walls: mirrors, or rigid ones. The one on the right is taken away.
 //     --cavitation P  the tension is P at most (text: "P > Pc -> P = Pc", where pressure is meant to be
 //                     tension); the energy of the limited law is used, so that energy is still kept
-#include "reduced_units.hpp"
-#include "stiffness.hpp"
 #include "water_column/column.hpp"
-#include <spam/core/error.hpp>
 #include <spam/problem/remake.hpp>
 
-#include <fmt/format.h>
-
-namespace water_column {
 namespace {
+
+using namespace water_column;
 
 Plan<2> plan_of_rest(const FluidColumn& column) {
     Plan<2> plan;
@@ -64,7 +60,7 @@ Plan<2> plan_of_collapse(const Session& session, const Parameters& p, FluidColum
     plan.output_every = column.unit / 40.0;
     plan.snapshot_every = column.unit / 4.0;
     plan.record(motion_columns(p.range));
-    for (const double part : {0.0, 1.25, 2.5, 5.0}) column.drawn.push_back({part * column.unit});
+    column.drawn = states_at<2>({0.0, 1.25, 2.5, 5.0}, column.unit);
     plan.observe(keep_nearest(column.drawn));
     return plan;
 }
@@ -112,26 +108,22 @@ void compute(Session& session, const Parameters& p) {
 
 void refuse_impossible(const Parameters& p) {
     if (!(p.range > 1.0))
-        throw InputError(
-            fmt::format("range: {:g} must lie above the particle spacing 1 (else no "
-                        "particle has a neighbour); 2 to 4 spacings are usual",
-                        p.range));
+        refuse(
+            "range: {:g} must lie above the particle spacing 1 (else no "
+            "particle has a neighbour); 2 to 4 spacings are usual",
+            p.range);
     if (!(p.range < p.width))
-        throw InputError(fmt::format(
+        refuse(
             "width: {} spacings must be more than the range {:g} of the weight "
             "function (a particle acts on one wall at a time, not through both); give a "
             "larger --width or a shorter --range",
-            p.width, p.range));
+            p.width, p.range);
     if (!(p.range < p.aspect * p.width))
-        throw InputError(
-            fmt::format("aspect: a column of height {:g} (aspect times width) must be higher than "
-                        "the range {:g}; give a larger --aspect or --width",
-                        p.aspect * p.width, p.range));
-    if (p.core > 0.0 && p.core_range < 0.01)
-        throw InputError(fmt::format(
-            "core-range: {:g} is below a hundredth of the spacing, 1: no step resolves such "
-            "a core; give 0.01 or more, or --core 0",
-            p.core_range));
+        refuse(
+            "aspect: a column of height {:g} (aspect times width) must be higher than "
+            "the range {:g}; give a larger --aspect or --width",
+            p.aspect * p.width, p.range);
+    refuse_short_core(p.core, p.core_range, "--core 0");
 }
 
 constexpr const char* no_friction =
@@ -156,12 +148,7 @@ void add_options(Options& options, Parameters& p) {
         between(0.0, 0.148));
     options.number("surface-tension", p.surface_tension,
                    "strength s_g of the surface tension; 0 for none", between(0.0, 100.0));
-    options.number("core", p.core, "energy of the core that keeps two particles apart; 0 for none",
-                   between(0.0, 1e3));
-    options.number("core-range", p.core_range, "distance at which cores touch", positive())
-        .only_when(
-            {"core"}, [&p] { return p.core > 0.0; },
-            "has no meaning without a core; give --core 1, or leave it out");
+    add_core_options(options, p.core, p.core_range, positive(), "1");
     options.number("damping", p.damping,
                    "rate of the friction that brings the column to rest, gamma (default: 1.6/W); "
                    "with --compare of the first column",
@@ -175,29 +162,27 @@ void add_options(Options& options, Parameters& p) {
 }
 
 }  // namespace
-}  // namespace water_column
 
 int main(int argc, char** argv) {
-    spam::Problem problem("water_column",
-                          "a column of water comes to rest and collapses, [HH07] 11", 0.025,
-                          "0.025, shorter with stiffer cores");
-    problem.units(spam::fluid_units());
-    water_column::Parameters p;
-    water_column::add_options(problem.options(), p);
-    const spam::SideOption wall(
-        "mirror", {{spam::SideKind::open, "lets the fluid out before it has come to rest"},
-                   {spam::SideKind::periodic, "leaves nothing that could collapse"},
-                   {spam::SideKind::no_slip, water_column::no_friction},
-                   {spam::SideKind::moving, water_column::no_friction}});
-    const spam::Sides sides(problem.options(), {wall, wall, wall, ""}, {.temperatures = false});
+    Problem problem("water_column", "a column of water comes to rest and collapses, [HH07] 11",
+                    0.025, "0.025, shorter with stiffer cores");
+    problem.units(fluid_units());
+    Parameters p;
+    add_options(problem.options(), p);
+    const SideOption wall("mirror",
+                          {{SideKind::open, "lets the fluid out before it has come to rest"},
+                           {SideKind::periodic, "leaves nothing that could collapse"},
+                           {SideKind::no_slip, no_friction},
+                           {SideKind::moving, no_friction}});
+    const Sides sides(problem.options(), {wall, wall, wall, ""}, {.temperatures = false});
     p.sides = &sides;
-    return problem.main(argc, argv, [&](spam::Session& session) {
-        if (session.common().smoke && !session.given("width")) p.width = 8;
-        if (session.common().smoke && !session.given("relaxation-time")) p.relaxation_time = 8.0;
-        water_column::refuse_impossible(p);
-        const water_column::Parameters usual;
-        session.prefer_step(
-            0.025 * spam::relative_step({p.core, p.core_range}, {usual.core, usual.core_range}));
-        water_column::compute(session, p);
+    return problem.main(argc, argv, [&](Session& session) {
+        session.smoke_default("width", p.width, 8);
+        session.smoke_default("relaxation-time", p.relaxation_time, 8.0);
+        refuse_impossible(p);
+        const Parameters usual;
+        session.prefer_step(0.025 *
+                            relative_step({p.core, p.core_range}, {usual.core, usual.core_range}));
+        compute(session, p);
     });
 }

@@ -3,10 +3,7 @@
 
 #include <spam/external/clamp.hpp>
 #include <spam/material/yielding_solid.hpp>
-#include <spam/setup/initial_state.hpp>
 #include <spam/setup/meshes.hpp>
-
-#include <cmath>
 
 namespace ball_plate_elements {
 namespace {
@@ -27,7 +24,7 @@ double mean(const Particles<2>& nodes, std::int32_t body, const View& values) {
 
 Impact make_impact(const Parameters& p) {
     const auto elastic = ElasticSolid::triangular_lattice();
-    const double density = std::sqrt(4.0 / 3.0);
+    const double density = triangular_density;
     Mesh disk = disk_mesh(p.ball_side, p.radius);
     disk.node.row(1).array() += 0.5 * p.rows + p.gap + p.radius;
     MeshedBodies bodies = make_nodes({disk, rectangle_mesh(p.columns, p.rows)}, density);

@@ -2,11 +2,8 @@
 // The finite-element twin of the ball that hits a plate, [HH07] 13.
 #pragma once
 
-#include <spam/problem/observer.hpp>
-#include <spam/rhs/contact.hpp>
+#include "../common.hpp"
 #include <spam/rhs/elements.hpp>
-
-#include <memory>
 
 namespace ball_plate_elements {
 

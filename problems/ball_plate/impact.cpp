@@ -2,31 +2,18 @@
 #include "impact.hpp"
 
 #include "../breaking/pieces.hpp"
-#include "../stiffness.hpp"
 #include "elements.hpp"
 #include <spam/external/clamp.hpp>
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
 
 namespace ball_plate {
 namespace {
 
-Particles<2> made(const Points<2>& position) {
-    auto particles = make_particles<2>(position, 1.0);
-    particles.body.assign(particles.size(), 0);
-    return particles;
-}
-
 /// Two bodies, however near they are to each other.
 std::vector<Particles<2>> ball_and_plate(const Parameters& p) {
     Points<2> disk = triangular_disk(p.radius);
-    Points<2> block = triangular_block(p.columns, p.rows);
-    block.colwise() -= Point<2>(block.rowwise().mean());
+    const Points<2> block = centred<2>(triangular_block(p.columns, p.rows));
     disk.row(1).array() += block.row(1).maxCoeff() + p.gap - disk.row(1).minCoeff();
-    return {made(disk), made(block)};
+    return {one_body(make_particles<2>(disk, 1.0)), one_body(make_particles<2>(block, 1.0))};
 }
 
 /// The outermost column of the plate on either side.
@@ -89,23 +76,20 @@ bool is_known(const Session& session, const RunRecord& run) {
 }
 
 template <std::size_t N>
-void claim(Session& session, const std::string& name, double value, const Known (&table)[N],
+void claim(const Findings& findings, const char* name, double value, const Known (&table)[N],
            const Parameters& p, double speed, bool known) {
     for (const Known& one : table)
         if (one.kind == p.matter.kind && one.speed == speed) {
-            session.claim({name, value, one.ball_speed, one.tolerance, "[HH07] 13; recorded value"},
-                          known);
+            findings.claim(name, value, one.ball_speed, one.tolerance, "[HH07] 13; recorded value",
+                           known);
             return;
         }
-    session.measure(name, value);
+    findings.measure(name, value);
 }
 
 }  // namespace
 
 std::string_view to_string(Ends ends) { return ends == Ends::free ? "free" : "held"; }
-std::string_view to_string(ContactKind kind) {
-    return kind == ContactKind::none ? "none" : "repulsive";
-}
 
 std::vector<double> speeds_of(MatterKind kind) {
     if (kind == MatterKind::pair_md) return {1.0, 2.0, 4.0, 8.0};
@@ -140,12 +124,16 @@ Impact make_elements(const Parameters& p, double speed) {
     twin.held = p.ends == Ends::held;
     twin.contact = *p.repulsion();
     auto made = ball_plate_elements::make_impact(twin);
-    return {speed, std::move(made.model), std::move(made.y0)};
+    Impact impact{{}, speed};
+    impact.model = std::move(made.model);
+    impact.y0 = std::move(made.y0);
+    return impact;
 }
 
 Impact make_impact(const Session& session, const Parameters& p, double speed) {
     if (p.matter.kind == MatterKind::elements) return make_elements(p, speed);
-    Impact impact{speed, make_model(session, p.matter, ball_and_plate(p), p.repulsion()), {}};
+    Impact impact{{}, speed};
+    impact.model = make_model(session, p.matter, ball_and_plate(p), p.repulsion());
     if (p.ends == Ends::held) hold_ends(p, *impact.model);
     const auto& particles = impact.model->particles();
     Points<2> x = particles.reference_position;
@@ -185,6 +173,7 @@ namespace {
 
 void report_elements(Session& session, const Parameters& p, const Impact& impact,
                      const RunRecord& run) {
+    const Findings findings(session, impact.prefix);
     const History& h = run.history;
     const bool known =
         run.complete && session.when_default({"radius", "columns", "rows", "gap", "contact",
@@ -195,21 +184,13 @@ void report_elements(Session& session, const Parameters& p, const Impact& impact
             one.failure_strain == p.matter.failure_strain.value_or(1.0) &&
             run.statistics.t_end >= one.least_time)
             found = &one;
-    const std::string speed = impact.prefix + "ball_speed",
-                      broken = impact.prefix + "elements_broken";
-    if (found != nullptr)
-        session.claim({speed, h.last("ball_speed"), found->ball_speed, found->tolerance,
-                       "[HH07] 13; recorded value"},
-                      known);
-    else
-        session.measure(speed, h.last("ball_speed"));
-    if (found != nullptr && found->speed == 0.5)
-        session.claim({broken, h.last("elements_broken"), 90.0, 8.0, "recorded value"}, known);
-    else
-        session.measure(broken, h.last("elements_broken"));
-    for (const char* name : {"largest_plastic_strain", "sag"})
-        session.measure(impact.prefix + name, h.last(name), "at the end");
-    session.check_promises(run, impact.prefix);
+    const KnownElements& one = found != nullptr ? *found : known_elements[0];
+    findings.claim("ball_speed", h.last("ball_speed"), one.ball_speed, one.tolerance,
+                   "[HH07] 13; recorded value", known && found != nullptr);
+    findings.claim("elements_broken", h.last("elements_broken"), 90.0, 8.0, "recorded value",
+                   known && found != nullptr && found->speed == 0.5);
+    findings.measure_last(h, {"largest_plastic_strain", "sag"}, "at the end");
+    findings.check_promises(run);
 }
 
 void draw_elements(Session& session, const Parameters& p, const std::vector<Impact>& impacts,
@@ -217,35 +198,32 @@ void draw_elements(Session& session, const Parameters& p, const std::vector<Impa
     std::vector<ConfigurationPanel> panels;
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const auto& model = *impacts[k].model;
-        if (p.compare) {
-            ElementFrame last{runs[k].statistics.t_end};
-            last.take(last.wanted, model, runs[k].y);
+        for (const auto& state : impacts[k].drawn)
+            if (state.there() && !p.compare)
+                panels.push_back(strain_panel(fmt::format("t = {:.3g}", state.t), model,
+                                              state.position, state.values));
+        if (p.compare)
             panels.push_back(strain_panel(
-                fmt::format("v = {:g}, t = {:g}", impacts[k].speed, last.t), model, last));
-            continue;
-        }
-        for (const ElementFrame& frame : impacts[k].frames)
-            if (frame.there())
-                panels.push_back(strain_panel(fmt::format("t = {:.3g}", frame.t), model, frame));
+                fmt::format("v = {:g}, t = {:g}", impacts[k].speed, runs[k].statistics.t_end),
+                model, ConstState<2>(model.layout(), runs[k].y).position(),
+                strains_of_elements(model, runs[k].y)));
     }
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
-                                           "A ball and a plate: finite elements", panels, 2,
-                                           "plastic strain"));
+    draw_configurations(session, "configurations", "A ball and a plate: finite elements", panels, 2,
+                        "plastic strain");
 }
 
 }  // namespace
 
 void report(Session& session, const Parameters& p, const Impact& impact, const RunRecord& run) {
     if (p.matter.kind == MatterKind::elements) return report_elements(session, p, impact, run);
+    const Findings findings(session, impact.prefix);
     const History& h = run.history;
     const bool known = is_known(session, run);
-    claim(session, impact.prefix + "ball_speed", h.last("ball_speed"), known_speeds, p,
-          impact.speed, known);
-    claim(session, impact.prefix + "pieces", h.last("pieces"), known_pieces, p, impact.speed,
-          known);
-    session.measure(impact.prefix + "largest_piece", h.last("largest_piece"));
-    session.measure(impact.prefix + "closest_pair", h.smallest("closest_pair"));
-    session.check_promises(run, impact.prefix);
+    claim(findings, "ball_speed", h.last("ball_speed"), known_speeds, p, impact.speed, known);
+    claim(findings, "pieces", h.last("pieces"), known_pieces, p, impact.speed, known);
+    findings.measure_last(h, {"largest_piece"});
+    findings.measure("closest_pair", h.smallest("closest_pair"));
+    findings.check_promises(run);
 }
 
 void draw(Session& session, const Parameters& p, const std::vector<Impact>& impacts,
@@ -265,9 +243,8 @@ void draw(Session& session, const Parameters& p, const std::vector<Impact>& impa
         for (const auto& state : impacts[k].drawn)
             if (state.there()) add(fmt::format("t = {:.3g}", state.t), state.position);
     }
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
-                                           "A ball and a plate: " + title_of(p.matter.kind), panels,
-                                           2, "first neighbours lost"));
+    draw_configurations(session, "configurations", "A ball and a plate: " + title_of(p.matter.kind),
+                        panels, 2, "first neighbours lost");
 }
 
 }  // namespace ball_plate

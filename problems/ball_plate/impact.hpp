@@ -4,7 +4,6 @@
 
 #include "../breaking/element_frames.hpp"
 #include "../breaking/matter.hpp"
-#include <spam/problem/nearest_state.hpp>
 
 namespace ball_plate {
 
@@ -12,10 +11,6 @@ using namespace breaking;
 
 enum class Ends { free, held };
 std::string_view to_string(Ends ends);
-
-/// How particles of ball and plate act on each other: like neighbours of one body, or by repulsion alone.
-enum class ContactKind { none, repulsive };
-std::string_view to_string(ContactKind kind);
 
 struct Parameters {
     Matter matter;
@@ -26,6 +21,7 @@ struct Parameters {
     double gap = 1.1;
     std::optional<double> travel;  ///< by default that of the lecture's numbers
     Ends ends = Ends::free;
+    /// How particles of ball and plate act on each other: like neighbours of one body, or by repulsion alone.
     ContactKind contact_kind = ContactKind::none;
     ContactScheme contact{.energy = 1.0};  ///< of ContactKind::repulsive
 
@@ -44,13 +40,8 @@ struct Parameters {
 
 constexpr std::int32_t ball = 0, plate = 1;  ///< bodies
 
-struct Impact {
+struct Impact : Variant<2> {
     double speed;
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0;
-    std::vector<NearestState<2>> drawn{};
-    std::vector<ElementFrame> frames{};  ///< the same of elements
-    std::string prefix{};                ///< of results where there are several
 };
 
 /// Of the lecture.

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
 
-#include <spam/core/error.hpp>
 #include <spam/material/gamma_gas.hpp>
-#include <spam/setup/lattices.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace blast {
 
@@ -64,15 +55,15 @@ Gas make_gas(const Parameters& p, int cells, bool only_described) {
         if (places.hot[given]) hot_mass += places.mass[given];
     }
     if (!(hot_mass > 0.0))
-        throw InputError(fmt::format(
+        refuse(
             "radius: {:g} leaves no particle in the hot disc, spacings being {:g}; give more --cells or a "
             "larger disc",
-            p.radius, spacing));
+            p.radius, spacing);
     Scheme scheme = p.scheme;
     scheme.range *= spacing;
-    Gas gas{cells, Sedov(p.gamma, 2),
-            std::make_shared<FluidModel<2>>(std::move(particles), Fluid{GammaGas{p.gamma}}, scheme,
-                                            box)};
+    Gas gas{{}, cells, Sedov(p.gamma, 2)};
+    gas.model = std::make_shared<FluidModel<2>>(std::move(particles), Fluid{GammaGas{p.gamma}},
+                                                scheme, box);
     if (only_described) return gas;
     const auto& model = *gas.model;
     const Points<2>& at = model.particles().reference_position;

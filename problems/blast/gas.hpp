@@ -2,14 +2,8 @@
 // The gas of blast: a quarter of the plane with a hot disc at its corner, and where the front is.
 #pragma once
 
+#include "../common.hpp"
 #include "sedov.hpp"
-#include <spam/problem/session.hpp>
-#include <spam/problem/sides.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace blast {
 
@@ -35,12 +29,9 @@ struct Parameters {
 };
 
 /// Edge 1, density 1, and energy 1 of the hot disc where all four quarters are counted.
-struct Gas {
+struct Gas : Variant<2, FluidModel<2>> {
     int cells;
     Sedov exact;
-    std::shared_ptr<FluidModel<2>> model;
-    std::vector<double> y0{};
-    std::string label{};
 
     double time(double R) const { return exact.time(R, 1.0, 1.0); }
     double radius(double t) const { return exact.radius(t, 1.0, 1.0); }

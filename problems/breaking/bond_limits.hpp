@@ -2,12 +2,8 @@
 // What the bonds of material vectors bear: the same options in every problem in which they may yield or break.
 #pragma once
 
+#include "../common.hpp"
 #include <spam/rhs/material_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace breaking {
 

@@ -3,8 +3,6 @@
 
 #include <spam/rhs/pair_potentials.hpp>
 
-#include <cmath>
-
 namespace breaking {
 
 void add_flowing_options(Options& options, FlowingMatter& matter) {
@@ -27,7 +25,7 @@ std::vector<std::string> flowing_option_names() {
 MaterialVectors<2>& add_flowing_terms(ParticleModel<2>& model, const FlowingMatter& matter,
                                       const std::optional<ContactScheme>& contact) {
     const auto elastic = PolynomialSolid::like(ElasticSolid::triangular_lattice());
-    MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), matter.range, matter.penalty};
+    MaterialVectorScheme scheme{triangular_density, matter.range, matter.penalty};
     matter.bonds.apply(scheme);
     auto& law = model.add_term<MaterialVectors<2>>(
         FlowingSolid{elastic, matter.yield_stress, matter.tension_limit}, scheme);

@@ -4,11 +4,7 @@
 
 #include "bond_limits.hpp"
 #include <spam/material/flowing_solid.hpp>
-#include <spam/rhs/contact.hpp>
 #include <spam/rhs/material_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <optional>
 
 namespace breaking {
 

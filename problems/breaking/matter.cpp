@@ -7,12 +7,6 @@
 #include <spam/material/yielding_solid.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/pair_potentials.hpp>
-#include <spam/setup/drawn.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <random>
 
 namespace breaking {
 namespace {
@@ -55,7 +49,7 @@ FlowingSolid flowing_solid(const Matter& matter) {
 }
 
 MaterialVectorScheme vectors_of(const Session& session, const Matter& matter) {
-    MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), session.scheme().range, matter.penalty};
+    MaterialVectorScheme scheme{triangular_density, session.scheme().range, matter.penalty};
     matter.bonds.apply(scheme);
     return scheme;
 }
@@ -85,16 +79,13 @@ void add_terms_among(const Session& session, const Matter& matter, ParticleModel
 }
 
 void refuse_impossible(const Matter& matter) {
-    if (matter.kind != MatterKind::pair_md && matter.core > 0.0 && matter.core_range < 0.01)
-        throw InputError(fmt::format(
-            "core-range: {:g} is below a hundredth of the spacing, 1: no step resolves such "
-            "a core; give 0.01 or more, or --core 0",
-            matter.core_range));
-    if (matter.kind != MatterKind::pair_md && matter.core > 0.0 && matter.core_range > 1.0)
-        throw InputError(fmt::format(
-            "core-range: {:g} is above the spacing, 1, so that neighbours would push each other away from the "
-            "start; give 1 or less",
-            matter.core_range));
+    if (matter.kind == MatterKind::pair_md) return;
+    refuse_short_core(matter.core, matter.core_range, "--core 0");
+    if (matter.core > 0.0 && matter.core_range > 1.0)
+        refuse(
+            "core-range: {:g} is above the spacing, 1, so that neighbours would push each other "
+            "away from the start; give 1 or less",
+            matter.core_range);
 }
 
 }  // namespace
@@ -172,21 +163,9 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
                    between(0.0, 100.0));
     only_of({"strength", "surface-tension"}, {MatterKind::embedded_atom},
             "it is of embedded atoms");
-    options.number("core", matter.core,
-                   "energy of the core that keeps two particles apart; 0 for none",
-                   between(0.0, 1e3));
-    options
-        .number("core-range", matter.core_range, "distance at which cores touch",
-                between(0.01, 1.0))
-        .only_when(
-            {"core"}, [&matter] { return matter.core > 0.0; },
-            "has no meaning without a core; give --core 1, or leave it out");
-    options.number("disorder", matter.disorder,
-                   "largest random displacement from the lattice at the start", between(0.0, 0.2));
-    options.integer("seed", matter.seed, "seed of the random displacements", between(0, 1000000000))
-        .only_when(
-            {"disorder"}, [&matter] { return matter.disorder > 0.0; },
-            "has no meaning without disorder; give --disorder 0.01, or leave it out");
+    add_core_options(options, matter.core, matter.core_range, between(0.01, 1.0), "1");
+    add_disorder_options(options, matter.disorder, matter.seed,
+                         "largest random displacement from the lattice at the start", 0.2, "0.01");
     only_of({"disorder", "seed"},
             {MatterKind::pair_md, MatterKind::embedded_atom, MatterKind::spam,
              MatterKind::material_vectors},
@@ -204,8 +183,7 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
 }
 
 void disturb(Points<2>& position, const Matter& matter) {
-    std::mt19937_64 random(static_cast<std::uint64_t>(matter.seed));
-    for (double& x : position.reshaped()) x += matter.disorder * (2.0 * drawn(random) - 1.0);
+    displace(position, matter.disorder, matter.seed);
 }
 
 std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
@@ -225,7 +203,7 @@ std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matte
 }
 
 std::vector<double> start(ParticleModel<2>& model, const Points<2>& position, double speed) {
-    auto y = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0), at_rest<2>());
+    auto y = lattice_state(model, at_rest<2>());
     State<2>(model.layout(), y).position() = position;
     model.layout().set_scale(Field::velocity, speed);
     return y;

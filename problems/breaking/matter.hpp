@@ -4,14 +4,7 @@
 #pragma once
 
 #include "bond_limits.hpp"
-#include <spam/rhs/contact.hpp>
 #include <spam/rhs/material_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace breaking {
 

@@ -4,8 +4,6 @@
 #include <spam/neighbors/connected_parts.hpp>
 #include <spam/neighbors/pair_list.hpp>
 
-#include <algorithm>
-
 namespace breaking {
 
 std::vector<std::size_t> piece_sizes(const Model<2>& model, std::span<const double> y,

@@ -2,10 +2,7 @@
 // What a body has broken into, for problems in which bodies break.
 #pragma once
 
-#include <spam/spam.hpp>
-
-#include <span>
-#include <vector>
+#include "../common.hpp"
 
 namespace breaking {
 

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plate.hpp"
 
-#include <spam/core/error.hpp>
-#include <spam/diagnostics/fits.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/external/gravity.hpp>
-#include <spam/material/polynomial_solid.hpp>
-#include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/material_vectors.hpp>
-#include <spam/rhs/total_lagrangian.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace cantilever {
 namespace {
@@ -39,27 +28,18 @@ Plate make_plate(const Parameters& p, int layers) {
     auto model = std::make_shared<ParticleModel<2>>(
         make_particles<2>(lattice(p, layers), beam.density * spacing * spacing, spacing));
     const ElasticSolid solid{beam.lambda(), beam.shear_modulus()};
-    if (p.lagrangian())
-        model->add_term<TotalLagrangian<2>>(
-            StVenantKirchhoff::like(solid),
-            TotalLagrangianScheme{beam.density, p.range() * spacing, p.kappa()});
-    else if (p.vectors())
-        model->add_term<MaterialVectors<2>>(
-            PolynomialSolid::like(solid),
-            MaterialVectorScheme{beam.density, p.range() * spacing, p.kappa()});
-    else
-        model->add_term<SmoothParticles<2>>(solid,
-                                            Scheme{.transport = Transport::monaghan,
-                                                   .angular_momentum = AngularMomentum::torque_pair,
-                                                   .viscosity = p.viscosity,
-                                                   .range = p.range() * spacing});
+    p.add_term(
+        *model, 0, model->particles().size(), solid, beam.density, p.range() * spacing,
+        {.transport = Transport::monaghan, .angular_momentum = AngularMomentum::torque_pair});
     if (p.gravity != 0.0) model->add(std::make_unique<Gravity<2>>(Point<2>(0.0, -p.gravity)));
     model->add(std::make_unique<Clamp<2>>(
         select<2>(model->particles(), [](const Point<2>& x) { return x.x() < 0.0; })));
-    auto y0 = initial_state<2>(*model, beam.density, solid.eta, [&](const Point<2>& x) {
+    Plate plate{{}, layers};
+    plate.y0 = initial_state<2>(*model, beam.density, solid.eta, [&](const Point<2>& x) {
         return Point<2>(0.0, p.speed * c_s * beam.shape(x.x()));
     });
-    return {layers, "", std::move(model), std::move(y0)};
+    plate.model = std::move(model);
+    return plate;
 }
 
 Column<2> tip_column(const Model<2>& model) {
@@ -84,21 +64,20 @@ double period_of(const Parameters& p, const History& h) {
 
 void draw(Session& session, const Parameters& p, const std::vector<Plate>& plates,
           const std::vector<RunRecord>& runs) {
-    const auto folder = session.plots_folder();
     const Beam& beam = p.beam;
     std::vector<ConfigurationPanel> panels;
     for (const auto& state : plates.front().drawn)
         panels.push_back(
             speed_panel(fmt::format("t = {:.3g} s", state.t), *plates.front().model, state));
-    session.note_drawn(draw_configurations(
-        folder, "configurations",
+    draw_configurations(
+        session, "configurations",
         fmt::format("A plate of {} layers, held on the left", plates.front().layers), panels, 2,
-        "speed, m/s"));
+        "speed, m/s");
 
-    CurvePanel tip{"deflection of the tip", "t, s", "tip, m", false, {}};
+    CurvePanel tip = frame("deflection of the tip", "t, s", "tip, m");
     for (std::size_t k = 0; k < runs.size(); ++k)
-        tip.curves.push_back({fmt::format("{} layers", plates[k].layers),
-                              runs[k].history.column("t"), runs[k].history.column("tip")});
+        tip.curves.push_back(
+            over_time(fmt::format("{} layers", plates[k].layers), runs[k].history, "tip"));
     if (p.gravity == 0.0) {
         Curve theory{"thin beam", runs.front().history.column("t"), {}};
         const double omega = 2.0 * std::numbers::pi / beam.thin_period();
@@ -112,15 +91,11 @@ void draw(Session& session, const Parameters& p, const std::vector<Plate>& plate
         CurvePanel periods{"period", "layers", "T, ms", false, {}};
         Curve found{"particles", {}, {}, Mark::points};
         Curve derived{"derived for layers", {}, {}};
-        for (std::size_t k = 0; k < runs.size(); ++k) {
-            found.x.push_back(plates[k].layers);
-            found.y.push_back(ms(period_of(p, runs[k].history)));
-        }
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            add_point(found, plates[k].layers, ms(period_of(p, runs[k].history)));
         const double least = plates.front().layers - 1.0, most = plates.back().layers + 2.0;
-        for (int n = plates.front().layers; n <= static_cast<int>(most); ++n) {
-            derived.x.push_back(n);
-            derived.y.push_back(ms(layered_period(beam, n, p.range())));
-        }
+        for (int n = plates.front().layers; n <= static_cast<int>(most); ++n)
+            add_point(derived, n, ms(layered_period(beam, n, p.range())));
         const double thin = ms(beam.thin_period()), thick = ms(beam.period());
         periods.curves = {found,
                           derived,
@@ -128,7 +103,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Plate>& plate
                           {"beam with shear", {least, most}, {thick, thick}}};
         all.push_back(periods);
     }
-    session.note_drawn(draw_curves(folder, "curves", "An oscillating plate", all));
+    draw_curves(session, "curves", "An oscillating plate", all);
 }
 
 }  // namespace cantilever

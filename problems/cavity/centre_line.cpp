@@ -4,9 +4,6 @@
 #include <spam/diagnostics/field_interpolation.hpp>
 #include <spam/diagnostics/wall_images.hpp>
 
-#include <algorithm>
-#include <cmath>
-
 namespace cavity {
 
 std::span<const LinePoint> ghia() {

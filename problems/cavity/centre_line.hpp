@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/physics/scheme.hpp>
-#include <spam/problem/observer.hpp>
-
-#include <cstdint>
-#include <span>
-#include <utility>
-#include <vector>
+#include "../common.hpp"
 
 namespace cavity {
 

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "channel.hpp"
 
-#include "../reduced_units.hpp"
 #include <spam/external/gravity.hpp>
-#include <spam/material/lucy_gas.hpp>
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace channel {
 namespace {
@@ -43,8 +34,7 @@ Column<2> mean_velocity_column(double speed) {
 
 Plan<2> plan_of(const Session& session, Flow& flow) {
     Plan<2> plan;
-    plan.t_end =
-        session.common().t_end.value_or((session.common().smoke ? 0.02 : 1.0) * flow.exact.time());
+    plan.t_end = session.end(flow.exact.time(), 0.02 * flow.exact.time());
     plan.snapshot_every = plan.t_end / 50.0;
     const auto now = std::make_shared<double>(0.0);
     plan.observe({.columns = {mean_velocity_column(flow.exact.speed)},
@@ -59,96 +49,68 @@ Plan<2> plan_of(const Session& session, Flow& flow) {
 
 /// Of one plate on the fluid along the plates, by their length: the mean over the last tenth of the run.
 double plate_stress(const Flow& flow, const RunRecord& run, bool upper) {
-    const std::string name = upper ? "impulse_top_x" : "impulse_bottom_x";
-    const double until = run.history.last("t"), since = 0.9 * until;
-    const double given = run.history.last(name) - run.history.at(since, name);
-    return given / (until - run.history.at(since, "t")) / flow.exact.H;
+    return run.history.mean_rate(upper ? "impulse_top_x" : "impulse_bottom_x", 0.9) / flow.exact.H;
 }
 
 void report(Session& session, const Flow& flow, const RunRecord& run) {
-    const std::string prefix = flow.label.empty() ? "" : flow.label + "_";
+    const Findings findings(session, flow.prefix);
     const bool plate = flow.exact.drive == Drive::plate;
-    session.measure(prefix + "reflections", static_cast<double>(flow.model->reflections()),
-                    "particles that crossed a plate");
-    session.check_promises(run, prefix);
+    findings.measure("reflections", static_cast<double>(flow.model->reflections()),
+                     "particles that crossed a plate");
+    findings.check_promises(run);
     if (!flow.known) return;
     const bool known =
         session.when_default({"speed", "reynolds", "density", "kernel", "range", "friction"}) &&
         run.complete && run.statistics.t_end >= 0.99 * flow.exact.time() && flow.exact.H >= 20.0;
     for (const bool upper : {false, true})
         if (run.complete)
-            session.claim({prefix + (upper ? "stress_top" : "stress_bottom"),
+            findings.claim(upper ? "stress_top" : "stress_bottom",
                            plate_stress(flow, run, upper) / flow.exact.stress(upper), 1.0, 0.02,
-                           "force of the plate by that of the finished flow"},
-                          known);
-    session.claim({prefix + "profile_error", run.history.last("profile_error"), 0.0, 0.01,
-                   plate ? "u = V y/H" : "u = 4 U (y/H)(1 - y/H)"},
-                  known);
-    session.claim({prefix + "mean_velocity", run.history.last("mean_velocity"),
-                   plate ? 0.5 : 2.0 / 3.0, 0.01, "of the exact flow"},
-                  known);
-    session.measure(prefix + "largest_profile_error", run.history.largest("profile_error"),
-                    "start-up included");
+                           "force of the plate by that of the finished flow", known);
+    findings.claim("profile_error", run.history.last("profile_error"), 0.0, 0.01,
+                   plate ? "u = V y/H" : "u = 4 U (y/H)(1 - y/H)", known);
+    findings.claim("mean_velocity", run.history.last("mean_velocity"), plate ? 0.5 : 2.0 / 3.0,
+                   0.01, "of the exact flow", known);
+    findings.measure("largest_profile_error", run.history.largest("profile_error"),
+                     "start-up included");
 }
 
 /// Lines: exact. Points: particles.
 void draw(Session& session, const Parameters& p, const Flow& flow) {
-    CurvePanel panel{
-        "", "u/" + std::string(flow.exact.drive == Drive::plate ? "V" : "U"), "y/H", false, {}};
+    CurvePanel panel = frame("", flow.exact.drive == Drive::plate ? "u/V" : "u/U", "y/H");
+    const double H = flow.exact.H, U = flow.exact.speed;
     for (const auto& state : flow.drawn) {
         if (!state.there() || !flow.known) continue;
-        Curve exact{.title = fmt::format("t = {:.3g}", state.t), .x = {}, .y = {}};
-        for (int k = 0; k <= 100; ++k) {
-            exact.x.push_back(flow.exact.velocity(0.01 * k * flow.exact.H, state.t) /
-                              flow.exact.speed);
-            exact.y.push_back(0.01 * k);
-        }
+        Curve exact{fmt::format("t = {:.3g}", state.t), {}, {}};
+        for (int k = 0; k <= 100; ++k)
+            add_point(exact, flow.exact.velocity(0.01 * k * H, state.t) / U, 0.01 * k);
         panel.curves.push_back(exact);
     }
-    int of = 1;
-    for (const auto& state : flow.drawn) {
+    for (int style = 1; const auto& state : flow.drawn) {
         if (!state.there()) continue;
-        Curve particles{.title = "", .x = {}, .y = {}, .mark = Mark::points, .style = of++};
-        for (Eigen::Index i = 0; i < state.position.cols(); ++i) {
-            particles.x.push_back(state.velocity(0, i) / flow.exact.speed);
-            particles.y.push_back(state.position(1, i) / flow.exact.H);
-        }
+        Curve particles{"", {}, {}, Mark::points, style++};
+        for (Eigen::Index i = 0; i < state.position.cols(); ++i)
+            add_point(particles, state.velocity(0, i) / U, state.position(1, i) / H);
         panel.curves.push_back(particles);
     }
     if (panel.curves.empty()) return;
-    session.note_drawn(
-        draw_curves(session.plots_folder(), "profiles",
-                    fmt::format("{} particles, Re = {:g}{}", flow.model->particles().size(),
-                                p.reynolds, flow.known ? ": lines exact" : ""),
-                    {panel}));
-}
-
-/// Errors of three sizes, and the order at which they fall.
-void compare(Session& session, const std::vector<Flow>& flows, const std::vector<RunRecord>& runs) {
-    std::vector<double> errors;
-    for (const auto& run : runs) errors.push_back(run.history.last("profile_error"));
-    for (std::size_t k = 1; k < errors.size(); ++k)
-        session.measure(fmt::format("order_{}_to_{}", flows[k - 1].label, flows[k].label),
-                        std::log2(errors[k - 1] / errors[k]),
-                        "of the profile's error against the number of particles across");
+    draw_curves(session, "profiles",
+                fmt::format("{} particles, Re = {:g}{}", flow.model->particles().size(), p.reynolds,
+                            flow.known ? ": lines exact" : ""),
+                {panel});
 }
 
 void run(Session& session, const Parameters& p, Drive drive) {
-    std::vector<Flow> flows;
-    std::vector<int> sizes{p.cells};
-    if (p.compare) sizes = {p.cells / 2, p.cells, 2 * p.cells};
-    for (const int cells : sizes) {
-        flows.push_back(make_flow(p, drive, cells, session.common().dry_run));
-        if (sizes.size() > 1) flows.back().label = fmt::format("{}", cells);
-    }
-    const double nu = flows.front().exact.nu;
-    session.prefer_step(std::min(0.25, 0.4 / nu));
-    std::vector<Case<2>> cases;
-    for (auto& flow : flows)
-        cases.push_back({flow.model, flow.y0, plan_of(session, flow), flow.label});
-    const auto runs = session.run_all(std::move(cases));
+    auto flows = by_size(p.cells, p.compare, [&](int cells) {
+        return make_flow(p, drive, cells, session.common().dry_run);
+    });
+    session.prefer_step(std::min(0.25, 0.4 / flows.front().exact.nu));
+    const auto runs = run_all(session, flows, [&](Flow& flow) { return plan_of(session, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
-    if (runs.size() == 3 && flows.front().known) compare(session, flows, runs);
+    if (runs.size() == 3 && flows.front().known)
+        Findings(session).measure_orders(
+            labels_of(flows), last_of(runs, "profile_error"),
+            "of the profile's error against the number of particles across");
     if (session.plots() && !runs.empty()) draw(session, p, flows[runs.size() / 2]);
 }
 
@@ -190,17 +152,18 @@ Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described)
     const double H = cells, nu = p.speed * H / p.reynolds;
     const bool plate = drive == Drive::plate;
     const auto box = box_of(p, cells);
-    Points<2> x = square_lattice<2>({cells, cells});
-    x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
-    auto model = std::make_unique<FluidModel<2>>(make_particles<2>(x, 1.0, 1.0, box),
-                                                 Fluid{LucyGas{},
-                                                       NewtonViscosity::shear_and_bulk(nu, 0.0, 2),
-                                                       {},
-                                                       p.friction == FrictionBy::pairs},
-                                                 p.scheme, box);
+    const Points<2> x = cell_centres<2>({cells, cells});
+    const Fluid fluid{LucyGas{},
+                      NewtonViscosity::shear_and_bulk(nu, 0.0, 2),
+                      {},
+                      p.friction == FrictionBy::pairs};
+    auto model =
+        std::make_unique<FluidModel<2>>(make_particles<2>(x, 1.0, 1.0, box), fluid, p.scheme, box);
     if (!plate)
         model->add(std::make_unique<Gravity<2>>(Point<2>(8.0 * nu * p.speed / (H * H), 0.0)));
-    Flow flow{{drive, H, nu, p.speed}, nullptr, {}, between_plates(box, plate ? p.speed : 0.0)};
+    Flow flow;
+    flow.exact = {drive, H, nu, p.speed};
+    flow.known = between_plates(box, plate ? p.speed : 0.0);
     if (!only_described)
         flow.y0 = model->state(model->particles().reference_position, Points<2>::Zero(2, x.cols()));
     model->layout().set_scale(Field::velocity, p.speed);
@@ -239,7 +202,7 @@ int main_of(int argc, char** argv, const std::string& name, const std::string& s
     options.flag("compare", p.compare,
                  "compute half as many and twice as many particles across as well");
     return problem.main(argc, argv, [&](Session& session) {
-        if (session.common().smoke && !session.given("cells")) p.cells = 10;
+        session.smoke_default("cells", p.cells, 10);
         // Stirred between walls on all sides particles lose the densities that continuity gives them.
         if (!session.given("density") && !box_of(p, p.cells).periodic(0))
             p.scheme.density = Density::summed;

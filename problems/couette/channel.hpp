@@ -3,11 +3,7 @@
 // (poiseuille): what the two problems share.
 #pragma once
 
-#include "../friction.hpp"
-#include <spam/problem/nearest_state.hpp>
-#include <spam/problem/sides.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-#include <spam/spam.hpp>
+#include "../common.hpp"
 
 namespace channel {
 
@@ -41,13 +37,9 @@ struct ExactFlow {
     }
 };
 
-struct Flow {
-    ExactFlow exact;
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0;
+struct Flow : Variant<2> {
+    ExactFlow exact{};
     bool known = true;  ///< the sides are those of the exact flow
-    std::vector<NearestState<2>> drawn{};
-    std::string label{};
 };
 
 /// cells x cells particles of the fluid P = rho^2/2 with Newton's viscosity, density and sound speed 1, on a

@@ -2,12 +2,6 @@
 #include "account.hpp"
 
 #include "../breaking/pieces.hpp"
-#include <spam/io/csv.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace fragmenting_bar {
 namespace {
@@ -15,45 +9,33 @@ namespace {
 /// Contacts of particles whose relative speed is that of sound.
 constexpr ContactScheme contact{.energy = 1.0};
 
-std::string title_of(const Scheme& scheme) {
-    std::string title = scheme.transport == Transport::plain     ? "v"
-                        : scheme.transport == Transport::average ? "⟨v⟩"
-                                                                 : "⟨v⟩ Monaghan";
-    if (scheme.angular_momentum == AngularMomentum::torque_pair) title += ", pair torque";
-    if (scheme.angular_momentum == AngularMomentum::torque_particle) title += ", particle torque";
-    if (scheme.angular_momentum == AngularMomentum::gauss) title += ", Gauss";
-    return title;
-}
-
 }  // namespace
 
 Bar make_bar(const Parameters& p, const Scheme& scheme, bool vectors) {
     auto particles = make_particles<2>(p.target.positions(3.0 * scheme.range), 1.0);
+    Bar bar;
     if (vectors) {
         auto model = std::make_shared<ParticleModel<2>>(std::move(particles));
         auto matter = p.flowing;
         matter.range = scheme.range;
         breaking::add_flowing_terms(*model, matter, contact);
-        return {"material vectors",
-                "material_vectors",
-                std::move(model),
-                true,
-                1e-7,
-                step_of_vectors,
-                std::make_unique<BodyLedger>()};
+        bar.title = "material vectors";
+        bar.model = std::move(model);
+        bar.longest_step = step_of_vectors;
+        if (p.compare) bar.call("material_vectors");
+    } else {
+        const bool pair = scheme.angular_momentum == AngularMomentum::torque_pair;
+        const bool balanced = pair || scheme.angular_momentum == AngularMomentum::torque_particle;
+        const std::string label = scheme.transport == Transport::plain ? "plain" : "monaghan";
+        bar.title = velocity_title(scheme.transport, "v") + torque_title(scheme.angular_momentum);
+        bar.model = std::make_shared<SmoothParticleModel<2>>(
+            std::move(particles), ElasticSolid::triangular_lattice(), scheme);
+        bar.L_kept = balanced && scheme.balance == Balance::body;
+        bar.L_tolerance = pair ? 1e-9 : 1e-5;
+        if (p.compare) bar.call(label + (pair ? "_torque_pair" : ""));
     }
-    const bool pair = scheme.angular_momentum == AngularMomentum::torque_pair;
-    const bool balanced = pair || scheme.angular_momentum == AngularMomentum::torque_particle;
-    std::string label = scheme.transport == Transport::plain ? "plain" : "monaghan";
-    if (pair) label += "_torque_pair";
-    return {title_of(scheme),
-            std::move(label),
-            std::make_shared<SmoothParticleModel<2>>(std::move(particles),
-                                                     ElasticSolid::triangular_lattice(), scheme),
-            balanced && scheme.balance == Balance::body,
-            pair ? 1e-9 : 1e-5,
-            HUGE_VAL,
-            std::make_unique<BodyLedger>()};
+    bar.y0 = p.target.start(*bar.model);
+    return bar;
 }
 
 std::vector<Bar> compared(const Parameters& p, Scheme scheme) {
@@ -66,7 +48,6 @@ std::vector<Bar> compared(const Parameters& p, Scheme scheme) {
     scheme.angular_momentum = AngularMomentum::torque_pair;
     bars.push_back(make_bar(p, scheme, false));
     bars.push_back(make_bar(p, scheme, true));
-    for (Bar& bar : bars) bar.prefix = bar.label + "_";
     return bars;
 }
 
@@ -112,6 +93,7 @@ double largest_L_change(const BodyLedger& ledger) {
 }  // namespace
 
 void check_account(Session& session, const Bar& bar, const RunRecord& run) {
+    const Findings findings(session, bar.prefix);
     const BodyLedger& ledger = *bar.ledger;
     const BodyTotals& projectile = projectile_of(ledger);
     const double L = L_scale(ledger);
@@ -124,16 +106,15 @@ void check_account(Session& session, const Bar& bar, const RunRecord& run) {
                              std::abs(sum.angular_momentum) / L,
                              std::abs(sum.energy) / run.history.first("energy")});
     }
-    session.measure(bar.prefix + "changes_of_bodies",
-                    static_cast<double>(ledger.entries().size() - 2), "joined or parted");
-    session.check({bar.prefix + "left_out_at_changes", left_out, 0.0, 1e-12,
-                   "mass, momentum, angular momentum and energy of all bodies, after and before"});
-    session.check(
-        {bar.prefix + "momentum_change_of_bodies", p_change, 0.0, 1e-12, "while they were bodies"});
-    session.claim({bar.prefix + "angular_momentum_change_of_bodies", largest_L_change(ledger), 0.0,
-                   bar.L_tolerance, "[HHM04] IX: each body's own balance"},
-                  bar.L_kept && (!session.given("dt") ||
-                                 session.integrator().dt.value_or(0.0) <= bar.longest_step));
+    findings.measure("changes_of_bodies", static_cast<double>(ledger.entries().size() - 2),
+                     "joined or parted");
+    findings.check("left_out_at_changes", left_out, 0.0, 1e-12,
+                   "mass, momentum, angular momentum and energy of all bodies, after and before");
+    findings.check("momentum_change_of_bodies", p_change, 0.0, 1e-12, "while they were bodies");
+    findings.claim("angular_momentum_change_of_bodies", largest_L_change(ledger), 0.0,
+                   bar.L_tolerance, "[HHM04] IX: each body's own balance",
+                   bar.L_kept && (!session.given("dt") ||
+                                  session.integrator().dt.value_or(0.0) <= bar.longest_step));
 }
 
 namespace {
@@ -171,13 +152,12 @@ void draw(Session& session, const std::vector<Bar>& bars, const std::vector<RunR
                                                              largest_L_change(*bars[k].ledger)),
                                         *bars[k].model, state.position));
         }
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "configurations",
+    draw_configurations(
+        session, "configurations",
         several ? fmt::format("A bar hit by a projectile, at t = {:.3g} and {:.3g}",
                               bars.front().drawn.front().t, bars.front().drawn.back().t)
                 : "A bar hit by a projectile",
-        panels, several ? runs.size() : panels.size(),
-        several ? "first neighbours lost" : "speed"));
+        panels, several ? runs.size() : panels.size(), several ? "first neighbours lost" : "speed");
 }
 
 }  // namespace fragmenting_bar

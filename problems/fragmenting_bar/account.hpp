@@ -3,10 +3,8 @@
 #pragma once
 
 #include "../breaking/flowing.hpp"
-#include "../formulation.hpp"
 #include "body_ledger.hpp"
 #include "target.hpp"
-#include <spam/problem/nearest_state.hpp>
 
 namespace fragmenting_bar {
 
@@ -27,15 +25,11 @@ constexpr std::size_t least_particles = 5;
 /// Of classical Runge-Kutta.
 constexpr double step = 0.05, step_of_vectors = 0.025;
 
-struct Bar {
-    std::string title, label;
-    std::shared_ptr<Model<2>> model;
-    bool L_kept;                           ///< by every body
-    double L_tolerance;                    ///< where it is
-    double longest_step;                   ///< with which that is known
-    std::unique_ptr<BodyLedger> ledger{};  ///< of its bodies
-    std::vector<NearestState<2>> drawn{};
-    std::string prefix{};  ///< of results where there are several
+struct Bar : Variant<2, Model<2>> {
+    bool L_kept = true;              ///< by every body
+    double L_tolerance = 1e-7;       ///< where it is
+    double longest_step = HUGE_VAL;  ///< with which that is known
+    std::unique_ptr<BodyLedger> ledger = std::make_unique<BodyLedger>();  ///< of its bodies
 };
 
 /// One of smooth particles, or one of a solid that flows, with material vectors.

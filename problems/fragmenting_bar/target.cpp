@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "target.hpp"
 
-#include <spam/core/error.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
+#include "../common.hpp"
 
 namespace spam {
 
 Points<2> Target::positions(double gap) const {
-    Points<2> bar = triangular_block(columns, rows);
-    bar.colwise() -= bar.rowwise().mean().eval();
+    const Points<2> bar = centred<2>(triangular_block(columns, rows));
     Points<2> ball = triangular_hexagon(projectile);
     ball.row(0).array() += bar.row(0).minCoeff() - projectile - gap;
     ball.row(1).array() += offset;
@@ -21,7 +16,7 @@ Points<2> Target::positions(double gap) const {
 }
 
 std::vector<double> Target::start(Model<2>& model) const {
-    auto y0 = initial_state<2>(model, std::sqrt(4.0 / 3.0), std::sqrt(3.0 / 16.0), at_rest<2>());
+    auto y0 = lattice_state(model, at_rest<2>());
     const State<2> state(model.layout(), y0);
     for (std::size_t i = 0; i < model.particles().size(); ++i)
         if (model.particles().id[i] >= of_bar())
@@ -40,26 +35,25 @@ void add_target_options(Options& options, Target& target) {
                    between(-1e6, 1e6));
 }
 
-void make_small(const Session& session, Target& target) {
-    if (!session.common().smoke) return;
-    if (!session.given("columns")) target.columns = 4;
-    if (!session.given("rows")) target.rows = 16;
-    if (!session.given("projectile")) target.projectile = 2;
-    if (!session.given("offset")) target.offset = std::min(target.offset, 2.0);
+void make_small(Session& session, Target& target) {
+    session.smoke_default("columns", target.columns, 4);
+    session.smoke_default("rows", target.rows, 16);
+    session.smoke_default("projectile", target.projectile, 2);
+    session.smoke_default("offset", target.offset, std::min(target.offset, 2.0));
 }
 
 void refuse_tunnelling(const Session& session, const Target& target, double range,
                        double row_interval) {
-    const auto refuse = [&](const char* name, double interval, const char* what) {
+    const auto check = [&](const char* name, double interval, const char* what) {
         if (target.speed * interval <= range) return;
-        throw InputError(fmt::format(
+        refuse(
             "speed: at {:g} the projectile moves {:.3g} in {} {} = {:g}, more than the range {:g}, "
             "and would pass through the bar; lower it, or choose --{} below {:.2g}",
             target.speed, target.speed * interval, what, name, interval, range, name,
-            range / target.speed));
+            range / target.speed);
     };
-    if (session.integrator().dt) refuse("dt", *session.integrator().dt, "a step");
-    refuse("output-every", row_interval, "the time between two searches for bodies,");
+    if (session.integrator().dt) check("dt", *session.integrator().dt, "a step");
+    check("output-every", row_interval, "the time between two searches for bodies,");
 }
 
 }  // namespace spam

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace free_expansion {
 namespace {
 
@@ -111,10 +106,11 @@ std::pair<double, double> plateau_of(int dim, int cells) {
 
 template <int Dim>
 void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const RunRecord& run) {
+    const Findings findings(session, gas.prefix);
     const History& h = run.history;
     const auto say = [&](const std::string& name, double value, std::optional<double> expected = {},
                          double tolerance = 0.0, const char* source = "measured") {
-        session.check({gas.prefix + name, value, expected, tolerance, source});
+        findings.check(name, value, expected, tolerance, source);
     };
     const bool standard = is_standard(session, p, gas.model->box());
     const double n = gas.cells, end = run.complete ? h.last("t") : 0.0;
@@ -125,7 +121,7 @@ void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const Run
         if (!h.has("impulse_x"))  // mirrors push back
             say("momentum_change", momentum_change(h), 0.0, 1e-10, "pairwise forces");
     } else {
-        session.check_promises(run, gas.prefix);
+        findings.check_promises(run);
     }
     // On the line, where P/rho^2 is not the same for all, pairs share their work out otherwise.
     const bool same_energy = standard && Dim == 2;

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
-#include <spam/io/csv.hpp>
-#include <spam/picture/draw.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <ctime>
 
 namespace free_expansion {
@@ -36,8 +31,7 @@ std::vector<Gas<2>> gases_of(const Parameters& p, bool smoke) {
     std::vector<Gas<2>> gases;
     for (const int n : sizes) {
         gases.push_back(make_gas<2>(n, p));
-        gases.back().label = fmt::format("n{}", n);
-        gases.back().prefix = gases.back().label + "_";
+        gases.back().call(fmt::format("n{}", n));
     }
     return gases;
 }
@@ -45,12 +39,12 @@ std::vector<Gas<2>> gases_of(const Parameters& p, bool smoke) {
 void draw_cost(Session& session, const LogLogCurve& seconds) {
     LogLogCurve linear{1, true, seconds.x, {}};
     for (const double n : seconds.x) linear.y.push_back(seconds.y.back() * n / seconds.x.back());
-    session.note_drawn(draw_log_log(session.plots_folder(), "cost",
-                                    {"What a unit of time costs",
-                                     {{"", "particles", "processor seconds", {seconds, linear}}},
-                                     1,
-                                     {"measured", "proportional to N"},
-                                     "RK4, dt = 0.25: 16 right-hand sides; Lucy's weight, h = 6"}));
+    draw_log_log(session, "cost",
+                 {"What a unit of time costs",
+                  {{"", "particles", "processor seconds", {seconds, linear}}},
+                  1,
+                  {"measured", "proportional to N"},
+                  "RK4, dt = 0.25: 16 right-hand sides; Lucy's weight, h = 6"});
 }
 
 }  // namespace
@@ -58,7 +52,7 @@ void draw_cost(Session& session, const LogLogCurve& seconds) {
 void measure_cost(Session& session, const Parameters& p) {
     session.prefer_one_thread();  // whose processor time is what work costs
     auto gases = gases_of(p, session.common().smoke);
-    const double t_end = session.common().t_end.value_or(session.common().smoke ? 2.0 : length);
+    const double t_end = session.end(length, 2.0);
     std::vector<Case<2>> cases;
     std::vector<Clock> clocks(gases.size());
     for (auto& gas : gases) {
@@ -86,8 +80,7 @@ void measure_cost(Session& session, const Parameters& p) {
         session.measure(gases[k].prefix + "seconds_per_unit_time", seconds);
         session.measure(gases[k].prefix + "pairs_per_particle", pairs / evaluations / n);
         session.measure(gases[k].prefix + "nanoseconds_per_pair", 1e9 * seconds * s.t_end / pairs);
-        curve.x.push_back(n);
-        curve.y.push_back(seconds);
+        add_point(curve, n, seconds);
     }
     if (session.plots()) draw_cost(session, curve);
 }

@@ -2,23 +2,11 @@
 #include "gas.hpp"
 
 #include "entropy.hpp"
-#include <spam/core/error.hpp>
 #include <spam/io/image_file.hpp>
 #include <spam/io/snapshot.hpp>
 #include <spam/kernel/weight_integrals.hpp>
 #include <spam/material/isentropic_gas.hpp>
-#include <spam/material/lucy_gas.hpp>
 #include <spam/rhs/own_ranges.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-#include <spam/setup/drawn.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <random>
 
 namespace free_expansion {
 namespace {
@@ -86,18 +74,18 @@ double step_for(const Parameters& p) {
 template <int Dim>
 Gas<Dim> make_gas(int cells, const Parameters& p) {
     if (!(cells > p.range))
-        throw InputError(
-            fmt::format("cells: the box of {0} (twice --cells {1}) is not wider than "
-                        "twice --range {2:g}; "
-                        "use at least --cells {3}, or a shorter range",
-                        2 * cells, cells, p.range, static_cast<int>(std::floor(p.range)) + 1));
+        refuse(
+            "cells: the box of {0} (twice --cells {1}) is not wider than "
+            "twice --range {2:g}; "
+            "use at least --cells {3}, or a shorter range",
+            2 * cells, cells, p.range, static_cast<int>(std::floor(p.range)) + 1);
     // The one at a corner has few neighbours: about half of the density on a line, a quarter in the plane.
     if (p.ranges == Ranges::density && !(cells > 2.0 * p.range))
-        throw InputError(fmt::format(
+        refuse(
             "cells: with --ranges density particles at corners reach twice as far as "
             "--range {0:g}, and the periodic box of {1} (twice --cells {2}) is not wider "
             "than twice that; use at least --cells {3}, or a shorter range",
-            p.range, 2 * cells, cells, static_cast<int>(std::floor(2.0 * p.range)) + 1));
+            p.range, 2 * cells, cells, static_cast<int>(std::floor(2.0 * p.range)) + 1);
     const Box<Dim> room(all_along<double, Dim>(2.0 * cells));
     Points<Dim> sites = square_lattice<Dim>(all_along<int, Dim>(cells));
     sites.array() += 0.5 * (cells + 1.0);
@@ -110,9 +98,10 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
     for (Eigen::Index i = 0; i < x.cols(); ++i)  // the same numbers with every library
         for (int a = 0; a < Dim; ++a) x(a, i) += 0.1 * (drawn(random) - 0.5);
     auto [model, y0] = begun<Dim>(std::move(particles), x, box, p);
-    Gas<Dim> gas{cells, weight_function<Dim>(to_string(p.kernel), p.range), std::move(model),
-                 std::move(y0)};
-    for (const double at : drawn_at) gas.drawn.push_back({at * cells});
+    Gas<Dim> gas{{}, cells, weight_function<Dim>(to_string(p.kernel), p.range)};
+    gas.model = std::move(model);
+    gas.y0 = std::move(y0);
+    gas.drawn = states_at<Dim>(drawn_at, cells);
     return gas;
 }
 

@@ -2,13 +2,9 @@
 // What the parts of free_expansion share.
 #pragma once
 
+#include "../common.hpp"
 #include <spam/diagnostics/field_grid.hpp>
-#include <spam/kernel/any_weight.hpp>
 #include <spam/material/fluid.hpp>
-#include <spam/problem/nearest_state.hpp>
-#include <spam/problem/sides.hpp>
-#include <spam/rhs/model.hpp>
-#include <spam/spam.hpp>
 
 namespace free_expansion {
 
@@ -36,18 +32,14 @@ struct Parameters {
 
 /// The gas in the middle of its box of twice the side, and what is gathered on the way.
 template <int Dim>
-struct Gas {
+struct Gas : Variant<Dim, Model<Dim>> {
     int cells;
     AnyWeight<Dim> weight;  ///< of averages; of the motion as well where ranges are fixed
-    std::shared_ptr<Model<Dim>> model;
-    std::vector<double> y0;
-    std::string label{}, prefix{};
-    std::vector<NearestState<Dim>> drawn{};  ///< in pictures
-    std::vector<double> field_times{};       ///< of the files of gridded fields
-    int frames = 0;                          ///< of a film
+    std::vector<double> field_times{};  ///< of the files of gridded fields
+    int frames = 0;                     ///< of a film
 
     double side() const { return 2.0 * cells; }
-    std::size_t particles() const { return model->particles().size(); }
+    std::size_t particles() const { return this->model->particles().size(); }
 };
 
 /// n^Dim particles of mass and spacing 1, at rest, each off its site by 0.1 (u - 1/2), u even between 0

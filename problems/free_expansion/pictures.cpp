@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas.hpp"
-#include <spam/picture/draw.hpp>
 #include <spam/picture/film.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace free_expansion {
@@ -56,11 +51,10 @@ void draw_fields(Session& session, const Gas<2>& gas) {
     if (rows[0].empty()) return;
     std::vector<ContourPanel> panels;
     for (const auto& row : rows) panels.insert(panels.end(), row.begin(), row.end());
-    session.note_drawn(
-        draw_contours(session.plots_folder(), "expansion",
-                      fmt::format("Free expansion of {} smooth particles; white: above the average",
-                                  gas.particles()),
-                      panels, rows[0].size(), room_of(gas)));
+    draw_contours(session, "expansion",
+                  fmt::format("Free expansion of {} smooth particles; white: above the average",
+                              gas.particles()),
+                  panels, rows[0].size(), room_of(gas));
 }
 
 /// How the density fluctuates, wave length by wave length.
@@ -76,15 +70,12 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
         const WaveSpectrum spectrum = wave_spectrum(fields.grid, fields.density);
         LogLogCurve curve{picture.key.size(), false, {}, {}};
         const double all = std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
-        for (std::size_t k = 1; k < spectrum.k.size() && spectrum.k[k] < 3.0; ++k) {
-            curve.x.push_back(spectrum.k[k]);
-            curve.y.push_back(spectrum.power[k] / all);
-        }
+        for (std::size_t k = 1; k < spectrum.k.size() && spectrum.k[k] < 3.0; ++k)
+            add_point(curve, spectrum.k[k], spectrum.power[k] / all);
         picture.panels[0].curves.push_back(std::move(curve));
         picture.key.push_back(fmt::format("t = {:.4g}", state->t));
     }
-    if (!picture.key.empty())
-        session.note_drawn(draw_log_log(session.plots_folder(), "spectrum", picture));
+    if (!picture.key.empty()) draw_log_log(session, "spectrum", picture);
 }
 
 const char* title_of(const std::string& column, bool short_one) {
@@ -96,9 +87,7 @@ const char* title_of(const std::string& column, bool short_one) {
 template <int Dim>
 Curve entropy_curve(const Gas<Dim>& gas, const History& h, const std::string& column,
                     const std::string& title, int style) {
-    auto t = h.column("t");
-    for (double& x : t) x /= gas.cells;
-    return {.title = title, .x = t, .y = h.column(column), .style = style};
+    return {title, divided(h.column("t"), gas.cells), h.column(column), Mark::line, style};
 }
 
 }  // namespace
@@ -116,11 +105,8 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
     if (several) last = std::min(last, 1.5);
     for (std::size_t c = 0; c < columns.size(); ++c) {
         if (several || panels.empty())
-            panels.push_back({several ? title_of(columns[c], false) : "",
-                              Dim == 1 ? "t / N" : "t / n",
-                              unit,
-                              false,
-                              {}});
+            panels.push_back(frame(several ? title_of(columns[c], false) : "",
+                                   Dim == 1 ? "t / N" : "t / n", unit));
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const int style = static_cast<int>(several ? k : c) + 1;
             Curve curve = entropy_curve(gases[k], runs[k].history, columns[c],
@@ -139,8 +125,7 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
     }
     const std::string of = several ? std::string("three gases")
                                    : fmt::format("{} smooth particles", gases[0].particles());
-    session.note_drawn(draw_curves(session.plots_folder(), "entropy",
-                                   fmt::format("Entropy of {} expanding freely", of), panels));
+    draw_curves(session, "entropy", fmt::format("Entropy of {} expanding freely", of), panels);
 }
 
 void draw(Session& session, const Gas<2>& gas) {
@@ -150,10 +135,9 @@ void draw(Session& session, const Gas<2>& gas) {
 
 /// Density and velocity along the line.
 void draw(Session& session, const Gas<1>& gas) {
-    std::vector<CurvePanel> panels{
-        {"density", "x / N", "ρ", false, {}},
-        {"velocity", "x / N", "<v>", false, {}},
-        {"velocity fluctuation", "x / N", "(<v²> − <v>²) / 2", false, {}}};
+    std::vector<CurvePanel> panels{frame("density", "x / N", "ρ"),
+                                   frame("velocity", "x / N", "<v>"),
+                                   frame("velocity fluctuation", "x / N", "(<v²> − <v>²) / 2")};
     for (const auto* state : reached(gas)) {
         const auto fields = fields_of(gas, state->position, state->velocity);
         const Points<1> at = fields.grid.points();
@@ -166,10 +150,9 @@ void draw(Session& session, const Gas<1>& gas) {
         panels[2].curves.push_back({title, x, fields.hidden});
     }
     if (panels[0].curves.empty()) return;
-    session.note_drawn(draw_curves(
-        session.plots_folder(), "profiles",
-        fmt::format("Twofold expansion of {} smooth particles on a line", gas.particles()),
-        panels));
+    draw_curves(session, "profiles",
+                fmt::format("Twofold expansion of {} smooth particles on a line", gas.particles()),
+                panels);
 }
 
 bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,

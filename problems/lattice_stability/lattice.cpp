@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lattice.hpp"
 
-#include <spam/core/error.hpp>
 #include <spam/material/embedded_atom.hpp>
-#include <spam/setup/lattices.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace lattice_stability {
 
@@ -63,10 +55,10 @@ void refuse_narrow(const char* option, LatticeKind kind, int cells, double range
     const Box<2> box = box_of(kind, cells);
     const double width = std::min(box.length(0), box.length(1)), least = 2.16 * range;
     if (width > least) return;
-    throw InputError(fmt::format(
+    refuse(
         "{0}: {1} x {1} particles make a block {2:.3g} wide; with the range {3:g} it must be above "
         "{4:.3g}, or particles would meet their own images; give a larger one",
-        option, cells, width, range, least));
+        option, cells, width, range, least);
 }
 
 }  // namespace lattice_stability

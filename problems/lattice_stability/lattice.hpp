@@ -2,12 +2,8 @@
 // What the parts of lattice_stability share: lattices, and which potentials act on them.
 #pragma once
 
+#include "../common.hpp"
 #include "lattice_strength.hpp"
-
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace lattice_stability {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lattice_strength.hpp"
 
+#include "../shared_options.hpp"
 #include <spam/core/error.hpp>
 #include <spam/kernel/any_weight.hpp>
 #include <spam/physics/curvature_strength.hpp>
@@ -29,9 +30,9 @@ struct ColdLaw {
 
 void check(const DensityPotentials& p) {
     if (p.state && !p.state->cold)
-        throw InputError(fmt::format(
+        refuse(
             "potential: the law '{}' needs a temperature; an energy of the density alone is needed",
-            p.state->describe()));
+            p.state->describe());
     if (!p.state && p.surface_tension == 0.0 && p.strength == 0.0 && p.core.e_c == 0.0)
         throw InputError(
             "potential: nothing acts; give a law, a surface tension, a strength or a core");

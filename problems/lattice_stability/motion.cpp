@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion.hpp"
 
-#include <spam/picture/draw.hpp>
-#include <spam/setup/drawn.hpp>
-#include <spam/setup/initial_state.hpp>
-#include <spam/setup/lattices.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <random>
-
 namespace lattice_stability {
 namespace {
 
@@ -39,10 +29,10 @@ std::vector<Points<2>> Paths::lines() const {
 Sample make_sample(const Parameters& p, Acting acting, double range) {
     const Box<2> box = box_of(p.lattice, p.block);
     auto particles = make_particles<2>(positions_of(p.lattice, p.block), 1.0, 1.0, box);
-    Sample sample{acting,
-                  std::make_unique<DensityPotentialModel<2>>(
-                      std::move(particles), p.potentials(p.lattice, acting, range), box),
-                  {}};
+    Sample sample{{}, acting};
+    sample.call(std::string(to_string(acting)));
+    sample.model = std::make_unique<DensityPotentialModel<2>>(
+        std::move(particles), p.potentials(p.lattice, acting, range), box);
     const Points<2> v = random_velocities(p.block * p.block, p.speed, p.seed);
     Eigen::Index next = 0;
     sample.y0 = initial_state<2>(*sample.model, 1.0, 1.0,
@@ -70,32 +60,27 @@ void draw_paths(Session& session, const Parameters& p, const std::vector<Sample>
     std::vector<PathPanel> panels;
     for (const auto& sample : samples)
         panels.push_back({title_of(sample.acting), sample.paths.lines(), frame});
-    session.note_drawn(
-        spam::draw_paths(session.plots_folder(), "trajectories",
-                         fmt::format("Paths of {} particles with speeds of {:g} until t = {:g}",
-                                     p.block * p.block, p.speed, t_end),
-                         panels, 2));
+    spam::draw_paths(session, "trajectories",
+                     fmt::format("Paths of {} particles with speeds of {:g} until t = {:g}",
+                                 p.block * p.block, p.speed, t_end),
+                     panels, 2);
 }
 
 void draw_displacements(Session& session, const std::vector<Sample>& samples,
                         const std::vector<RunRecord>& runs) {
-    CurvePanel displacement{"from the sites of the lattice", "t", "rms displacement", false, {}};
-    CurvePanel kinetic{"energy in motion", "t", "kinetic energy / total", false, {}};
+    CurvePanel displacement = frame("from the sites of the lattice", "t", "rms displacement");
+    CurvePanel kinetic = frame("energy in motion", "t", "kinetic energy / total");
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const History& h = runs[k].history;
         const std::string title = title_of(samples[k].acting);
         const int style = style_of(samples[k].acting);
-        displacement.curves.push_back({.title = title,
-                                       .x = h.column("t"),
-                                       .y = h.column("rms_displacement"),
-                                       .style = style});
-        auto share = h.column("kinetic");
-        for (double& value : share) value /= h.first("energy");
-        kinetic.curves.push_back({.title = title, .x = h.column("t"), .y = share, .style = style});
+        const auto share = divided(h.column("kinetic"), h.first("energy"));
+        displacement.curves.push_back(
+            {title, h.column("t"), h.column("rms_displacement"), Mark::line, style});
+        kinetic.curves.push_back({title, h.column("t"), share, Mark::line, style});
     }
-    session.note_drawn(draw_curves(session.plots_folder(), "displacements",
-                                   "A lattice that melts, and potentials that hold it",
-                                   {displacement, kinetic}));
+    draw_curves(session, "displacements", "A lattice that melts, and potentials that hold it",
+                {displacement, kinetic});
 }
 
 }  // namespace lattice_stability

@@ -3,9 +3,6 @@
 #pragma once
 
 #include "lattice.hpp"
-#include <spam/problem/session.hpp>
-
-#include <memory>
 
 namespace lattice_stability {
 
@@ -19,10 +16,8 @@ struct Paths {
 };
 
 /// One block under some of the potentials, ready to move.
-struct Sample {
+struct Sample : Variant<2, Model<2>> {
     Acting acting;
-    std::shared_ptr<Model<2>> model;
-    std::vector<double> y0;
     Paths paths{};
 };
 

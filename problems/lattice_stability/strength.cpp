@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strength.hpp"
 
-#include <spam/io/csv.hpp>
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace lattice_stability {
 namespace {
 
@@ -70,24 +62,22 @@ std::vector<Analysed> analyse_all(const Parameters& p, const std::vector<double>
 }
 
 void report(Session& session, const Parameters& p, const Analysed& one, const std::string& prefix) {
+    const Findings findings(session, prefix);
     // Where neighbours hardly reach each other all of it is rounding.
     const bool known = p.misfit == 1.0 && one.range >= 1.5, w5 = p.kernel == Kernel::w5;
     // Another weight may lose a mode by accident, where a sum over neighbours passes through zero.
-    session.claim(
-        {prefix + "zero_modes", double(one.spectrum.zero),
-         expected_zero_modes(p, one.lattice, one.acting), 0.0, "[HH07] 8, counted by symmetry"},
-        known && (one.acting == Acting::density || w5));
-    session.claim({prefix + "negative_modes", double(one.spectrum.negative), 0.0, 0.0,
-                   "sums of squares that vanish on the lattice"},
-                  known);
+    findings.claim("zero_modes", double(one.spectrum.zero),
+                   expected_zero_modes(p, one.lattice, one.acting), 0.0,
+                   "[HH07] 8, counted by symmetry", known && (one.acting == Acting::density || w5));
+    findings.claim("negative_modes", double(one.spectrum.negative), 0.0, 0.0,
+                   "sums of squares that vanish on the lattice", known);
     if (!has_curvature(one.acting))
-        session.claim(
-            {prefix + "shear_modulus", one.moduli.shear, 0.0, 1e-8, "[HH07] 8: G = C44 = 0"},
-            known);
+        findings.claim("shear_modulus", one.moduli.shear, 0.0, 1e-8, "[HH07] 8: G = C44 = 0",
+                       known);
     else
-        session.claim({prefix + "shear_modulus", one.moduli.shear, 0.94928 * p.strength,
-                       1e-4 * p.strength, "lattice sum of the curvature's change under shear"},
-                      known && w5 && one.lattice == LatticeKind::triangular && one.range == 2.5);
+        findings.claim("shear_modulus", one.moduli.shear, 0.94928 * p.strength, 1e-4 * p.strength,
+                       "lattice sum of the curvature's change under shear",
+                       known && w5 && one.lattice == LatticeKind::triangular && one.range == 2.5);
 }
 
 void print_table(Session& session, const std::vector<Analysed>& all) {
@@ -135,11 +125,11 @@ void draw_modes(Session& session, const Parameters& p, const std::vector<Analyse
                         negative == 0 ? std::string{} : fmt::format(", {} < 0", negative),
                         std::abs(G) < 1e-7 ? 0.0 : G));
     }
-    session.note_drawn(draw_heat_map(session.plots_folder(), "zero_modes",
-                                     fmt::format("Modes without energy of {0} × {0} particles, of "
-                                                 "{1}, and shear modulus G (unit: strength)",
-                                                 p.cells, 2 * p.cells * p.cells),
-                                     map));
+    draw_heat_map(session, "zero_modes",
+                  fmt::format("Modes without energy of {0} × {0} particles, of "
+                              "{1}, and shear modulus G (unit: strength)",
+                              p.cells, 2 * p.cells * p.cells),
+                  map);
 }
 
 void draw_spectra(Session& session, const Parameters& p, const std::vector<Analysed>& all,
@@ -153,23 +143,20 @@ void draw_spectra(Session& session, const Parameters& p, const std::vector<Analy
                          {}};
         for (const auto& one : all) {
             if (one.lattice != lattice || one.range != range) continue;
-            Curve curve{
-                .title = title_of(one.acting), .x = {}, .y = {}, .style = style_of(one.acting)};
+            Curve curve{title_of(one.acting), {}, {}, Mark::line, style_of(one.acting)};
             const auto& values = one.spectrum.eigenvalue;
-            for (std::size_t k = 0; k < values.size(); ++k) {
-                curve.x.push_back(double(k + 1));
-                curve.y.push_back(visible(values[k], values.back()));
-            }
+            for (std::size_t k = 0; k < values.size(); ++k)
+                add_point(curve, double(k + 1), visible(values[k], values.back()));
             panel.curves.push_back(std::move(curve));
         }
         if (!panel.curves.empty()) panels.push_back(std::move(panel));
     }
-    session.note_drawn(draw_curves(
-        session.plots_folder(), "spectra",
+    draw_curves(
+        session, "spectra",
         fmt::format("Second derivatives of the energy without their zeros, {0} × {0} particles, "
                     "{1}, h = {2:g}",
                     p.cells, spam::to_string(p.kernel), range),
-        panels));
+        panels);
 }
 
 }  // namespace lattice_stability

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "lattice.hpp"
-#include <spam/problem/session.hpp>
 
 namespace lattice_stability {
 

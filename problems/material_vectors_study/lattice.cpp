@@ -2,12 +2,9 @@
 #include "trials.hpp"
 #include <spam/analysis/bonded_lattice.hpp>
 #include <spam/analysis/wave_vectors.hpp>
-#include <spam/core/error.hpp>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
-#include <numbers>
 
 namespace material_vectors_study {
 namespace {

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../cantilever/beam.hpp"
 #include "trials.hpp"
-#include <spam/diagnostics/fits.hpp>
-#include <spam/diagnostics/shape.hpp>
 #include <spam/material/flowing_solid.hpp>
 #include <spam/neighbors/connected_parts.hpp>
 #include <spam/problem/run_in_memory.hpp>
-#include <spam/rhs/contact.hpp>
-#include <spam/setup/drawn.hpp>
-
-#include <algorithm>
-#include <numbers>
-#include <random>
 
 namespace material_vectors_study {
 namespace {
@@ -26,12 +18,6 @@ std::optional<RunRecord> finished(Case<2> one, const IntegratorOptions& integrat
     RunRecord run = run_in_memory<2>(std::move(one), integrator);
     if (run.statistics.stopped.starts_with("signal")) return {};
     return run;
-}
-
-Points<2> centred(Points<2> x) {
-    const Point<2> middle = x.rowwise().mean();
-    x.colwise() -= middle;
-    return x;
 }
 
 /// How far the bar is bent: its displacement along the first mode (f, -y f').
@@ -85,8 +71,7 @@ std::optional<double> disorder_error(const MaterialVectorScheme& scheme, const S
     const double omega = 0.1 / sizes.hexagon, t_end = 10.0 * sizes.hexagon;
     const Points<2> lattice = triangular_hexagon(sizes.hexagon);
     Points<2> displaced = lattice;
-    std::mt19937_64 random(5);
-    for (double& x : displaced.reshaped()) x += 0.2 * (2.0 * drawn(random) - 1.0);
+    displace(displaced, 0.2, 5);
     const auto ordered = history_of(lattice, omega, t_end, scheme);
     if (!ordered) return {};
     const auto disordered = history_of(displaced, omega, t_end, scheme);
@@ -101,7 +86,7 @@ std::optional<double> beam_error(const MaterialVectorScheme& scheme, int rows) {
     const cantilever::Beam beam{static_cast<double>(columns), rows * std::sqrt(0.75),
                                 2.0 * matter.eta * (1.0 + nu), nu, rho};
     auto model = std::make_shared<MaterialVectorModel<2>>(
-        make_particles<2>(centred(triangular_block(columns, rows)), 1.0), matter, scheme);
+        make_particles<2>(centred<2>(triangular_block(columns, rows)), 1.0), matter, scheme);
     constexpr double speed = 5e-4;
     auto y0 = initial_state<2>(*model, rho, matter.eta, [&](const Point<2>& X) {
         return Point<2>(-speed * X.y() * beam.free_slope(X.x()), speed * beam.free_shape(X.x()));
@@ -131,9 +116,10 @@ std::optional<Shot> shoot(const MaterialVectorScheme& scheme, const Sizes& sizes
     const double height = 0.5 * sizes.bar_rows * std::sqrt(0.75), radius = n * std::sqrt(0.75);
     Points<2> ball = triangular_hexagon(n);
     ball.row(1).array() -= height + radius + 1.5;
-    auto model = std::make_shared<ParticleModel<2>>(joined<2>(
-        {make_particles<2>(centred(triangular_block(15 * sizes.bar_rows / 2, sizes.bar_rows)), 1.0),
-         make_particles<2>(ball, 1.0)}));
+    auto model = std::make_shared<ParticleModel<2>>(
+        joined<2>({make_particles<2>(
+                       centred<2>(triangular_block(15 * sizes.bar_rows / 2, sizes.bar_rows)), 1.0),
+                   make_particles<2>(ball, 1.0)}));
     const auto& law =
         model->add_term<MaterialVectors<2>>(FlowingSolid{solid(), 0.05, 0.05}, scheme);
     model->add_term<Contact<2>>(ContactScheme{1.0, 1.0});

@@ -2,14 +2,9 @@
 // What the parts of material_vectors_study share: what is tried with every scheme.
 #pragma once
 
+#include "../common.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/rhs/material_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <string>
 
 namespace material_vectors_study {
 
@@ -17,7 +12,7 @@ using namespace spam;
 
 /// Triangular lattice of spacing and mass one: lambda = eta = sqrt(3/16), density sqrt(4/3).
 inline PolynomialSolid solid() { return PolynomialSolid::like(ElasticSolid::triangular_lattice()); }
-inline const double rho = std::sqrt(4.0 / 3.0);
+inline const double rho = triangular_density;
 
 struct Sizes {
     int hexagon = 8, beam_rows = 12, bar_rows = 8;

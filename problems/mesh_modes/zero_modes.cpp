@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "zero_modes.hpp"
 
-#include <spam/material/elastic_solid.hpp>
 #include <spam/physics/quadrilateral.hpp>
 #include <spam/setup/meshes.hpp>
 
 #include <gsl/gsl_linalg.h>
-
-#include <cmath>
 
 namespace mesh_modes {
 
@@ -24,7 +21,7 @@ std::string_view to_string(Mode mode) {
 }
 
 std::unique_ptr<ParticleModel<2>> make_mesh(int n, const HourglassControl& control) {
-    const double density = std::sqrt(4.0 / 3.0);
+    const double density = triangular_density;
     MeshedBodies bodies = make_nodes({rectangle_mesh(n, n)}, density);
     auto model = std::make_unique<ParticleModel<2>>(std::move(bodies.nodes));
     model->add_term<Elements>(

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "../common.hpp"
 #include <spam/rhs/elements.hpp>
-
-#include <memory>
-#include <string_view>
 
 namespace mesh_modes {
 

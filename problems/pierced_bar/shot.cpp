@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shot.hpp"
 
-#include <spam/io/csv.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace pierced_bar {
-
-std::string_view to_string(ContactKind kind) {
-    return kind == ContactKind::none ? "none" : "repulsive";
-}
 
 Shot make_shot(const Parameters& p) {
     const auto contact = p.repulsion();
@@ -58,8 +47,9 @@ void write_pieces(const RunFolder& folder, const PiecesInMotion& pieces) {
 }
 
 void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces) {
+    const Findings findings(session);
     const History& h = run.history;
-    session.check_promises(run);
+    findings.check_promises(run);
     const bool known =
         run.complete && session.integrator().method == "rk4" && *session.integrator().dt <= 0.025 &&
         session.when_default({"columns", "rows", "projectile", "speed", "offset", "yield-stress",
@@ -71,11 +61,10 @@ void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces
             if (one.name == name) return one.change;
         return HUGE_VAL;
     };
-    session.claim({"momentum_change", drift("momentum"), 0.0, 1e-13, "pairwise forces"}, known);
-    session.claim({"angular_momentum_change", drift("angular momentum"), 0.0, 1e-9,
-                   "an energy that rotations leave unchanged"},
-                  known);
-    session.claim({"energy_change", drift("energy"), 0.0, 1e-5, "with the heat of flow"}, known);
+    findings.claim("momentum_change", drift("momentum"), 0.0, 1e-13, "pairwise forces", known);
+    findings.claim("angular_momentum_change", drift("angular momentum"), 0.0, 1e-9,
+                   "an energy that rotations leave unchanged", known);
+    findings.claim("energy_change", drift("energy"), 0.0, 1e-5, "with the heat of flow", known);
 
     const double momentum = h.first("momentum_x");
     double spin_change = 0.0, longest = 0.0, turned = 0.0;
@@ -84,26 +73,26 @@ void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces
         longest = std::max(longest, flight.t.back() - flight.t.front());
         turned = std::max(turned, std::abs(flight.angles().back()));
     }
-    session.claim({"spin_change_of_pieces", spin_change, 0.0, 1e-9,
-                   "since they parted, by the momentum of the projectile and a spacing"},
-                  known && run.statistics.t_end >= 200.0);
-    session.claim({"pieces", h.last("pieces"), 7.0, 3.0,
-                   "connected within the range, five particles or more; recorded"},
-                  known && run.statistics.t_end >= 200.0);
-    session.measure("longest_flight", longest, "of a piece that nothing has joined or left");
-    session.measure("largest_angle", turned, "that a piece has turned by since it parted");
-    session.measure("plastic_heat", h.last("plastic_heat") / h.first("energy"),
-                    "by the energy of the projectile");
-    session.measure("largest_piece", h.last("largest_piece"), "particles");
-    session.measure("closest_pair", h.smallest("closest_pair"));
+    findings.claim("spin_change_of_pieces", spin_change, 0.0, 1e-9,
+                   "since they parted, by the momentum of the projectile and a spacing",
+                   known && run.statistics.t_end >= 200.0);
+    findings.claim("pieces", h.last("pieces"), 7.0, 3.0,
+                   "connected within the range, five particles or more; recorded",
+                   known && run.statistics.t_end >= 200.0);
+    findings.measure("longest_flight", longest, "of a piece that nothing has joined or left");
+    findings.measure("largest_angle", turned, "that a piece has turned by since it parted");
+    findings.measure("plastic_heat", h.last("plastic_heat") / h.first("energy"),
+                     "by the energy of the projectile");
+    findings.measure("largest_piece", h.last("largest_piece"), "particles");
+    findings.measure("closest_pair", h.smallest("closest_pair"));
 }
 
 namespace {
 
 /// Few particles have much more heat than all others: colours end where 98 % of all are below.
-double largest_colour(const std::vector<breaking::HeatFrame>& frames) {
+double largest_colour(const std::vector<NearestState<2>>& drawn) {
     std::vector<double> heat;
-    for (const auto& frame : frames) heat.insert(heat.end(), frame.heat.begin(), frame.heat.end());
+    for (const auto& one : drawn) heat.insert(heat.end(), one.values.begin(), one.values.end());
     if (heat.empty()) return 1.0;
     const auto at = heat.begin() + static_cast<std::ptrdiff_t>(0.98 * double(heat.size() - 1));
     std::nth_element(heat.begin(), at, heat.end());
@@ -124,38 +113,33 @@ CurvePanel angles_of(const PiecesInMotion& pieces) {
 }
 
 CurvePanel energies_of(const History& h) {
-    const auto t = h.column("t"), heat = h.column("plastic_heat");
-    auto elastic = h.column("internal");
-    for (std::size_t k = 0; k < t.size(); ++k) elastic[k] -= heat[k];
-    return {"energy",
-            "t",
-            "energy",
-            false,
-            {{"kinetic", t, h.column("kinetic")},
-             {"potential", t, elastic},
-             {"plastic heat", t, heat},
-             {"sum", t, h.column("energy")}}};
+    CurvePanel panel = over_time("energy", h, "energy",
+                                 {{"kinetic", "kinetic"},
+                                  {"potential", "internal"},
+                                  {"plastic heat", "plastic_heat"},
+                                  {"sum", "energy"}});
+    std::vector<double>&potential = panel.curves[1].y, &heat = panel.curves[2].y;
+    for (std::size_t k = 0; k < heat.size(); ++k) potential[k] -= heat[k];
+    return panel;
 }
 
 }  // namespace
 
-void draw(Session& session, const std::vector<breaking::HeatFrame>& frames, const RunRecord& run,
+void draw(Session& session, const std::vector<NearestState<2>>& drawn, const RunRecord& run,
           const PiecesInMotion& pieces) {
-    const double most = largest_colour(frames);
+    const double most = largest_colour(drawn);
     std::vector<ConfigurationPanel> panels;
-    for (const auto& frame : frames) {
-        if (!frame.there()) continue;
-        panels.push_back({fmt::format("t = {:.3g}", frame.t), frame.position, frame.heat, {}});
+    for (const auto& state : drawn) {
+        if (!state.there()) continue;
+        panels.push_back({fmt::format("t = {:.3g}", state.t), state.position, state.values, {}});
         for (double& heat : panels.back().colour) heat = std::clamp(heat, 0.0, most);
     }
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
-                                           "A projectile goes through a bar that flows and breaks",
-                                           panels, panels.size(), "plastic heat of a particle"));
+    draw_configurations(session, "configurations",
+                        "A projectile goes through a bar that flows and breaks", panels,
+                        panels.size(), "plastic heat of a particle");
     std::vector<CurvePanel> curves{energies_of(run.history)};
     if (const auto angles = angles_of(pieces); !angles.curves.empty()) curves.push_back(angles);
-    session.note_drawn(draw_curves(session.plots_folder(), "curves",
-                                   "A projectile goes through a bar that flows and breaks",
-                                   curves));
+    draw_curves(session, "curves", "A projectile goes through a bar that flows and breaks", curves);
 }
 
 }  // namespace pierced_bar

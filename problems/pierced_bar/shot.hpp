@@ -3,17 +3,12 @@
 #pragma once
 
 #include "../breaking/flowing.hpp"
-#include "../breaking/heat_frames.hpp"
 #include "../fragmenting_bar/target.hpp"
 #include "pieces_in_motion.hpp"
 
 namespace pierced_bar {
 
 using namespace spam;
-
-/// How particles of projectile and bar act on each other: by repulsion alone, or like neighbours of one body.
-enum class ContactKind { repulsive, none };
-std::string_view to_string(ContactKind kind);
 
 struct Parameters {
     Target target{.offset = 0.0};
@@ -45,7 +40,7 @@ std::vector<Column<2>> columns_of(const Shot& shot);
 void write_pieces(const RunFolder& folder, const PiecesInMotion& pieces);
 
 void report(Session& session, const RunRecord& run, const PiecesInMotion& pieces);
-void draw(Session& session, const std::vector<breaking::HeatFrame>& frames, const RunRecord& run,
+void draw(Session& session, const std::vector<NearestState<2>>& drawn, const RunRecord& run,
           const PiecesInMotion& pieces);
 
 }  // namespace pierced_bar

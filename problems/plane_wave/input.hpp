@@ -2,13 +2,8 @@
 // What plane_wave is asked for, and what it refuses.
 #pragma once
 
+#include "../common.hpp"
 #include <spam/analysis/plane_wave.hpp>
-#include <spam/core/error.hpp>
-#include <spam/spam.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
 
 namespace plane_wave {
 
@@ -33,9 +28,8 @@ inline void refuse_blocks(const Options& options, const Parameters& p) {
     if (!has_blocks(options, p)) return;
     const double half = 0.5 * p.cells * std::sqrt(0.75);
     if (p.block > half)
-        throw InputError(fmt::format(
-            "block: {} must be at most half a wave, {:.4g} for --cells {}; choose a smaller one",
-            p.block, half, p.cells));
+        refuse("block: {} must be at most half a wave, {:.4g} for --cells {}; choose a smaller one",
+               p.block, half, p.cells);
 }
 
 /// The smallest of three lattices has half the cells; it must be wider than twice the range.
@@ -43,21 +37,21 @@ inline void refuse_small(const Parameters& p, double range) {
     const int half = p.cells / 4 * 2;
     if (!p.compare_sizes || half * std::sqrt(0.75) > 2.0 * range) return;
     const int least = static_cast<int>(2.0 * range / std::sqrt(0.75)) + 1;
-    throw InputError(
-        fmt::format("cells: {} are too few for --compare-sizes with --range {}: half of them make "
-                    "a lattice not "
-                    "wider than twice the range; the least is {}, or leave --compare-sizes out",
-                    p.cells, range, 2 * (least + least % 2)));
+    refuse(
+        "cells: {} are too few for --compare-sizes with --range {}: half of them make "
+        "a lattice not "
+        "wider than twice the range; the least is {}, or leave --compare-sizes out",
+        p.cells, range, 2 * (least + least % 2));
 }
 
 /// Three zeros of the velocity make a period: the last at 3/2 of it.
 inline void refuse_too_short(const Parameters& p, double t_end, double longest) {
     const double least = 1.6 * longest;
     if (p.compare_sizes && t_end < least)
-        throw InputError(fmt::format(
+        refuse(
             "t-end: {:g} is too short to measure the period {:.4g} of the longest wave that "
             "--compare-sizes needs; the least is {:.4g}",
-            t_end, longest, least));
+            t_end, longest, least);
 }
 
 }  // namespace plane_wave

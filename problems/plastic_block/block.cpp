@@ -6,13 +6,10 @@
 #include <spam/material/smooth_yield.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
-#include <cmath>
-#include <numbers>
-
 namespace plastic_block {
 namespace {
 
-const double modulus = std::sqrt(3.0 / 16.0), site_density = std::sqrt(4.0 / 3.0);
+const double modulus = triangular_modulus, site_density = triangular_density;
 
 Material<2> stress_law(const Parameters& p, const PlaneVonMises& surface,
                        const LinearHardening& flow) {

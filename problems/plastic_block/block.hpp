@@ -2,8 +2,7 @@
 // What the parts of plastic_block share.
 #pragma once
 
-#include "../formulation.hpp"
-#include <spam/spam.hpp>
+#include "../common.hpp"
 
 namespace plastic_block {
 
@@ -29,7 +28,7 @@ struct Parameters {
     Transport transport = Transport::monaghan;
     double range = 3.0, penalty = 0.1;
     bool compare = false;
-    int jobs = 1;
+    int jobs = all_cores();
 };
 
 struct Block {

@@ -6,13 +6,8 @@
 #include <spam/integrate/interrupt.hpp>
 #include <spam/material/smooth_yield.hpp>
 #include <spam/material/yielding_solid.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/problem/motion.hpp>
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
 #include <map>
 #include <mutex>
 
@@ -31,33 +26,24 @@ struct Form {
     std::array<double, steps.size()> known;  ///< errors of an independent computation; 0: none
 };
 
+constexpr auto tl = Formulation::total_lagrangian, ul = Formulation::updated;
+constexpr auto after = Yielding::after_steps, stages = Yielding::in_stages,
+               by_rates = Yielding::smooth;
 const std::vector<Form> forms{
     {"tl_after",
      "total Lagrangian, returned after steps",
-     Formulation::total_lagrangian,
-     Yielding::after_steps,
+     tl,
+     after,
      {0.29, 0.16, 0.087, 0.045, 0.023}},
     {"tl_return",
      "total Lagrangian, in stages",
-     Formulation::total_lagrangian,
-     Yielding::in_stages,
+     tl,
+     stages,
      {0.023, 0.0136, 0.0072, 0.0037, 0.0019}},
-    {"tl_smooth",
-     "total Lagrangian, smooth",
-     Formulation::total_lagrangian,
-     Yielding::smooth,
-     {0.0, 0.0, 0.057, 0.008, 0.0}},
-    {"ul_after",
-     "updated, returned after steps",
-     Formulation::updated,
-     Yielding::after_steps,
-     {0.0, 0.120, 0.063, 0.032, 0.016}},
-    {"ul_return",
-     "updated, in stages",
-     Formulation::updated,
-     Yielding::in_stages,
-     {0.0, 0.0035, 0.0018, 0.0009, 0.0004}},
-    {"ul_smooth", "updated, smooth", Formulation::updated, Yielding::smooth, {}},
+    {"tl_smooth", "total Lagrangian, smooth", tl, by_rates, {0.0, 0.0, 0.057, 0.008, 0.0}},
+    {"ul_after", "updated, returned after steps", ul, after, {0.0, 0.120, 0.063, 0.032, 0.016}},
+    {"ul_return", "updated, in stages", ul, stages, {0.0, 0.0035, 0.0018, 0.0009, 0.0004}},
+    {"ul_smooth", "updated, smooth", ul, by_rates, {}},
 };
 
 struct End {
@@ -166,17 +152,17 @@ double order_at_a_point(const Material<2>& solid, double yield_stress, double co
 }
 
 void report_material_point(Session& session, const Parameters& p) {
-    const double eta = std::sqrt(3.0 / 16.0);
-    const PlaneVonMises surface{eta, eta};
+    const Findings findings(session);
+    const PlaneVonMises surface{triangular_modulus, triangular_modulus};
     const LinearHardening flow{p.yield_stress, p.hardening};
     const bool known = session.when_default({"yield-stress", "hardening", "yield-width"});
     const double sharp =
         order_at_a_point(YieldingSolid<PlaneVonMises>(surface, flow), p.yield_stress, 1.0 / 64.0);
     const double smooth = order_at_a_point(SmoothYield<PlaneVonMises>(surface, flow, p.width),
                                            p.yield_stress, 1.0 / 64.0);
-    session.claim({"order_of_return_at_a_point", sharp, 1.0, 0.1, "a strain rate that turns"},
-                  known);
-    session.claim({"order_of_smooth_at_a_point", smooth, 4.0, 0.4, "that of RK4"}, known);
+    findings.claim("order_of_return_at_a_point", sharp, 1.0, 0.1, "a strain rate that turns",
+                   known);
+    findings.claim("order_of_smooth_at_a_point", smooth, 4.0, 0.4, "that of RK4", known);
 }
 
 void draw(Session& session, const std::map<std::string, std::vector<Point>>& fixed,
@@ -193,10 +179,8 @@ void draw(Session& session, const std::map<std::string, std::vector<Point>>& fix
             if (form.formulation != formulation) continue;
             for (const auto* points : {&fixed, &free}) {
                 LogLogCurve curve{key, points == &free, {}, {}};
-                for (const Point& point : points->at(form.name)) {
-                    curve.x.push_back(point.calls);
-                    curve.y.push_back(point.error);
-                }
+                for (const Point& point : points->at(form.name))
+                    add_point(curve, point.calls, point.error);
                 panel.curves.push_back(std::move(curve));
             }
             ++key;
@@ -205,12 +189,13 @@ void draw(Session& session, const std::map<std::string, std::vector<Point>>& fix
     }
     picture.key = {"returned after steps only", "returned in every stage", "smooth rates"};
     picture.note = "full: RK4 with fixed steps; open: Dormand-Prince, tolerances 1e-4 to 1e-8";
-    session.note_drawn(draw_log_log(session.plots_folder(), "work_precision", picture));
+    draw_log_log(session, "work_precision", picture);
 }
 
 }  // namespace
 
 void compare(Session& session, const Parameters& p) {
+    const Findings findings(session);
     const double end = session.common().smoke ? 2.0 : t_end;
     References references(p, end);
     struct Case {
@@ -260,30 +245,29 @@ void compare(Session& session, const Parameters& p) {
         for (std::size_t k = 0; k < steps.size(); ++k)
             if (one.dt == steps[k]) known = one.form->known[k];
         // Within a fifth, of numbers known to 0.5e-4.
-        session.claim({row.front() + "_error", point.error, known, 0.2 * known + 0.6e-4,
-                       "an independent computation"},
-                      standard && known > 0.0);
+        findings.claim(row.front() + "_error", point.error, known, 0.2 * known + 0.6e-4,
+                       "an independent computation", standard && known > 0.0);
         if (one.rtol > 0.0)
-            session.measure(row.front() + "_error_by_tolerance", point.error / one.rtol,
-                            one.form->yielding == Yielding::smooth
-                                ? "controlled by the steps"
-                                : "of first order in the step, which its estimate does not see");
-        session.measure(row.front() + "_energy_change", point.energy);
+            findings.measure(row.front() + "_error_by_tolerance", point.error / one.rtol,
+                             one.form->yielding == Yielding::smooth
+                                 ? "controlled by the steps"
+                                 : "of first order in the step, which its estimate does not see");
+        findings.measure(row.front() + "_energy_change", point.energy);
     }
     for (const Form& form : forms)
         if (form.yielding == Yielding::smooth)
-            session.measure(form.name + "_from_return",
-                            largest_distance(references.of(form, false), references.of(form, true)),
-                            "limits of the two, largest distance of a particle");
+            findings.measure(
+                form.name + "_from_return",
+                largest_distance(references.of(form, false), references.of(form, true)),
+                "limits of the two, largest distance of a particle");
     for (const char* name : {"tl", "ul"}) {
         const auto& after = fixed.at(std::string(name) + "_after");
         const auto& stages = fixed.at(std::string(name) + "_return");
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 1; k < steps.size(); ++k)
             least = std::min(least, after[k].error / stages[k].error);
-        session.claim({std::string(name) + "_return_by_after", 1.0 / least, 0.0, 0.1,
-                       "a tenth of the error, at every step"},
-                      standard);
+        findings.claim(std::string(name) + "_return_by_after", 1.0 / least, 0.0, 0.1,
+                       "a tenth of the error, at every step", standard);
     }
     report_material_point(session, p);
     if (session.plots()) draw(session, fixed, free);

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "convection.hpp"
 
-#include <spam/core/error.hpp>
-#include <spam/diagnostics/fits.hpp>
 #include <spam/external/gravity.hpp>
-#include <spam/material/ideal_gas.hpp>
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <complex>
-#include <numbers>
 
 namespace rayleigh_benard {
 
@@ -21,16 +14,16 @@ namespace {
 void refuse_without_plates(const Box<2>& box) {
     for (const bool upper : {false, true})
         if (!box.wall(1, upper).temperature)
-            throw InputError(fmt::format(
+            refuse(
                 "{}: heat must come from below and leave above; give a wall with a temperature, as "
                 "no-slip@{}",
-                Sides::name(1, upper), upper ? "0.5" : "1.5"));
+                Sides::name(1, upper), upper ? "0.5" : "1.5");
     const double hot = *box.wall(1, false).temperature, cold = *box.wall(1, true).temperature;
     if (!(hot > cold))
-        throw InputError(fmt::format(
+        refuse(
             "bottom: its temperature {:g} must be above that of --top, {:g}; nothing else drives the "
             "gas",
-            hot, cold));
+            hot, cold);
 }
 
 }  // namespace
@@ -44,13 +37,13 @@ Convection make_convection(const Parameters& p, double rayleigh, bool only_descr
                       .roll = p.roll,
                       .hot = *box.wall(1, false).temperature,
                       .cold = *box.wall(1, true).temperature};
-    Points<2> x = square_lattice<2>({2 * p.height, p.height});
-    x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
+    const Points<2> x = cell_centres<2>({2 * p.height, p.height});
     const Fluid gas{IdealGas{2}, NewtonViscosity::shear_and_bulk(layer.eta(), 0.0, 2),
                     FourierConduction{layer.eta()}, p.friction == FrictionBy::pairs};
     const Scheme scheme{.density = p.density, .work = p.work, .kernel = p.kernel, .range = p.range};
-    Convection convection{layer, std::make_shared<FluidModel<2>>(
-                                     make_particles<2>(x, 1.0, 1.0, box), gas, scheme, box)};
+    Convection convection{{}, layer};
+    convection.model =
+        std::make_shared<FluidModel<2>>(make_particles<2>(x, 1.0, 1.0, box), gas, scheme, box);
     FluidModel<2>& model = *convection.model;
     model.add(std::make_unique<Gravity<2>>(Point<2>(0.0, -layer.gravity())));
     if (only_described) return convection;

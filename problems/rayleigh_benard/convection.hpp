@@ -2,15 +2,8 @@
 // The layer as smooth particles: what the parts of the problem share.
 #pragma once
 
-#include "../friction.hpp"
+#include "../common.hpp"
 #include "grid.hpp"
-#include <spam/problem/nearest_state.hpp>
-#include <spam/problem/sides.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-#include <spam/spam.hpp>
-
-#include <optional>
-#include <string_view>
 
 namespace rayleigh_benard {
 
@@ -29,12 +22,8 @@ struct Parameters {
     bool scan = false;
 };
 
-struct Convection {
+struct Convection : Variant<2, FluidModel<2>> {
     Layer layer;
-    std::shared_ptr<FluidModel<2>> model;
-    std::vector<double> y0{};
-    std::string label{};
-    std::vector<NearestState<2>> drawn{};
 };
 
 /// 2 L x L particles of mass 1 at spacing 1. `only_described`: without y0. Throws InputError where the plates

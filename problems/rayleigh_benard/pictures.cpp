@@ -2,12 +2,6 @@
 #include "convection.hpp"
 #include <spam/diagnostics/field_interpolation.hpp>
 #include <spam/diagnostics/wall_images.hpp>
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace rayleigh_benard {
 namespace {
@@ -92,29 +86,24 @@ void draw_histories(Session& session, const Convection& gas, const RunRecord& ru
     const auto t = run.history.column("t");
     const std::vector<double> later(t.begin() + 1, t.end());
     const std::vector<double> twins_later(twin.t.begin() + 1, twin.t.end());
-    CurvePanel heat{"", "t", "Nusselt number (dashed: upper plate)", false, {}};
+    CurvePanel heat = frame("", "t", "Nusselt number (dashed: upper plate)");
+    const auto of_run = [&](const char* column, bool upper) {
+        return nusselt(gas.layer, t, run.history.column(column), upper);
+    };
     heat.curves = {
-        {"particles", later, nusselt(gas.layer, t, run.history.column("heat_bottom"), false)},
+        {"particles", later, of_run("heat_bottom", false)},
         {"grid", twins_later, nusselt(gas.layer, twin.t, twin.heat_bottom, false)},
-        {.title = "",
-         .x = later,
-         .y = nusselt(gas.layer, t, run.history.column("heat_top"), true),
-         .like = 1},
-        {.title = "",
-         .x = twins_later,
-         .y = nusselt(gas.layer, twin.t, twin.heat_top, true),
-         .like = 2}};
-    CurvePanel rolls{"", "t", "velocity of the rolls", false, {}};
-    rolls.curves = {{"particles", t, run.history.column("roll_amplitude")},
-                    {"grid", twin.t, twin.roll}};
-    CurvePanel kinetic{"", "t", "kinetic energy", false, {}};
-    kinetic.curves = {{"particles", t, run.history.column("kinetic")},
-                      {"grid", twin.t, twin.kinetic}};
-    session.note_drawn(draw_curves(
-        session.plots_folder(), "histories",
-        fmt::format("Convection at Ra = {:g}: {} smooth particles and finite differences",
-                    gas.layer.rayleigh, gas.model->particles().size()),
-        {heat, rolls, kinetic}));
+        {"", later, of_run("heat_top", true), Mark::line, 0, 1},
+        {"", twins_later, nusselt(gas.layer, twin.t, twin.heat_top, true), Mark::line, 0, 2}};
+    CurvePanel rolls = over_time("", run.history, "velocity of the rolls",
+                                 {{"particles", "roll_amplitude"}}),
+               kinetic = over_time("", run.history, "kinetic energy", {{"particles", "kinetic"}});
+    rolls.curves.push_back({"grid", twin.t, twin.roll});
+    kinetic.curves.push_back({"grid", twin.t, twin.kinetic});
+    draw_curves(session, "histories",
+                fmt::format("Convection at Ra = {:g}: {} smooth particles and finite differences",
+                            gas.layer.rayleigh, gas.model->particles().size()),
+                {heat, rolls, kinetic});
 }
 
 }  // namespace
@@ -134,37 +123,32 @@ void draw(Session& session, const Convection& gas, const RunRecord& run, const G
     const auto title =
         fmt::format("Ra = {:g}: grid of {} x {} (left), {} particles (right)", gas.layer.rayleigh,
                     grid.nx(), grid.ny(), gas.model->particles().size());
-    session.note_drawn(draw_paths(
-        session.plots_folder(), "velocity", title,
+    draw_paths(
+        session, "velocity", title,
         {dashes(fmt::format("finite differences, at most {:.3f}", fastest), grid, u, v, fastest),
          dashes("smooth particles", grid, row(fields.rest.row(0)), row(fields.rest.row(1)),
                 fastest)},
-        2));
+        2);
     const double L = gas.layer.L;
     const ContourPanel::Colours of_rho{0.7, 1.4, "density"},
         of_T{gas.layer.cold, gas.layer.hot, "temperature"};
-    session.note_drawn(
-        draw_contours(session.plots_folder(), "fields", title,
-                      {coloured(nodes, rho, of_rho), coloured(nodes, row(fields.density), of_rho),
-                       coloured(nodes, T, of_T), coloured(nodes, row(fields.rest.row(2)), of_T)},
-                      2, {Point<2>::Zero(), Point<2>(2.0 * L, L)}));
+    draw_contours(session, "fields", title,
+                  {coloured(nodes, rho, of_rho), coloured(nodes, row(fields.density), of_rho),
+                   coloured(nodes, T, of_T), coloured(nodes, row(fields.rest.row(2)), of_T)},
+                  2, {Point<2>::Zero(), Point<2>(2.0 * L, L)});
 }
 
 void draw_scan(Session& session, const Scan& scan) {
     const std::string theory =
         scan.linear_onset ? fmt::format(" (linear theory: Ra = {:g})", *scan.linear_onset) : "";
-    CurvePanel rolls{"", "Rayleigh number", "velocity of strong rolls at the end", false, {}};
-    rolls.curves = {{.title = "smooth particles", .x = scan.rayleigh, .y = scan.of_particles},
-                    {.title = "finite differences", .x = scan.rayleigh, .y = scan.of_grid}};
-    CurvePanel growth{"", "Rayleigh number", "growth rate of weak rolls", false, {}};
+    CurvePanel rolls = frame("", "Rayleigh number", "velocity of strong rolls at the end");
+    rolls.curves = {{"smooth particles", scan.rayleigh, scan.of_particles},
+                    {"finite differences", scan.rayleigh, scan.of_grid}};
+    CurvePanel growth = frame("", "Rayleigh number", "growth rate of weak rolls");
     growth.curves = {
-        {.title = "finite differences", .x = scan.rayleigh, .y = scan.growth, .style = 2},
-        {.title = "no growth",
-         .x = {scan.rayleigh.front(), scan.rayleigh.back()},
-         .y = {0.0, 0.0},
-         .style = 3}};
-    session.note_drawn(draw_curves(session.plots_folder(), "onset", "Onset of convection" + theory,
-                                   {rolls, growth}));
+        {"finite differences", scan.rayleigh, scan.growth, Mark::line, 2},
+        {"no growth", {scan.rayleigh.front(), scan.rayleigh.back()}, {0.0, 0.0}, Mark::line, 3}};
+    draw_curves(session, "onset", "Onset of convection" + theory, {rolls, growth});
 }
 
 }  // namespace rayleigh_benard

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "region.hpp"
 
+#include "../shared_options.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/text_file.hpp>
@@ -72,15 +73,15 @@ Region::Region(Points<2> polygon) : polygon_(std::move(polygon)) {
     const double length =
         (polygon_.rowwise().maxCoeff() - polygon_.rowwise().minCoeff()).maxCoeff();
     if (!(area / length >= least_part * length))
-        throw InputError(
-            fmt::format("outline: a shape of length {:g} and area {:g} is too thin; let it fill a "
-                        "thousandth of the square around it",
-                        length, area));
+        refuse(
+            "outline: a shape of length {:g} and area {:g} is too thin; let it fill a "
+            "thousandth of the square around it",
+            length, area);
     if (!simple)
-        throw InputError(
-            fmt::format("outline: the border crosses or touches itself: {}; give corners in order "
-                        "around one region",
-                        crossing.substr(0, crossing.find(';'))));
+        refuse(
+            "outline: the border crosses or touches itself: {}; give corners in order "
+            "around one region",
+            crossing.substr(0, crossing.find(';')));
     sort_sides();
 }
 
@@ -165,12 +166,10 @@ Region region_from_file(const std::string& path) {
     }
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     if (corners.size() < 3)
-        throw InputError(
-            fmt::format("outline: '{}' has {} corners; give a line x,y for each of three or more",
-                        path, corners.size()));
+        refuse("outline: '{}' has {} corners; give a line x,y for each of three or more", path,
+               corners.size());
     if (corners.size() > 20000)
-        throw InputError(
-            fmt::format("outline: '{}' has {} corners; 20000 are enough", path, corners.size()));
+        refuse("outline: '{}' has {} corners; 20000 are enough", path, corners.size());
     Points<2> polygon(2, static_cast<Eigen::Index>(corners.size()));
     for (std::size_t k = 0; k < corners.size(); ++k)
         polygon.col(static_cast<Eigen::Index>(k)) = corners[k];
@@ -215,10 +214,10 @@ Points<2> lattice_places(const Region& region, int particles, int seed) {
             places.col(static_cast<Eigen::Index>(k)) = inside[k];
         return places;
     }
-    throw InputError(
-        fmt::format("particles: no lattice with {} sites inside was found; give another number, or "
-                    "--start random",
-                    particles));
+    refuse(
+        "particles: no lattice with {} sites inside was found; give another number, or "
+        "--start random",
+        particles);
 }
 
 }  // namespace relaxation

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "polar_stress.hpp"
 
-#include <spam/core/state.hpp>
-#include <spam/rhs/springs.hpp>
-
 using namespace spam;
 
 namespace {

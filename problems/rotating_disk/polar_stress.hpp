@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/rhs/model.hpp>
-
-#include <span>
-#include <vector>
+#include "../common.hpp"
 
 /// Stress in the directions along and across the radius, at the particles' undeformed distances.
 struct PolarStress {

@@ -11,10 +11,6 @@
 //                            b          d                 torques of particles balanced
 #include "hexagon.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 namespace rotating_hexagon {
 namespace {
 
@@ -56,13 +52,12 @@ Layout layout_of(int figure) {
 
 void draw_momentum(Session& session, const std::vector<Hexagon>& hexagons,
                    const std::vector<RunRecord>& runs) {
-    CurvePanel panel{"continuity density", "t", "angular momentum L", false, {}};
+    CurvePanel panel = frame("continuity density", "t", "angular momentum L");
     for (std::size_t k = 0; k < runs.size(); ++k)
-        panel.curves.push_back({hexagons[k].title, runs[k].history.column("t"),
-                                runs[k].history.column("angular_momentum")});
-    session.note_drawn(draw_curves(
-        session.plots_folder(), "figure_6",
-        fmt::format("[HHM04] Fig. 6: {} particles", runs.front().statistics.particles), {panel}));
+        panel.curves.push_back(over_time(hexagons[k].title, runs[k].history, "angular_momentum"));
+    draw_curves(session, "figure_6",
+                fmt::format("[HHM04] Fig. 6: {} particles", runs.front().statistics.particles),
+                {panel});
 }
 
 double lost_after(const History& h, double t) {
@@ -163,10 +158,10 @@ void draw_figure(Session& session, const Parameters& p, const std::vector<Hexago
             if (std::abs(state.wanted - panel.turns * p.turn()) < 1e-6 * p.turn())
                 panels.push_back(speed_panel(panel.title, *hexagon.model, state));
     }
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), fmt::format("figure_{}", figure),
+    draw_configurations(
+        session, fmt::format("figure_{}", figure),
         fmt::format("[HHM04] Fig. {}: {} particles", figure, runs.front().statistics.particles),
-        panels, layout.columns, "speed"));
+        panels, layout.columns, "speed");
 }
 
 }  // namespace rotating_hexagon

@@ -2,12 +2,8 @@
 // What the parts of rotating_hexagon share.
 #pragma once
 
-#include "../formulation.hpp"
-#include <spam/problem/nearest_state.hpp>
+#include "../common.hpp"
 #include <spam/rhs/material_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <numbers>
 
 namespace rotating_hexagon {
 
@@ -41,12 +37,7 @@ struct Parameters {
     }
 };
 
-struct Hexagon {
-    std::string label;
-    std::string title;
-    std::shared_ptr<Model<2>> model;
-    std::vector<NearestState<2>> drawn{};  ///< in pictures
-};
+using Hexagon = Variant<2, Model<2>>;
 
 Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
                      const std::string& label);

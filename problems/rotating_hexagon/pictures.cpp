@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexagon.hpp"
-#include <spam/io/csv.hpp>
-
-#include <fmt/format.h>
 
 namespace rotating_hexagon {
 
 void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hexagons,
           const std::vector<RunRecord>& runs) {
-    const auto folder = session.plots_folder();
     std::vector<ConfigurationPanel> panels;
     for (std::size_t s = 0; s < hexagons.front().drawn.size(); ++s)
         for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -19,27 +15,26 @@ void draw(Session& session, const Parameters& p, const std::vector<Hexagon>& hex
             panels.push_back(speed_panel(fmt::format("{}, {}", hexagons[k].title, angle),
                                          *hexagons[k].model, state));
         }
-    session.note_drawn(draw_configurations(
-        folder, "configurations",
+    draw_configurations(
+        session, "configurations",
         fmt::format("Rotating elastic hexagon, {} particles", runs.front().statistics.particles),
-        panels, runs.size() > 1 ? runs.size() : panels.size(), "speed"));
+        panels, runs.size() > 1 ? runs.size() : panels.size(), "speed");
 
-    CurvePanel momentum{"angular momentum", "turns", "L(t) / L(0)", false, {}};
-    CurvePanel energy{"energy", "turns", "|E(t) - E(0)| / E(0)", true, {}};
-    CurvePanel shape{"shape", "turns", "shape error / spacing", true, {}};
+    CurvePanel momentum = frame("angular momentum", "turns", "L(t) / L(0)");
+    CurvePanel energy = frame("energy", "turns", "|E(t) - E(0)| / E(0)", true);
+    CurvePanel shape = frame("shape", "turns", "shape error / spacing", true);
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const History& h = runs[k].history;
-        auto turns = h.column("t"), ratio = h.column("angular_momentum"),
-             drift = h.column("energy");
-        for (double& t : turns) t /= p.turn();
-        for (double& L : ratio) L /= h.first("angular_momentum");
+        const std::string& title = hexagons[k].title;
+        const auto turns = divided(h.column("t"), p.turn());
+        auto drift = h.column("energy");
         for (double& E : drift) E = (E - h.first("energy")) / h.first("energy");
-        momentum.curves.push_back({hexagons[k].title, turns, ratio});
-        energy.curves.push_back({hexagons[k].title, turns, drift});
-        shape.curves.push_back({hexagons[k].title, turns, h.column("shape_error")});
+        const auto L = divided(h.column("angular_momentum"), h.first("angular_momentum"));
+        momentum.curves.push_back({title, turns, L});
+        energy.curves.push_back({title, turns, drift});
+        shape.curves.push_back({title, turns, h.column("shape_error")});
     }
-    session.note_drawn(
-        draw_curves(folder, "curves", "Rotating elastic hexagon", {momentum, energy, shape}));
+    draw_curves(session, "curves", "Rotating elastic hexagon", {momentum, energy, shape});
 }
 
 void write_comparison(const RunFolder& folder, const std::vector<RunRecord>& runs) {

@@ -2,13 +2,7 @@
 #include "comparison.hpp"
 
 #include <spam/diagnostics/total_energy.hpp>
-#include <spam/picture/draw.hpp>
 #include <spam/problem/motion.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace shock_tube {
 namespace {
@@ -126,29 +120,29 @@ void draw(Session& session, const Parameters& p, const std::vector<Line>& lines)
     for (int number = 1; number <= toro_tests; ++number) picture.key.push_back(toro(number).title);
     picture.note =
         "full: work of the own pressure; open: of the mean pressure, where runs reach their end";
-    session.note_drawn(draw_log_log(session.plots_folder(), "errors", picture));
+    draw_log_log(session, "errors", picture);
 }
 
 void report(Session& session, const std::vector<Line>& lines) {
     for (const Line& line : lines) {
-        const std::string prefix = fmt::format("toro{}_{}_", line.number, to_string(line.work));
+        const Findings findings(session,
+                                fmt::format("toro{}_{}_", line.number, to_string(line.work)));
         if (line.work == Work::own)
-            session.claim({prefix + "complete", line.complete() ? 1.0 : 0.0, 1.0, 0.0,
-                           "no particle can lack heat"},
-                          line.standard);
+            findings.claim("complete", line.complete() ? 1.0 : 0.0, 1.0, 0.0,
+                           "no particle can lack heat", line.standard);
         if (!line.complete()) continue;
         for (std::size_t k = 0; k < quantities.size(); ++k) {
-            session.measure(prefix + quantities[k] + "_error", line.error[k].back());
-            session.measure(prefix + quantities[k] + "_order", line.order(k));
+            findings.measure(std::string(quantities[k]) + "_error", line.error[k].back());
+            findings.measure(std::string(quantities[k]) + "_order", line.order(k));
         }
-        session.measure(prefix + "least_energy_ratio", line.least.back(),
-                        "of the coldest particle, by that at the start");
+        findings.measure("least_energy_ratio", line.least.back(),
+                         "of the coldest particle, by that at the start");
         if (std::isfinite(line.plateau.back()))
-            session.claim({prefix + "plateau_error", line.plateau.back(), 0.0, 0.03,
-                           "the exact solution of Riemann's problem"},
-                          line.standard && toro(line.number).resolved);
-        session.check({prefix + "energy_change", line.energy_change.back(), 0.0, 1e-6,
-                       "both forms keep the energy, RK4 to its accuracy"});
+            findings.claim("plateau_error", line.plateau.back(), 0.0, 0.03,
+                           "the exact solution of Riemann's problem",
+                           line.standard && toro(line.number).resolved);
+        findings.check("energy_change", line.energy_change.back(), 0.0, 1e-6,
+                       "both forms keep the energy, RK4 to its accuracy");
     }
 }
 

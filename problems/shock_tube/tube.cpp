@@ -3,10 +3,6 @@
 
 #include <spam/material/gamma_gas.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace shock_tube {
 namespace {
 
@@ -92,9 +88,9 @@ Tube make_tube(const Parameters& p, int cells, bool only_described) {
     for (Eigen::Index i = 0; i < all; ++i)
         particles.mass[static_cast<std::size_t>(i)] *=
             particles.reference_position(0, i) > 0.0 ? right.rho : left.rho;
-    Tube tube{cells, before, behind, RiemannProblem(left, right, p.gamma),
-              std::make_shared<FluidModel<1>>(std::move(particles), Fluid{GammaGas{p.gamma}},
-                                              scheme, box)};
+    Tube tube{{}, cells, before, behind, RiemannProblem(left, right, p.gamma)};
+    tube.model = std::make_shared<FluidModel<1>>(std::move(particles), Fluid{GammaGas{p.gamma}},
+                                                 scheme, box);
     if (only_described) return tube;
     const Points<1>& at = tube.model->particles().reference_position;
     Points<1> v(1, all);

@@ -2,18 +2,10 @@
 // The gas of shock_tube at the start, and how far it is from the exact solution in the end.
 #pragma once
 
+#include "../common.hpp"
 #include "riemann.hpp"
-#include <spam/problem/session.hpp>
-#include <spam/problem/sides.hpp>
-#include <spam/rhs/smooth_particles.hpp>
 
-#include <algorithm>
-#include <array>
-#include <memory>
-#include <optional>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace shock_tube {
 
@@ -42,7 +34,7 @@ struct Parameters {
     int cells = 800;
     double gamma = 1.4;
     bool single = false, compare = false;
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int jobs = all_cores();
     Scheme scheme{
         .density = Density::continuity, .viscosity = 1.0, .kernel = Kernel::w4, .range = 10.0};
 
@@ -56,14 +48,11 @@ struct Parameters {
     double step(int particles) const;
 };
 
-struct Tube {
+struct Tube : Variant<1, FluidModel<1>> {
     int cells;       ///< from -1/2 to 1/2
     int extra_left;  ///< and beyond, so that what the ends do to a gas that streams does not come back
     int extra_right;
     RiemannProblem exact;
-    std::shared_ptr<FluidModel<1>> model;
-    std::vector<double> y0{};
-    std::string label{};
 
     int particles() const { return extra_left + cells + extra_right; }
 };

@@ -2,13 +2,9 @@
 // What the parts of stability share.
 #pragma once
 
-#include "../formulation.hpp"
+#include "../common.hpp"
 #include <spam/analysis/bonded_lattice.hpp>
 #include <spam/analysis/wave_vectors.hpp>
-#include <spam/spam.hpp>
-
-#include <functional>
-#include <optional>
 
 namespace stability {
 

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables and pictures of what was found.
 #include "lattice.hpp"
-#include <spam/io/csv.hpp>
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace stability {
 
@@ -29,39 +21,35 @@ void write_spectrum(const RunFolder& folder, const std::string& name, const Spec
 }
 
 void report(Session& session, const Parameters& p, const Analysed& one) {
-    const std::string prefix = one.label.empty() ? "" : one.label + "_";
-    const auto measured = [&](const char* name, double value) {
-        session.measure(prefix + name, value);
-    };
+    const Findings findings(session, one.label.empty() ? "" : one.label + "_");
     const std::size_t fastest = one.sample.fastest();
     const double growth = one.sample.growth[fastest];
     const Point<2> k = one.sample.k.col(static_cast<Eigen::Index>(fastest));
     if (p.stress == 0.0 && p.shear_stress == 0.0)
-        session.check(
-            {prefix + "growth_rate", growth, 0.0, one.noise, "nothing pulls, [HHM04] IV"});
+        findings.check("growth_rate", growth, 0.0, one.noise, "nothing pulls, [HHM04] IV");
     else if (one.stable)
-        session.check({prefix + "growth_rate", growth, 0.0, one.noise,
-                       "the penalty is enough (rhs/material_vectors.hpp)"});
+        findings.check("growth_rate", growth, 0.0, one.noise,
+                       "the penalty is enough (rhs/material_vectors.hpp)");
     else
-        measured("growth_rate", growth);
+        findings.measure("growth_rate", growth);
     if (growth > 0.0) {
-        measured("growth_time", 1.0 / growth);
-        measured("fastest_k_x", k.x());
-        measured("fastest_k_y", k.y());
+        findings.measure("growth_time", 1.0 / growth);
+        findings.measure("fastest_k_x", k.x());
+        findings.measure("fastest_k_y", k.y());
     }
-    measured("growth_rate_on_path", one.path.growth[one.path.fastest()]);
+    findings.measure("growth_rate_on_path", one.path.growth[one.path.fastest()]);
     const auto growing = std::count_if(one.sample.growth.begin(), one.sample.growth.end(),
                                        [](double g) { return g > 0.0; });
-    measured("growing_wave_vectors", static_cast<double>(growing));
+    findings.measure("growing_wave_vectors", static_cast<double>(growing));
     // Elasticity is what long waves see, up to the stress itself and to sums in place of integrals.
     const double tolerance = 0.01 + 2.0 * std::abs(p.stress);
     const auto claim = [&](const char* name, double value, double c) {
         if (one.elastic)
-            session.check({prefix + name, value, c, tolerance * c, "[HHM04] V, linear elasticity"});
+            findings.check(name, value, c, tolerance * c, "[HHM04] V, linear elasticity");
         else
-            measured(name, value);
+            findings.measure(name, value);
     };
-    if (p.vectors()) measured("lowest_frequency_by_elastic", one.lowest);
+    if (p.vectors()) findings.measure("lowest_frequency_by_elastic", one.lowest);
     claim("transverse_speed", one.transverse_speed, std::sqrt(3.0 / 8.0));
     claim("longitudinal_speed", one.longitudinal_speed, std::sqrt(9.0 / 8.0));
 }
@@ -104,9 +92,8 @@ Points<2> zone_border() {
 
 void draw(Session& session, const Parameters& p, const WavePath& path,
           const std::vector<Analysed>& all) {
-    const auto folder = session.plots_folder();
-    CurvePanel frequency{"frequencies (dashed: the slower branch)", "wave vector", "ω", false, {}};
-    CurvePanel growth{"growth", "wave vector", "growth rate", false, {}};
+    CurvePanel frequency = frame("frequencies (dashed: the slower branch)", "wave vector", "ω");
+    CurvePanel growth = frame("growth", "wave vector", "growth rate");
     for (const auto& corner : path.corners) {
         frequency.x_ticks.push_back({corner.distance, corner.name});
         growth.x_ticks.push_back({corner.distance, corner.name});
@@ -114,15 +101,12 @@ void draw(Session& session, const Parameters& p, const WavePath& path,
     for (std::size_t n = 0; n < all.size(); ++n) {
         const Spectrum& s = all[n].path;
         frequency.curves.push_back({all[n].title, path.distance, s.high_frequency});
-        frequency.curves.push_back({.title = "",
-                                    .x = path.distance,
-                                    .y = s.low_frequency,
-                                    .like = static_cast<int>(n) + 1});
+        frequency.curves.push_back(
+            {"", path.distance, s.low_frequency, Mark::line, 0, static_cast<int>(n) + 1});
         growth.curves.push_back({all[n].title, path.distance, s.growth});
     }
-    session.note_drawn(draw_curves(folder, "dispersion",
-                                   fmt::format("Triangular lattice under stress {}", under(p)),
-                                   {frequency, growth}));
+    draw_curves(session, "dispersion", fmt::format("Triangular lattice under stress {}", under(p)),
+                {frequency, growth});
     std::vector<ConfigurationPanel> panels;
     for (const auto& one : all) {
         const double largest = one.sample.growth[one.sample.fastest()];
@@ -133,10 +117,10 @@ void draw(Session& session, const Parameters& p, const WavePath& path,
                           share,
                           {zone_border()}});
     }
-    session.note_drawn(draw_configurations(
-        folder, "growth_rates",
+    draw_configurations(
+        session, "growth_rates",
         fmt::format("Wave vectors of {0} × {0} particles under stress {1}", p.cells, under(p)),
-        panels, panels.size(), "growth rate / largest"));
+        panels, panels.size(), "growth rate / largest");
 }
 
 }  // namespace stability

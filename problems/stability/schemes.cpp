@@ -6,19 +6,9 @@
 #include <spam/material/polynomial_solid.hpp>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
-
-#include <cmath>
-#include <memory>
 
 namespace stability {
 namespace {
-
-std::string_view title_of(Transport transport) {
-    return transport == Transport::plain     ? "plain v"
-           : transport == Transport::average ? "⟨v⟩"
-                                             : "⟨v⟩ Monaghan";
-}
 
 template <class Modes>
 Waves waves_of(std::shared_ptr<Modes> modes, double noise) {
@@ -33,14 +23,14 @@ Waves waves_of(std::shared_ptr<Modes> modes, double noise) {
 Analysed smooth(const Parameters& p, const Scheme& scheme, const std::string& label) {
     Analysed one;
     one.label = label;
-    one.title = title_of(scheme.transport);
+    one.title = velocity_title(scheme.transport, "plain v");
     one.row = to_string(scheme.transport);
     one.description = scheme.describe();
     one.elastic = scheme.kernel == Kernel::lucy && scheme.range >= 2.5 && scheme.range <= 4.0;
     // A lattice just wide enough for the analysis tells the modes of samples of any size.
     one.analyse = [p, scheme](RunStatistics& statistics) {
         const auto solid = smallest_triangular_solid(ElasticSolid::triangular_lattice(), scheme,
-                                                     std::sqrt(4.0 / 3.0), p.stress);
+                                                     triangular_density, p.stress);
         const auto modes = std::make_shared<LatticeModes<2>>(*solid.model, solid.y0);
         statistics.particles = solid.model->particles().size();
         statistics.rhs_evaluations += modes->rhs_evaluations();
@@ -53,7 +43,7 @@ Analysed smooth(const Parameters& p, const Scheme& scheme, const std::string& la
 Analysed vectors(const Parameters& p, double range, double penalty, BondMemory memory,
                  const std::string& label) {
     const auto solid = PolynomialSolid::like(ElasticSolid::triangular_lattice());
-    const MaterialVectorScheme scheme{std::sqrt(4.0 / 3.0), range, penalty};
+    const MaterialVectorScheme scheme{triangular_density, range, penalty};
     const bool kept = memory == BondMemory::kept;
     Analysed one;
     one.label = label;

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bar.hpp"
 
+#include "../common.hpp"
 #include <spam/material/hencky_solid.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace taylor_bar {
 namespace {
@@ -48,14 +43,10 @@ Bar make_bar(const Parameters& p, int particles_per_radius) {
     const double lambda = E * p.poisson / ((1.0 + p.poisson) * (1.0 - 2.0 * p.poisson));
     auto particles =
         make_particles<3>(sites_of(p, spacing, layers), rho * std::pow(spacing, 3), spacing);
-    Bar bar{.label = fmt::format("r{}", particles_per_radius),
-            .radius = p.radius,
-            .spacing = spacing,
-            .layers = layers,
-            .model = std::make_shared<ParticleModel<3>>(std::move(particles)),
-            .law = nullptr,
-            .y0 = {},
-            .wave_speed = std::sqrt((lambda + 2.0 * eta) / rho)};
+    Bar bar{{}, p.radius, spacing, layers};
+    bar.model = std::make_shared<ParticleModel<3>>(std::move(particles));
+    bar.wave_speed = std::sqrt((lambda + 2.0 * eta) / rho);
+    if (p.compare) bar.call(fmt::format("r{}", particles_per_radius));
     const SpaceVonMises surface{lambda, eta};
     const LinearHardening flow{p.yield_stress * to_TPa, p.hardening * to_TPa};
     bar.law = &bar.model->add_term<TotalLagrangian<3>>(

@@ -29,16 +29,12 @@ struct Parameters {
 };
 
 /// A bar of cubic lattice along z, its face at z = 0 against a rigid wall without friction.
-struct Bar {
-    std::string label;
+struct Bar : Variant<3> {
     double radius;   ///< at the start, mm
     double spacing;  ///< mm
     int layers;
-    std::shared_ptr<ParticleModel<3>> model;
-    const TotalLagrangian<3>* law;
-    std::vector<double> y0;
-
-    double wave_speed, least_stretch = 0.35;
+    const TotalLagrangian<3>* law = nullptr;
+    double wave_speed = 0.0, least_stretch = 0.35;
     /// An explicit step for the layer next to the wall, which becomes thinnest.
     double step() const { return 0.4 * least_stretch * spacing / wave_speed; }
 };

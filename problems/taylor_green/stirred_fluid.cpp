@@ -2,7 +2,6 @@
 #include "stirred_fluid.hpp"
 
 #include <spam/material/embedded_atom.hpp>
-#include <spam/setup/drawn.hpp>
 
 namespace stirred {
 
@@ -14,12 +13,9 @@ Fluid fluid_of(const Parameters& p, double nu) {
 }
 
 std::unique_ptr<FluidModel<2>> make_model(const Parameters& p, int cells, const Box<2>& box,
-                                          double disorder, std::uint64_t seed) {
-    Points<2> x = square_lattice<2>({cells, cells});
-    x.colwise() += Point<2>(0.5, 0.5) - Point<2>(x.rowwise().minCoeff());
-    std::mt19937_64 random(seed);
-    if (disorder > 0.0)
-        for (auto& c : x.reshaped()) c += disorder * (2.0 * drawn(random) - 1.0);
+                                          double disorder, int seed) {
+    Points<2> x = cell_centres<2>({cells, cells});
+    displace(x, disorder, seed);
     return std::make_unique<FluidModel<2>>(make_particles<2>(x, 1.0, 1.0, box),
                                            fluid_of(p, p.viscosity(cells)), p.scheme, box);
 }

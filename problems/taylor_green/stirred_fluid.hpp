@@ -2,10 +2,7 @@
 // A viscous fluid whose particles are stirred, in a box that it fills: what taylor_green and cavity share.
 #pragma once
 
-#include "../friction.hpp"
-#include <spam/problem/sides.hpp>
-#include <spam/rhs/smooth_particles.hpp>
-#include <spam/spam.hpp>
+#include "../common.hpp"
 
 namespace stirred {
 
@@ -32,7 +29,7 @@ Fluid fluid_of(const Parameters& p, double nu);
 
 /// cells x cells particles of mass 1 at spacing 1, moved by up to `disorder` spacings, between 0 and `cells`.
 std::unique_ptr<FluidModel<2>> make_model(const Parameters& p, int cells, const Box<2>& box,
-                                          double disorder = 0.0, std::uint64_t seed = 1);
+                                          double disorder = 0.0, int seed = 1);
 
 /// Where the density is part of y: that of this pressure, with the energy that belongs to it.
 void set_pressure(const Model<2>& model, std::vector<double>& y,

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vortices.hpp"
 
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
 namespace taylor_green {
 
 Point<2> ExactFlow::velocity(const Point<2>& x, double t) const {
@@ -19,11 +15,12 @@ double ExactFlow::pressure(const Point<2>& x, double t) const {
     return -0.25 * now * now * (std::cos(2.0 * a) + std::cos(2.0 * b));
 }
 
-Flow make_flow(const Parameters& p, int cells, const std::string& label) {
+Flow make_flow(const Parameters& p, int cells) {
     const double L = cells;
     const auto box = p.sides->box<2>(Point<2>::Zero(), Point<2>(L, L));
-    auto model = stirred::make_model(p, cells, box, p.disorder, static_cast<std::uint64_t>(p.seed));
-    Flow flow{{L, p.viscosity(cells), p.speed}, nullptr, {}, label};
+    auto model = stirred::make_model(p, cells, box, p.disorder, p.seed);
+    Flow flow;
+    flow.exact = {L, p.viscosity(cells), p.speed};
     for (const int a : {0, 1}) {
         if (box.periodic(a)) continue;
         flow.exact.quarter[a] = 0.5 * std::numbers::pi;
@@ -73,32 +70,25 @@ namespace {
 void draw_curves_of(Session& session, const Parameters& p, const std::vector<Flow>& flows,
                     const std::vector<RunRecord>& runs) {
     const ExactFlow& exact = flows.front().exact;
-    CurvePanel energy{"", "t U/L", "kinetic energy by that at the start", true, {}},
-        error{"", "t U/L", "velocity error", false, {}};
-    Curve right{.title = "exact", .x = {}, .y = {}, .mark = Mark::points, .style = 1};
+    CurvePanel energy = frame("", "t U/L", "kinetic energy by that at the start", true),
+               error = frame("", "t U/L", "velocity error");
+    Curve right{"exact", {}, {}, Mark::points, 1};
     for (int k = 0; k <= 20; ++k) {
         const double t = 0.05 * k * runs.front().statistics.t_end;
-        right.x.push_back(t / exact.turn());
-        right.y.push_back(exact.left(t) * exact.left(t));
+        add_point(right, t / exact.turn(), exact.left(t) * exact.left(t));
     }
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        const auto t = runs[k].history.column("t"), decay = runs[k].history.column("decay");
-        const auto off = runs[k].history.column("velocity_error");
-        const auto style = static_cast<int>(k) + 2;
-        Curve of_energy{.title = flows[k].title, .x = {}, .y = {}, .style = style};
-        Curve of_error = of_energy;
-        for (std::size_t row = 0; row < t.size(); ++row) {
-            const double when = t[row] / flows[k].exact.turn();
-            of_energy.x.push_back(when), of_error.x.push_back(when);
-            of_energy.y.push_back(decay[row] * decay[row]), of_error.y.push_back(off[row]);
-        }
-        energy.curves.push_back(of_energy);
-        error.curves.push_back(of_error);
+        const auto t = divided(runs[k].history.column("t"), flows[k].exact.turn());
+        auto decay = runs[k].history.column("decay");
+        for (double& root : decay) root *= root;
+        const int style = static_cast<int>(k) + 2;
+        energy.curves.push_back({flows[k].title, t, decay, Mark::line, style});
+        error.curves.push_back(
+            {flows[k].title, t, runs[k].history.column("velocity_error"), Mark::line, style});
     }
     energy.curves.push_back(right);  // on top
-    session.note_drawn(draw_curves(session.plots_folder(), "decay",
-                                   fmt::format("Taylor-Green vortices, Re = {:g}", p.reynolds),
-                                   {energy, error}));
+    draw_curves(session, "decay", fmt::format("Taylor-Green vortices, Re = {:g}", p.reynolds),
+                {energy, error});
 }
 
 }  // namespace
@@ -106,23 +96,22 @@ void draw_curves_of(Session& session, const Parameters& p, const std::vector<Flo
 void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
           const std::vector<RunRecord>& runs) {
     if (flows.front().known) draw_curves_of(session, p, flows, runs);
-    std::vector<ConfigurationPanel> panels;
     if (p.compare) return;
+    std::vector<ConfigurationPanel> panels;
     for (const Flow& flow : flows)
-        for (NearestState<2> state : flow.drawn)
-            if (state.there()) {
-                state.position = flow.model->box().wrapped(state.position);
-                panels.push_back(speed_panel(
-                    fmt::format("{}, t = {:.2f} L/U", flow.transport, state.t / flow.exact.turn()),
-                    *flow.model, state));
-                panels.back().outlines.clear();
-            }
+        for (NearestState<2> state : flow.drawn) {
+            if (!state.there()) continue;
+            state.position = flow.model->box().wrapped(state.position);
+            panels.push_back(speed_panel(
+                fmt::format("{}, t = {:.2f} L/U", flow.transport, state.t / flow.exact.turn()),
+                *flow.model, state));
+            panels.back().outlines.clear();
+        }
     if (panels.empty()) return;
-    session.note_drawn(
-        draw_configurations(session.plots_folder(), "configurations",
-                            fmt::format("Taylor-Green vortices, {} particles, Re = {:g}",
-                                        flows.front().model->particles().size(), p.reynolds),
-                            panels, flows.front().drawn.size(), "speed"));
+    draw_configurations(session, "configurations",
+                        fmt::format("Taylor-Green vortices, {} particles, Re = {:g}",
+                                    flows.front().model->particles().size(), p.reynolds),
+                        panels, flows.front().drawn.size(), "speed");
 }
 
 }  // namespace taylor_green

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "stirred_fluid.hpp"
-#include <spam/problem/nearest_state.hpp>
 
 namespace taylor_green {
 
@@ -29,17 +28,14 @@ struct ExactFlow {
     double turn() const { return L / U; }
 };
 
-struct Flow {
-    ExactFlow exact;
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0;
-    std::string label{}, transport{}, title{};
+struct Flow : Variant<2> {
+    ExactFlow exact{};
+    std::string transport{};
     bool known = true;  ///< the sides are such that the flow is exact
-    std::vector<NearestState<2>> drawn{};
 };
 
 /// Velocity, and the density that belongs to the exact pressure, of cells x cells particles.
-Flow make_flow(const Parameters& p, int cells, const std::string& label);
+Flow make_flow(const Parameters& p, int cells);
 
 /// `velocity_error`: mean |v - v_exact| by mean |v_exact|, both at the places of the particles and at that
 /// time, and `decay`: root of the kinetic energy by that at the start.

@@ -2,14 +2,8 @@
 #include "bar.hpp"
 
 #include "../breaking/pieces.hpp"
-#include "../stiffness.hpp"
 #include <spam/external/distributed_load.hpp>
 #include <spam/external/friction.hpp>
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
 
 namespace tension_test {
 namespace {
@@ -43,12 +37,9 @@ double height(const Parameters& p, double x) {
 }
 
 Particles<2> tapered_block(const Parameters& p) {
-    Points<2> x = triangular_block(p.columns, p.rows.value_or(14));
-    x.colwise() -= Point<2>(x.rowwise().mean());
+    Points<2> x = centred<2>(triangular_block(p.columns, p.rows.value_or(14)));
     for (auto point : x.colwise()) point.y() *= height(p, point.x());
-    auto particles = make_particles<2>(x, 1.0);
-    particles.body.assign(particles.size(), 0);
-    return particles;
+    return one_body(make_particles<2>(x, 1.0));
 }
 
 /// Everything but the seed.
@@ -84,10 +75,6 @@ ConfigurationPanel panel_of(const PulledBar& bar, double t, const Points<2>& pos
             {}};
 }
 
-}  // namespace
-
-namespace {
-
 /// A load that grows with time and with the distance from the middle, under friction.
 void add_load(ParticleModel<2>& model, const Parameters& p, double rate, double damping) {
     Points<2> pattern = model.particles().reference_position;
@@ -100,8 +87,8 @@ void add_load(ParticleModel<2>& model, const Parameters& p, double rate, double 
 
 /// Free and without a load, with a velocity along it in proportion to the place.
 PulledBar make_stretching_bar(const Session& session, const Parameters& p, const Matter& matter) {
-    PulledBar bar{matter.kind, 0.0, 0.05, 2.4 * p.columns / *p.end_speed,
-                  make_model(session, matter, {tapered_block(p)})};
+    PulledBar bar{{}, matter.kind, 0.0, 0.05, 2.4 * p.columns / *p.end_speed};
+    bar.model = make_model(session, matter, {tapered_block(p)});
     Points<2> x = bar.model->particles().reference_position;
     disturb(x, matter);
     bar.y0 = start(*bar.model, x, *p.end_speed);
@@ -123,8 +110,8 @@ PulledBar make_bar(const Session& session, const Parameters& p, const Matter& ma
     const double step = known.step * (cores ? relative_step({matter.core, matter.core_range},
                                                             {usual.core, usual.core_range})
                                             : 1.0);
-    PulledBar bar{matter.kind, rate, step, shorter * known.largest_load / rate,
-                  make_model(session, matter, {tapered_block(p)})};
+    PulledBar bar{{}, matter.kind, rate, step, shorter * known.largest_load / rate};
+    bar.model = make_model(session, matter, {tapered_block(p)});
     add_load(*bar.model, p, rate, p.damping.value_or(known.damping));
     Points<2> x = bar.model->particles().reference_position;
     disturb(x, matter);
@@ -169,34 +156,30 @@ std::optional<double> parted_at(const History& h) {
 }
 
 void report(Session& session, const Parameters& p, const PulledBar& bar, const RunRecord& run) {
+    const Findings findings(session, bar.prefix);
     const History& h = run.history;
     const Known known = known_of(bar.kind);
     const bool default_case = is_known(session, run);
     const auto t = parted_at(h);
     if (t && bar.load_rate > 0.0) {
-        session.claim({bar.prefix + "load_at_parting", bar.load_rate * *t, known.parts_at,
-                       known.tolerance, "[HH07] 13; recorded values"},
-                      default_case);
+        findings.claim("load_at_parting", bar.load_rate * *t, known.parts_at, known.tolerance,
+                       "[HH07] 13; recorded values", default_case);
         const double half = 0.5 * static_cast<double>(run.statistics.particles);
-        session.claim({bar.prefix + "second_piece", h.largest("second_piece"), 0.8 * half,
-                       0.2 * half, "[HH07] 13: two large pieces"},
-                      default_case);
+        findings.claim("second_piece", h.largest("second_piece"), 0.8 * half, 0.2 * half,
+                       "[HH07] 13: two large pieces", default_case);
     }
     const bool stretched = is_recorded_stretching(session, p, run);
-    session.claim(
-        {bar.prefix + "pieces", h.last("pieces"), 3.0, 1.0,
-         "another program: two necks, so three pieces; what is between may part once more"},
+    findings.claim(
+        "pieces", h.last("pieces"), 3.0, 1.0,
+        "another program: two necks, so three pieces; what is between may part once more",
         stretched);
     if (stretched)
-        session.check({bar.prefix + "difference_of_ends",
-                       h.last("largest_piece") - h.last("second_piece"), 0.0, 0.0,
-                       "both ends lose as much"});
-    for (const char* name : {"largest_piece", "length"})
-        session.measure(bar.prefix + name, h.last(name), "at the end");
-    session.claim({bar.prefix + "closest_pair", h.smallest("closest_pair"), 0.7, 0.05,
-                   "another program: nothing clumps"},
-                  stretched);
-    session.check_promises(run, bar.prefix);
+        findings.check("difference_of_ends", h.last("largest_piece") - h.last("second_piece"), 0.0,
+                       0.0, "both ends lose as much");
+    findings.measure_last(h, {"largest_piece", "length"}, "at the end");
+    findings.claim("closest_pair", h.smallest("closest_pair"), 0.7, 0.05,
+                   "another program: nothing clumps", stretched);
+    findings.check_promises(run);
 }
 
 void draw(Session& session, const std::vector<PulledBar>& bars,
@@ -212,10 +195,10 @@ void draw(Session& session, const std::vector<PulledBar>& bars,
         panels.push_back(panel_of(bar, runs[k].statistics.t_end,
                                   ConstState<2>(bar.model->layout(), runs[k].y).position(), title));
     }
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "configurations",
+    draw_configurations(
+        session, "configurations",
         several ? "A bar under tension" : "A bar under tension: " + title_of(bars.front().kind),
-        panels, several ? 2 : 1, "first neighbours lost"));
+        panels, several ? 2 : 1, "first neighbours lost");
 }
 
 }  // namespace tension_test

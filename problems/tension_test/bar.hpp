@@ -3,7 +3,6 @@
 #pragma once
 
 #include "../breaking/matter.hpp"
-#include <spam/problem/nearest_state.hpp>
 
 namespace tension_test {
 
@@ -18,15 +17,11 @@ struct Parameters {
     std::optional<double> end_speed;  ///< in place of a load
 };
 
-struct PulledBar {
+struct PulledBar : Variant<2> {
     MatterKind kind;
     double load_rate;  ///< the load at the ends is load_rate t; 0 where there is none
     double step;       ///< of classical Runge-Kutta
     double t_end;      ///< at which a run ends at the latest
-    std::shared_ptr<ParticleModel<2>> model;
-    std::vector<double> y0{};
-    std::vector<NearestState<2>> drawn{};
-    std::string prefix{};  ///< of results where there are several
 };
 
 /// `matter`: that of p, of one kind.

@@ -2,16 +2,9 @@
 #include "elements.hpp"
 
 #include "../breaking/element_frames.hpp"
-#include <spam/core/error.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/material/yielding_solid.hpp>
-#include <spam/setup/initial_state.hpp>
 #include <spam/setup/meshes.hpp>
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <optional>
 
 namespace tension_elements {
 namespace {
@@ -45,7 +38,7 @@ Eigen::ArrayXd heights(const Parameters& p, const Model<2>& model, std::span<con
 
 Bar make_bar(const Parameters& p) {
     const auto elastic = ElasticSolid::triangular_lattice();
-    const double density = std::sqrt(4.0 / 3.0), half = 0.5 * p.columns;
+    const double density = triangular_density, half = 0.5 * p.columns;
     Mesh mesh = rectangle_mesh(p.columns, p.rows);
     for (auto x : mesh.node.colwise()) x.y() *= 1.0 - p.taper * (1.0 - std::abs(x.x()) / half);
     MeshedBodies bodies = make_nodes({mesh}, density);
@@ -108,25 +101,25 @@ std::optional<double> at(const History& h, const char* name, double t) {
 }
 
 void report(Session& session, const Parameters& p, const RunRecord& run, bool known) {
+    const Findings findings(session);
     const History& h = run.history;
     for (const Known& one : slide) {
         const auto length = at(h, "length", one.t), strain = at(h, "largest_plastic_strain", one.t),
                    neck = at(h, "neck", one.t);
         if (!strain) continue;
         const auto name = [&](const char* what) { return fmt::format("{}_at_{:g}", what, one.t); };
-        session.claim({name("nominal_strain"), *length / p.columns - 1.0, one.nominal, 1e-3,
-                       "[HH07] 13, slide"},
-                      known);
-        session.claim({name("largest_plastic_strain"), *strain, one.largest, 0.006,
-                       "another program with the same elements"},
-                      known);
-        session.claim({name("neck"), *neck, 0.0, 3.0, "[HH07] 13: the neck is at the middle"},
-                      known);
+        findings.claim(name("nominal_strain"), *length / p.columns - 1.0, one.nominal, 1e-3,
+                       "[HH07] 13, slide", known);
+        findings.claim(name("largest_plastic_strain"), *strain, one.largest, 0.006,
+                       "another program with the same elements", known);
+        findings.claim(name("neck"), *neck, 0.0, 3.0, "[HH07] 13: the neck is at the middle",
+                       known);
     }
-    for (const char* name : {"largest_plastic_strain", "mean_plastic_strain", "neck", "neck_height",
-                             "length", "elements_broken"})
-        session.measure(name, h.last(name), "at the end");
-    session.check_promises(run);
+    findings.measure_last(h,
+                          {"largest_plastic_strain", "mean_plastic_strain", "neck", "neck_height",
+                           "length", "elements_broken"},
+                          "at the end");
+    findings.check_promises(run);
 }
 
 }  // namespace
@@ -138,22 +131,21 @@ void compute(Session& session, const Parameters& p, double t_end, bool known) {
     plan.output_every = t_end / 128.0;
     plan.snapshot_every = t_end / 16.0;
     plan.record(columns_of(p));
-    std::vector<breaking::ElementFrame> frames;
-    for (const Known& one : slide) frames.push_back({one.t / 64.0 * t_end});
-    plan.observe(breaking::keep_frames(frames));
+    std::vector<NearestState<2>> drawn;
+    for (const Known& one : slide) drawn.push_back({one.t / 64.0 * t_end});
+    plan.observe(keep_nearest<2>(drawn, breaking::strains_of_elements));
     const auto run = session.run(*bar.model, bar.y0, std::move(plan));
     report(session, p, run, known);
     if (!session.plots()) return;
     std::vector<ConfigurationPanel> panels;
-    for (const auto& frame : frames)
-        if (frame.there())
+    for (const auto& state : drawn)
+        if (state.there())
             panels.push_back(
-                breaking::strain_panel(fmt::format("t = {:.4g}, drawn out by {:.3g} %", frame.t,
-                                                   100.0 * bar.strain_rate * frame.t),
-                                       *bar.model, frame));
-    session.note_drawn(draw_configurations(session.plots_folder(), "configurations",
-                                           "A bar of finite elements under tension", panels, 1,
-                                           "plastic strain"));
+                breaking::strain_panel(fmt::format("t = {:.4g}, drawn out by {:.3g} %", state.t,
+                                                   100.0 * bar.strain_rate * state.t),
+                                       *bar.model, state.position, state.values));
+    draw_configurations(session, "configurations", "A bar of finite elements under tension", panels,
+                        1, "plastic strain");
 }
 
 }  // namespace tension_elements

@@ -2,11 +2,9 @@
 // The finite-element twin of the tension test, [HH07] 13.
 #pragma once
 
+#include "../common.hpp"
 #include <spam/material/plastic_fields.hpp>
-#include <spam/problem/session.hpp>
 #include <spam/rhs/elements.hpp>
-
-#include <memory>
 
 namespace tension_elements {
 

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "column.hpp"
 
-#include <spam/core/error.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/cavitation.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace water_column {
 namespace {
@@ -63,10 +57,8 @@ FluidColumn make_column(const Parameters& p, int refinement, int sample, bool on
     column.sample = sample;
     const double apart = 0.01 * ((sample + 1) / 2);
     column.relaxation_time *= sample % 2 == 1 ? 1.0 - apart : 1.0 + apart;
-    Points<2> x = square_lattice<2>({column.width, column.rows});
-    x.colwise() += Point<2>(0.5, 0.5);
-    auto particles = make_particles<2>(x, 1.0);
-    particles.body.assign(particles.size(), 0);
+    const auto particles =
+        one_body(make_particles<2>(cell_centres<2>({column.width, column.rows}), 1.0));
     column.between_walls = model_of(p, column, particles, true);
     column.released = model_of(p, column, particles, false);
     if (!only_described) {

@@ -2,10 +2,8 @@
 // A column of an embedded-atom fluid under gravity: how it is made, and what it is compared with.
 #pragma once
 
-#include <spam/problem/nearest_state.hpp>
-#include <spam/problem/sides.hpp>
+#include "../common.hpp"
 #include <spam/rhs/density_potentials.hpp>
-#include <spam/spam.hpp>
 
 namespace water_column {
 

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "column.hpp"
-#include <spam/picture/draw.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
 
 namespace water_column {
 namespace {
 
 /// A column of the history by the width, against time by the width, so far as all columns have come.
 Curve scaled(const FluidColumn& column, const RunRecord& run, const char* name, double until) {
-    Curve curve{fmt::format("{} particles", column.particles()), run.history.column("t"),
-                run.history.column(name)};
-    for (double& t : curve.x) t /= column.width;
-    for (double& value : curve.y) value /= column.width;
+    Curve curve{fmt::format("{} particles", column.particles()),
+                divided(run.history.column("t"), column.width),
+                divided(run.history.column(name), column.width)};
     while (!curve.x.empty() && curve.x.back() > until * (1.0 + 1e-9)) {
         curve.x.pop_back();
         curve.y.pop_back();
@@ -35,22 +29,17 @@ void draw_motion(Session& session, const std::vector<Computed>& columns) {
         panels[1].curves.push_back(scaled(*column, *collapse, "height", until));
     }
     if (is_martin_and_moyce(first)) {
-        Curve water{.title = "water, Martin and Moyce 1952",
-                    .x = {},
-                    .y = {},
-                    .mark = Mark::points,
-                    .style = 5};
+        Curve water{"water, Martin and Moyce 1952", {}, {}, Mark::points, 5};
         for (const Measured& one : martin_and_moyce()) {
             if (scaled_time(first, one.T) > until) continue;
-            water.x.push_back(scaled_time(first, one.T));
-            water.y.push_back(one.Z);
+            add_point(water, scaled_time(first, one.T), one.Z);
         }
         panels[0].curves.push_back(water);
     }
-    session.note_drawn(draw_curves(session.plots_folder(), "motion",
-                                   fmt::format("Collapse of a column, {} times as high as wide",
-                                               static_cast<double>(first.rows) / first.width),
-                                   panels));
+    draw_curves(session, "motion",
+                fmt::format("Collapse of a column, {} times as high as wide",
+                            static_cast<double>(first.rows) / first.width),
+                panels);
 }
 
 /// Densities of the columns at rest, against the depth below the surface that their mass has by the formula.
@@ -60,36 +49,29 @@ void draw_profiles(Session& session, const std::vector<Computed>& columns) {
     const FluidColumn& first = *columns[0].column;
     const double deepest = hydrostatic_depth(first.g, first.rows);
     Curve formula{.title = "(2 + √(1 + 6 g d)) / 3", .x = {}, .y = {}}, zero = formula;
-    for (int k = 0; k <= 200; ++k) {
-        formula.x.push_back(deepest * k / 200.0 / first.width);
-        formula.y.push_back(hydrostatic_density(first.g, deepest * k / 200.0));
-    }
+    for (int k = 0; k <= 200; ++k)
+        add_point(formula, deepest * k / 200.0 / first.width,
+                  hydrostatic_density(first.g, deepest * k / 200.0));
     zero.x = formula.x;
     zero.y.assign(formula.x.size(), 0.0);
     densities.curves.push_back(formula);
     differences.curves.push_back(zero);
     for (int style = 2; const auto& [column, rest, collapse] : columns) {
-        Curve density{.title = fmt::format("{} particles", column->particles()),
-                      .x = {},
-                      .y = {},
-                      .mark = Mark::points,
-                      .style = style++},
+        Curve density{
+            fmt::format("{} particles", column->particles()), {}, {}, Mark::points, style++},
             difference = density;
         const double surface = hydrostatic_depth(column->g, column->rows);
         for (const Slab& slab : slabs_of(*column, rest->y)) {
             const double depth = surface - slab.y;
-            density.x.push_back(depth / column->width);
-            density.y.push_back(slab.density);
+            add_point(density, depth / column->width, slab.density);
             if (depth < column->width / 6.0) continue;  // the surface would hide all others
-            difference.x.push_back(depth / column->width);
-            difference.y.push_back(100.0 *
-                                   (slab.density / hydrostatic_density(column->g, depth) - 1.0));
+            add_point(difference, depth / column->width,
+                      100.0 * (slab.density / hydrostatic_density(column->g, depth) - 1.0));
         }
         densities.curves.push_back(density);
         differences.curves.push_back(difference);
     }
-    session.note_drawn(draw_curves(session.plots_folder(), "profile", "The column at rest",
-                                   {densities, differences}));
+    draw_curves(session, "profile", "The column at rest", {densities, differences});
 }
 
 /// No more than at the floor at rest, so that a few particles do not take the colours from the others.
@@ -122,10 +104,10 @@ void draw_particles(Session& session, const Parameters& p, const FluidColumn& co
                  pressures(p, column, state),
                  {walls}});
     if (panels.empty()) return;
-    session.note_drawn(draw_configurations(
-        session.plots_folder(), "configurations",
+    draw_configurations(
+        session, "configurations",
         fmt::format("Collapse of {} particles; warm colours: tension", column.particles()), panels,
-        2, "pressure", ColourScale::about_zero));
+        2, "pressure", ColourScale::about_zero);
 }
 
 }  // namespace

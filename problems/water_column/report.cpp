@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "column.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <span>
-
 namespace water_column {
 namespace {
 
@@ -19,24 +13,22 @@ bool is_standard(const Session& session, const Parameters& p) {
 
 /// Mean force of the floor over the last tenth of the run, by the weight.
 double floor_force(const FluidColumn& column, const History& h) {
-    const double until = h.last("t"), since = 0.9 * until;
-    return (h.last("impulse_bottom_y") - h.at(since, "impulse_bottom_y")) /
-           (until - h.at(since, "t")) / (column.g * column.particles());
+    return h.mean_rate("impulse_bottom_y", 0.9) / (column.g * column.particles());
 }
 
 void report_rest(Session& session, const FluidColumn& column, double range, bool known,
                  const RunRecord& run) {
+    const Findings findings(session, column.prefix);
     const History& h = run.history;
-    session.claim({column.prefix + "profile_error", profile_error(column, run.y, range), 0.0, 0.01,
-                   "rho(d) = (2 + sqrt(1 + 6 g d))/3"},
-                  known && run.complete && column.width >= figure_width);
-    session.measure(column.prefix + "mass_error", mass_error(column, run.y, range),
-                    "particles below the surface, against the same formula");
-    session.claim(
-        {column.prefix + "floor_force", floor_force(column, h), 1.0, 0.01, "by the weight"},
-        known && run.complete && column.width >= figure_width);
-    session.measure(column.prefix + "kinetic_energy_at_rest",
-                    h.last("kinetic") / column.particles(), "a particle's");
+    findings.claim("profile_error", profile_error(column, run.y, range), 0.0, 0.01,
+                   "rho(d) = (2 + sqrt(1 + 6 g d))/3",
+                   known && run.complete && column.width >= figure_width);
+    findings.measure("mass_error", mass_error(column, run.y, range),
+                     "particles below the surface, against the same formula");
+    findings.claim("floor_force", floor_force(column, h), 1.0, 0.01, "by the weight",
+                   known && run.complete && column.width >= figure_width);
+    findings.measure("kinetic_energy_at_rest", h.last("kinetic") / column.particles(),
+                     "a particle's");
     session.check_promises(run, column.prefix + "relaxation_");
 }
 
@@ -51,6 +43,7 @@ bool reached(const RunRecord& run, double t) { return run.statistics.t_end >= t 
 
 void report_collapse(Session& session, const FluidColumn& column, bool known,
                      const RunRecord& run) {
+    const Findings findings(session, column.prefix);
     const History& h = run.history;
     for (const Known& one : known_fronts) {
         const double t = one.time * column.unit;
@@ -62,14 +55,14 @@ void report_collapse(Session& session, const FluidColumn& column, bool known,
         for (const char* name : {"leading_percent", "height"})
             session.measure(fmt::format("{}{}_at_{:g}", column.prefix, name, t), h.at(t, name));
     }
-    session.measure(column.prefix + "closest_pair", h.smallest("closest_pair"),
-                    "smallest of the collapse");
+    findings.measure("closest_pair", h.smallest("closest_pair"), "smallest of the collapse");
     session.check_promises(run, column.prefix + "collapse_");
 }
 
 /// Against water, where the run has come so far. A fluid in which sound is not much faster than the flow
 /// starts earlier: pushed together at rest, it springs apart when it is let go (less so with --gravity 0.1).
 void report_water(Session& session, const FluidColumn& column, bool known, const RunRecord& run) {
+    const Findings findings(session, column.prefix);
     double largest = 0.0, latest = 0.0;
     for (const Measured& water : martin_and_moyce()) {
         const double t = scaled_time(column, water.T) * column.width;
@@ -80,11 +73,10 @@ void report_water(Session& session, const FluidColumn& column, bool known, const
         latest = front / water.Z - 1.0;
         largest = std::max(largest, std::abs(latest));
     }
-    session.measure(column.prefix + "largest_difference_from_water", largest,
-                    "Martin and Moyce 1952; the first fronts");
-    session.claim({column.prefix + "difference_from_water", latest, 0.0, 0.1,
-                   "Martin and Moyce 1952, the last front"},
-                  known && column.width >= figure_width);
+    findings.measure("largest_difference_from_water", largest,
+                     "Martin and Moyce 1952; the first fronts");
+    findings.claim("difference_from_water", latest, 0.0, 0.1,
+                   "Martin and Moyce 1952, the last front", known && column.width >= figure_width);
 }
 
 /// Of all samples of a size that have come to time t: mean and standard deviation of a column of the history.

@@ -74,6 +74,11 @@ double History::relative_drift(std::string_view name) const {
 /// NaN where there was one.
 double History::largest_change(std::string_view name) const { return extents_[index(name)].change; }
 
+double History::mean_rate(std::string_view name, double part) const {
+    const double until = last("t"), since = part * until;
+    return (last(name) - at(since, name)) / (until - at(since, "t"));
+}
+
 double History::at(double t, std::string_view name) const {
     const std::size_t k = index(name);
     if (t <= rows_.front()[0]) return rows_.front()[k];

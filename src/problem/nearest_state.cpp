@@ -7,11 +7,15 @@
 namespace spam {
 
 template <int Dim>
-void NearestState<Dim>::offer(double now, const ConstState<Dim>& state) {
-    if (there() && std::abs(now - wanted) > std::abs(t - wanted)) return;
-    t = now;
-    position = state.position();
-    velocity = state.velocity();
+bool NearestState<Dim>::wants(double time) const {
+    return !there() || std::abs(time - wanted) <= std::abs(t - wanted);
+}
+
+template <int Dim>
+std::vector<NearestState<Dim>> states_at(const std::vector<double>& parts, double whole) {
+    std::vector<NearestState<Dim>> states;
+    for (const double part : parts) states.push_back({part * whole});
+    return states;
 }
 
 namespace {
@@ -25,18 +29,24 @@ void remember_all(Archive& archive, std::vector<NearestState<Dim>>& states) {
         for (const auto& other : kept) {
             const double off = std::abs(other.t - state.wanted);
             if (state.there() && off >= std::abs(state.t - state.wanted)) continue;
-            state = {state.wanted, other.t, other.position, other.velocity};
+            state = {state.wanted, other.t, other.position, other.velocity, other.values};
         }
 }
 
 }  // namespace
 
 template <int Dim>
-Observer<Dim> keep_nearest(std::vector<NearestState<Dim>>& states) {
-    return {.on_snapshot =
-                [&states](double t, const Model<Dim>& model, std::span<const double> y) {
-                    for (auto& state : states) state.offer(t, {model.layout(), y});
-                },
+Observer<Dim> keep_nearest(std::vector<NearestState<Dim>>& states,
+                           std::type_identity_t<ValuesOfState<Dim>> values_of) {
+    const auto keep = [&states, values_of](double t, const Model<Dim>& model,
+                                           std::span<const double> y) {
+        const ConstState<Dim> now(model.layout(), y);
+        for (auto& state : states)
+            if (state.wants(t))
+                state = {state.wanted, t, now.position(), now.velocity(),
+                         values_of ? values_of(model, y) : std::vector<double>{}};
+    };
+    return {.on_snapshot = keep,
             .memory = [&states](Archive& archive) { remember_all(archive, states); }};
 }
 
@@ -53,9 +63,10 @@ ConfigurationPanel speed_panel(const std::string& title, const Model<2>& model,
     return {title, state.position, speed, {polygon}};
 }
 
-#define SPAM_INSTANTIATE(D)          \
-    template struct NearestState<D>; \
-    template Observer<D> keep_nearest(std::vector<NearestState<D>>&);
+#define SPAM_INSTANTIATE(D)                                                              \
+    template struct NearestState<D>;                                                     \
+    template std::vector<NearestState<D>> states_at(const std::vector<double>&, double); \
+    template Observer<D> keep_nearest(std::vector<NearestState<D>>&, ValuesOfState<D>);
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)
 SPAM_INSTANTIATE(3)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/setup/initial_state.hpp>
+#include <spam/setup/lattices.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,10 @@ std::vector<double> initial_state(Model<Dim>& model, double density, double modu
     const double sound = std::sqrt(modulus / density);
     model.set_scales({model.particles().spacing, speed > 0.0 ? speed : sound, density, modulus});
     return y;
+}
+
+std::vector<double> lattice_state(Model<2>& model, const VelocityField<2>& velocity) {
+    return initial_state<2>(model, triangular_density, triangular_modulus, velocity);
 }
 
 template std::vector<double> initial_state(Model<1>&, double, double, const VelocityField<1>&);

@@ -43,6 +43,8 @@ class History {
     double relative_drift(std::string_view name) const;
     /// max over rows of |value - first|
     double largest_change(std::string_view name) const;
+    /// (last - value then) / (end - then), from `part` of the last row's time on: the mean force, say, of an impulse.
+    double mean_rate(std::string_view name, double part) const;
     /// Value at time t, linear between rows, constant outside.
     double at(double t, std::string_view name) const;
 

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <exception>
+#include <type_traits>
 
 namespace spam {
 
@@ -30,6 +31,15 @@ class Session {
     bool given(std::string_view option) const { return problem_.options_.given(option); }
     /// Values of the options that every problem has.
     const CommonOptions& common() const { return problem_.common_; }
+    /// In smoke runs, `smoke` becomes the value of an option that is not given.
+    template <class Value>
+    void smoke_default(std::string_view option, Value& value, std::type_identity_t<Value> smoke) {
+        if (common().smoke && !given(option)) value = smoke;
+    }
+    /// --t-end, or what the problem plans: `usual`, in smoke runs `smoke`.
+    double end(double usual, double smoke) const {
+        return common().t_end.value_or(common().smoke ? smoke : usual);
+    }
     /// The scheme that the options say; the standard one without use_scheme().
     const Scheme& scheme() const { return problem_.scheme_; }
     /// Throws InputError where the options of the integrator mean nothing.

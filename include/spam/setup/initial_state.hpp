@@ -31,4 +31,7 @@ template <int Dim>
 std::vector<double> initial_state(Model<Dim>& model, double density, double modulus,
                                   const VelocityField<Dim>& velocity);
 
+/// That of a triangular lattice of mass and spacing 1 and springs of constant 1 (setup/lattices.hpp).
+std::vector<double> lattice_state(Model<2>& model, const VelocityField<2>& velocity);
+
 }  // namespace spam

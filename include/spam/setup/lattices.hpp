@@ -4,7 +4,14 @@
 #include <spam/core/particles.hpp>
 #include <spam/neighbors/box.hpp>
 
+#include <cmath>
+
 namespace spam {
+
+/// Mass per area of a triangular lattice of mass and spacing 1.
+inline const double triangular_density = std::sqrt(4.0 / 3.0);
+/// lambda = eta of its springs of constant 1 (ElasticSolid::triangular_lattice()).
+inline const double triangular_modulus = std::sqrt(3.0 / 16.0);
 
 /// Regular hexagon of triangular lattice, nearest spacing `spacing`, centred on the origin, corners
 /// n spacings away (one on the +x axis): 2 x (1 + 3n + 3n^2). [HHM04] VIII. n >= 0.
@@ -26,12 +33,31 @@ Box<2> triangular_box(int columns, int rows, double spacing = 1.0);
 template <int Dim>
 Points<Dim> square_lattice(const std::array<int, Dim>& cells, double spacing = 1.0);
 
+/// The middles of so many squares (cubes, pieces of a line) of side 1 from the origin on.
+template <int Dim>
+Points<Dim> cell_centres(const std::array<int, Dim>& cells) {
+    return square_lattice<Dim>(cells).array() + 0.5;
+}
+
+/// With their mean at the origin.
+template <int Dim>
+Points<Dim> centred(const Points<Dim>& position) {
+    return position.colwise() - Point<Dim>(position.rowwise().mean());
+}
+
 /// Particles of equal mass at rest positions, put into strip order, with ids that remember the
 /// order given and bodies found as parts connected within `reach` (1.5 spacings connects a
 /// lattice).
 template <int Dim>
 Particles<Dim> make_particles(const Points<Dim>& position, double mass, double spacing = 1.0,
                               const Box<Dim>& box = {}, double reach = 0.0);
+
+/// The same particles as one body, wherever they are.
+template <int Dim>
+Particles<Dim> one_body(Particles<Dim> particles) {
+    particles.body.assign(particles.size(), 0);
+    return particles;
+}
 
 /// Several bodies one after the other: ids and numbers of bodies of each go on behind those of the one
 /// before, so that the particles of part k are those from the sum of the sizes before it on, and a term of

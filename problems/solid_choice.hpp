@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elastic bodies of the three formulations, as options choose one.
+#pragma once
+
+#include "common.hpp"
+#include <spam/material/polynomial_solid.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
+
+namespace spam {
+
+/// --formulation, --penalty and --viscosity.
+struct SolidChoice {
+    Formulation formulation = Formulation::total_lagrangian;
+    std::optional<double> penalty{};  ///< kappa of the solids that remember
+    double viscosity = 0.0;           ///< alpha of the updated one
+
+    bool lagrangian() const { return formulation == Formulation::total_lagrangian; }
+    bool vectors() const { return formulation == Formulation::material_vectors; }
+    bool remembers() const { return lagrangian() || vectors(); }
+    double kappa() const {
+        return penalty.value_or(lagrangian() ? 0.1 : MaterialVectorScheme::default_penalty);
+    }
+
+    void add_formulation_option(Options& options) {
+        options.choice<Formulation>(
+            "formulation", formulation,
+            {Formulation::total_lagrangian, Formulation::updated, Formulation::material_vectors},
+            "sums over the initial neighbours, over the present ones, or over "
+            "the present ones with a memory");
+    }
+    void add_constants(Options& options) {
+        options
+            .number("penalty", penalty,
+                    "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
+                    "material_vectors (default 2)",
+                    between(0.0, 100.0))
+            .only_when(
+                {"formulation"}, [this] { return remembers(); },
+                "has no meaning for --formulation updated; leave it out");
+        options
+            .number("viscosity", viscosity, "alpha of von Neumann's artificial viscosity",
+                    between(0.0, 100.0))
+            .only_when(
+                {"formulation"}, [this] { return !remembers(); },
+                "has no meaning for {by}; leave it out");
+    }
+
+    /// Among `count` particles from number `first` on. `updated`: of smooth particles, but for range and viscosity.
+    void add_term(ParticleModel<2>& model, std::size_t first, std::size_t count,
+                  const ElasticSolid& solid, double density, double range, Scheme updated) const {
+        updated.range = range;
+        updated.viscosity = viscosity;
+        if (lagrangian())
+            model.add_term_among<TotalLagrangian<2>>(
+                first, count, StVenantKirchhoff::like(solid),
+                TotalLagrangianScheme{density, range, kappa()});
+        else if (vectors())
+            model.add_term_among<MaterialVectors<2>>(first, count, PolynomialSolid::like(solid),
+                                                     MaterialVectorScheme{density, range, kappa()});
+        else
+            model.add_term_among<SmoothParticles<2>>(first, count, solid, updated);
+    }
+};
+
+}  // namespace spam
