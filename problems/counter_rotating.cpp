@@ -125,6 +125,7 @@ int main(int argc, char** argv) {
             plan.observe(keep_nearest<2>(pair.drawn));
             return plan;
         });
+        // what was found
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const History& h = runs[k].history;
             const Scheme& scheme = pairs[k].model->scheme();

@@ -293,6 +293,7 @@ int main(int argc, char** argv) {
             plan.observe(keep_nearest<2>(hexagon.drawn));
             return plan;
         });
+        // what was found
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const std::string prefix = single ? "" : runs[k].label + "_";
             const Model<2>& model = *hexagons[k].model;

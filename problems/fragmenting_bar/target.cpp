@@ -35,7 +35,7 @@ void add_target_options(Options& options, Target& target) {
                    between(-1e6, 1e6));
 }
 
-void make_small(Session& session, Target& target) {
+void make_small(const Session& session, Target& target) {
     session.smoke_default("columns", target.columns, 4);
     session.smoke_default("rows", target.rows, 16);
     session.smoke_default("projectile", target.projectile, 2);

@@ -25,7 +25,7 @@ struct Target {
 void add_target_options(Options& options, Target& target);
 
 /// Smaller where it is a smoke test, but what is given.
-void make_small(Session& session, Target& target);
+void make_small(const Session& session, Target& target);
 
 /// Throws InputError where the projectile would go beyond `range` in a step, or in an interval between rows, in
 /// which bodies are searched for.

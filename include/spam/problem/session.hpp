@@ -33,7 +33,8 @@ class Session {
     const CommonOptions& common() const { return problem_.common_; }
     /// In smoke runs, `smoke` becomes the value of an option that is not given.
     template <class Value>
-    void smoke_default(std::string_view option, Value& value, std::type_identity_t<Value> smoke) {
+    void smoke_default(std::string_view option, Value& value,
+                       std::type_identity_t<Value> smoke) const {
         if (common().smoke && !given(option)) value = smoke;
     }
     /// --t-end, or what the problem plans: `usual`, in smoke runs `smoke`.
