@@ -145,11 +145,11 @@ const std::vector<std::pair<std::string, Add>> externals{
 /// How fast what should be kept changes at a state on the way: the derivatives of p - impulse,
 /// L - angular impulse and E - work - heat along the rates, by differences of fourth order (exact for p
 /// and L, which are of second degree in y).
-struct Change {
+struct Drift {
     double momentum, angular_momentum, energy;
 };
 
-Change change_of(ParticleModel<2>& model) {
+Drift drift_of(ParticleModel<2>& model) {
     IntegratorOptions rk4;
     rk4.dt = 0.05;
     Motion<2> motion(model, start_of(model), rk4);
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(accounts_close_for_every_law_and_every_external) {
         for (const auto& [external, add] : externals) BOOST_TEST_CONTEXT(law << ", " << external) {
                 const auto model = make();
                 add(*model);
-                const Change change = change_of(*model);
+                const Drift change = drift_of(*model);
                 BOOST_TEST(change.momentum < 1e-11);
                 BOOST_TEST(change.energy < 1e-9);
                 if (model->promises().angular_momentum != Promise::not_kept)
@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_booked_is_missed) {
     };
     const auto model = laws.front().second();
     model->add(std::make_unique<Forgetful>());
-    const Change change = change_of(*model);
+    const Drift change = drift_of(*model);
     BOOST_TEST(change.momentum < 1e-11);
     BOOST_TEST(change.energy > 1e-4);
 }
