@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/exact_sum.hpp>
-
 #include "exact_sum_digits.hpp"
 #include "levels.hpp"
+#include <spam/core/exact_sum.hpp>
 
 #include <bit>
 #include <cmath>
@@ -26,7 +25,8 @@ ExactSum& ExactSum::operator+=(double x) {
     }
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const int biased = static_cast<int>(bits >> 52 & 0x7ff);
-    const int place = biased > 0 ? biased - 1 : 0;  // of the last bit, above that of the smallest number
+    const int place =
+        biased > 0 ? biased - 1 : 0;  // of the last bit, above that of the smallest number
     std::int64_t number = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << 52) - 1));
     if (biased > 0) number |= std::int64_t{1} << 52;
     const int shift = place % digit_bits, sign = x < 0.0 ? -1 : 1;
@@ -97,7 +97,8 @@ double ExactSum::value() const {
     }
     for (std::size_t below = 3; below <= top; ++below) rest |= digit(below);
     if (rest != 0) high |= 1;
-    const double size = std::ldexp(static_cast<double>(high), lowest_exponent + digit_bits * static_cast<int>(top) - space);
+    const double size = std::ldexp(static_cast<double>(high),
+                                   lowest_exponent + digit_bits * static_cast<int>(top) - space);
     return negative ? -size : size;
 }
 

@@ -23,6 +23,15 @@ double carried_energy(const Particles<Dim>& particles, const ConstState<Dim>& st
     });
 }
 
+/// sum m |e|
+template <int Dim>
+double carried_energies(const Particles<Dim>& particles, const ConstState<Dim>& state) {
+    const auto e = state.energy();
+    return exact_sum(particles.size(), [&](std::size_t i) {
+        return particles.mass[i] * std::abs(e(0, static_cast<Eigen::Index>(i)));
+    });
+}
+
 /// Where neither particles nor sound move: what particles have fallen at over their distance. 1 where nothing
 /// pulls at them either.
 template <int Dim>

@@ -3,7 +3,6 @@
 #include "packed_particles.hpp"
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
-#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/variable_range.hpp>
@@ -282,11 +281,7 @@ double OwnRanges<Dim>::energy(std::span<const double> y) const {
 
 template <int Dim>
 double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
-    const auto e = this->state_of(y).energy();
-    const double sum = exact_sum(range_.size(), [&](std::size_t i) {
-        return this->particles().mass[i] * std::abs(e(0, static_cast<Eigen::Index>(i)));
-    });
-    return sum / this->particles().spacing;
+    return carried_energies(this->particles(), this->state_of(y)) / this->particles().spacing;
 }
 
 template <int Dim>

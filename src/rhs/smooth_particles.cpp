@@ -4,7 +4,6 @@
 #include "gauss_forces.hpp"
 #include "torque_factors.hpp"
 #include <spam/core/error.hpp>
-#include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -19,6 +18,7 @@ namespace spam {
 namespace {
 
 constexpr FieldKind works_kind{"gauss_works", Rank::scalar, Role::memory, "1"};
+
 Scheme validated(const Scheme& scheme, int dim) {
     scheme.validate(dim);
     return scheme;
@@ -285,11 +285,8 @@ std::vector<double> SmoothParticles<Dim>::density(std::span<const double> y) con
 template <int Dim>
 double SmoothParticles<Dim>::neighbour_forces(std::span<const double> y) const {
     const ConstState<Dim> state = this->state_of(y);
-    const auto& mass = this->particles().mass;
-    const double energies = exact_sum(mass.size(), [&](std::size_t i) {
-        return mass[i] * std::abs(state.energy()(0, static_cast<Eigen::Index>(i)));
-    });
-    return (energies + constitution_->stress_forces(state, this->densities(y))) /
+    return (carried_energies(this->particles(), state) +
+            constitution_->stress_forces(state, this->densities(y))) /
            this->particles().spacing;
 }
 

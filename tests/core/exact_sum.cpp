@@ -114,7 +114,8 @@ BOOST_AUTO_TEST_CASE(the_ends_of_the_range) {
     check_sum(std::vector<double>(1000, least), 1000.0 * least, random);
     check_sum({1.0, infinity, most}, infinity, random);
     check_sum({1.0, -infinity, 2.0}, -infinity, random);
-    for (const auto& x : {std::vector<double>{1.0, std::nan(""), 2.0}, {infinity, -infinity, 1.0}}) {
+    for (const auto& x :
+         {std::vector<double>{1.0, std::nan(""), 2.0}, {infinity, -infinity, 1.0}}) {
         BOOST_TEST(std::isnan(one_by_one(x)));
         BOOST_TEST(std::isnan(by_blocks(x)));
         BOOST_TEST(std::isnan(by_parts(x, 1)));
