@@ -70,7 +70,10 @@ void store(hid_t file, std::string_view path, hid_t type, hid_t stored, const vo
     const Dataset dataset(
         H5Dcreate2(file, name.c_str(), stored, space, H5P_DEFAULT, creation, H5P_DEFAULT));
     if (!dataset) cannot_hold(path);
-    if (!empty && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    // What integers of another size pass through on their way; of the usual 1 MiB every page would be zeroed.
+    const Properties transfer(H5Pcreate(H5P_DATASET_XFER));
+    H5Pset_buffer(transfer, 1 << 14, nullptr, nullptr);
+    if (!empty && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, transfer, values) < 0)
         cannot_hold(path);
 }
 
