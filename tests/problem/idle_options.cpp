@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // No option may silently do nothing: every option of every problem, given another legal value, is
 // refused, or changes the results and is part of case.toml. Words in a banner are no results.
+//
+// These are thousands of runs, which is why cases are small, and why options of the session are tried once for
+// every kind of results that a program leaves, not in every case (`of_the_session`).
 #include "problem/idle_options.hpp"
 
 #include "problem/result_files.hpp"
 #include <spam/io/checkpoint_file.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -79,19 +83,61 @@ Ran run_with(const std::string& program, const Words& arguments) {
     return ran;
 }
 
-/// Runs to compare with, by their words.
-class Comparisons {
+/// Which code of a session a case goes through: that of one run, of several or of none, by which integrator.
+std::string kind_of(const Words& words, const Ran& ran) {
+    std::string kind = "none";
+    for (const auto& [file, contents] : ran.results)
+        if (file.ends_with("invariants.csv")) kind = file == "invariants.csv" ? "one" : "several";
+    const auto integrator = std::find(words.begin(), words.end(), "--integrator");
+    return integrator == words.end() ? kind : kind + " by " + integrator[1];
+}
+
+/// The words of a case with others in place of those of the same options, or after them.
+Words with(Words words, const Words& others) {
+    for (std::size_t k = 0; k < others.size(); ++k) {
+        const bool has_value = k + 1 < others.size() && !others[k + 1].starts_with("--");
+        const auto given = std::find(words.begin(), words.end(), others[k]);
+        if (given == words.end())
+            words.insert(words.end(), &others[k], &others[k] + (has_value ? 2 : 1));
+        else if (has_value)
+            given[1] = others[k + 1];
+        if (has_value) ++k;
+    }
+    return words;
+}
+
+/// What one program is tried with.
+class Trial {
   public:
-    explicit Comparisons(std::string program) : program_(std::move(program)) {}
-    const Ran& with(const Words& words) {
+    explicit Trial(std::string program) : program_(std::move(program)) {
+        for (const auto& option : options_of(program_))
+            if (!no_part_of_the_case.contains(option.name) &&
+                !cannot_show.contains({program_, option.name}))
+                options_.push_back(option);
+    }
+    void every_option_of(const Words& words);
+    /// An option that all cases give is given with two values in them.
+    void nothing_is_left_out() const {
+        for (const auto& option : options_)
+            BOOST_TEST(tried_.contains(option.name), program_ << " --" << option.name);
+    }
+    std::size_t tried() const { return tried_.size(); }
+
+  private:
+    void check(const Words& words, const Option& option, bool has_run);
+    /// The run to compare with.
+    const Ran& ran_with(const Words& words) {
         const auto known = ran_.find(words);
         return known != ran_.end() ? known->second
                                    : ran_.emplace(words, run_with(program_, words)).first->second;
     }
 
-  private:
     std::string program_;
+    std::vector<Option> options_;
     std::map<Words, Ran> ran_;
+    std::set<std::string> tried_;  ///< options
+    std::set<std::pair<std::string, std::string>>
+        common_;  ///< kinds of cases and options of the session
 };
 
 /// The value to try; of an option that takes one there is one.
@@ -104,6 +150,13 @@ std::string value_of(const std::string& program, const std::string& option) {
     return another->second;
 }
 
+/// Words that must be there with it.
+Words needed_by(const std::string& program, const std::string& option) {
+    const auto own = own_beside.find({program, option});
+    if (own != own_beside.end()) return own->second;
+    return beside.contains(option) ? beside.at(option) : Words{};
+}
+
 /// Whether the value was refused, whatever else is given, so that nothing was tried.
 bool about_the_value(const std::string& refusal) {
     for (const char* words : {" must be ", "is unknown", "is missing", "finite number"})
@@ -111,17 +164,21 @@ bool about_the_value(const std::string& refusal) {
     return false;
 }
 
-void check_option(const std::string& program, Words words, Comparisons& comparisons,
-                  const Option& one) {
+void Trial::check(const Words& words, const Option& one, bool has_run) {
     const std::string& option = one.name;
-    if (beside.contains(option))
-        words.insert(words.end(), beside.at(option).begin(), beside.at(option).end());
-    const Words base = words;
-    words.push_back("--" + option);
-    if (one.has_value) words.push_back(value_of(program, option));
-    const Ran ran = run_with(program, words);
-    std::string shown = program;
-    for (const auto& word : words) shown.append(" ").append(word);
+    Words base = with(words, needed_by(program_, option));
+    // They take half the time of short runs. What only compares has none.
+    if (has_run && option != "checkpoint-every" && option != "compare")
+        base = with(base, {"--checkpoint-every", "1e6"});
+    Words changed{"--" + option};
+    if (one.has_value) changed.push_back(value_of(program_, option));
+    changed = with(base, changed);
+    const bool given = std::find(words.begin(), words.end(), "--" + option) != words.end();
+    if (changed == base || (given && tried_.contains(option))) return;
+    tried_.insert(option);
+    const Ran ran = run_with(program_, changed);
+    std::string shown = program_;
+    for (const auto& word : changed) shown.append(" ").append(word);
     BOOST_TEST_CONTEXT(shown) {
         if (ran.outcome.status == 2) {
             BOOST_TEST(ran.outcome.err.find(option) != std::string::npos, ran.outcome.err);
@@ -129,11 +186,40 @@ void check_option(const std::string& program, Words words, Comparisons& comparis
             return;
         }
         BOOST_TEST(ran.case_toml.find("\n" + option + " = ") != std::string::npos);
-        BOOST_TEST((ran.results != comparisons.with(base).results), "it does nothing");
+        BOOST_TEST((ran.results != ran_with(base).results), "it does nothing");
     }
 }
 
-/// ctest runs every fifth case apart, so that they share the processors.
+/// Of this process' children, ended ones.
+double processor_seconds() {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+void Trial::every_option_of(const Words& words) {
+    const double start = processor_seconds();
+    const Ran& before = ran_with(words);
+    BOOST_REQUIRE_MESSAGE(before.outcome.status == 0, program_ << before.outcome.err);
+    const std::string kind = kind_of(words, before);
+    for (const auto& option : options_)
+        if (!of_the_session.contains(option.name) || common_.insert({kind, option.name}).second)
+            check(words, option, !kind.starts_with("none"));
+    std::string shown = program_;
+    for (const auto& word : words) shown.append(" ").append(word);
+    BOOST_TEST_MESSAGE(shown << ": " << processor_seconds() - start << " s");
+}
+
+/// Their names, in the order of `cases`.
+std::vector<std::string> programs() {
+    std::vector<std::string> names;
+    for (const auto& [program, words] : cases)
+        if (std::find(names.begin(), names.end(), program) == names.end()) names.push_back(program);
+    return names;
+}
+
+/// ctest runs every fifth program apart, so that they share the processors.
 bool is_mine(std::size_t number) {
     const char* part = std::getenv("SPAM_FIFTH");
     return part == nullptr || number % 5 == std::strtoul(part, nullptr, 10);
@@ -143,22 +229,17 @@ bool is_mine(std::size_t number) {
 
 BOOST_AUTO_TEST_CASE(every_option_has_an_effect_or_is_refused) {
     std::size_t tried = 0;
-    for (std::size_t number = 0; number < cases.size(); ++number) {
-        const auto& [program, base] = cases[number];
+    const auto names = programs();
+    for (std::size_t number = 0; number < names.size(); ++number) {
         if (!is_mine(number)) continue;
 #if SPAM_SANITIZED
-        if (program != "rotating_hexagon") continue;  // thousands of runs, ten times slower
+        if (names[number] != "rotating_hexagon") continue;  // thousands of runs, ten times slower
 #endif
-        Comparisons comparisons(program);
-        const Ran& before = comparisons.with(base);
-        BOOST_REQUIRE_MESSAGE(before.outcome.status == 0, program << before.outcome.err);
-        for (const auto& option : options_of(program)) {
-            const bool given =
-                std::find(base.begin(), base.end(), "--" + option.name) != base.end();
-            if (given || no_part_of_the_case.contains(option.name)) continue;
-            check_option(program, base, comparisons, option);
-            ++tried;
-        }
+        Trial trial(names[number]);
+        for (const auto& [program, words] : cases)
+            if (program == names[number]) trial.every_option_of(words);
+        trial.nothing_is_left_out();
+        tried += trial.tried();
     }
 #if !SPAM_SANITIZED
     BOOST_TEST(tried > 100u);
