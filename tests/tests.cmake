@@ -262,6 +262,13 @@ function(spam_python_test path)
     set_tests_properties(${name} PROPERTIES DISABLED TRUE)
   endif()
 endfunction()
+# Optimised code only: flags of other builds take other times.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT SPAM_SANITIZE AND CMAKE_GENERATOR STREQUAL "Ninja")
+  add_test(NAME builds.compile_time COMMAND ${Python3_EXECUTABLE} -B
+    ${CMAKE_CURRENT_SOURCE_DIR}/builds/compile_time.py ${PROJECT_BINARY_DIR})
+  set_tests_properties(builds.compile_time PROPERTIES LABELS style TIMEOUT ${timeout}
+                                                      SKIP_REGULAR_EXPRESSION "skipped: ")
+endif()
 spam_python_test(numbers/numbers)
 spam_python_test(docs/docs)
 
