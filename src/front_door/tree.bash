@@ -9,7 +9,7 @@
 install=yes    # --no-install makes it no
 preset=release # test --preset changes it
 
-readonly set_up_failed=5 # exit status; those of a problem are listed by its --help
+readonly set_up_failed=5 # exit status; those of a problem: src/docs/results.md
 
 # By the names of Debian 12 and Ubuntu 24.04; each verb adds its own.
 readonly build_packages=(g++ cmake ninja-build libsundials-dev libeigen3-dev libgsl-dev libcli11-dev
