@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/harmonic_spring.hpp>
+#include <spam/setup/lattices.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -86,4 +87,15 @@ BOOST_AUTO_TEST_CASE(spring_force_is_minus_the_slope_of_its_energy) {
         BOOST_TEST(std::abs(spring.force(r) + slope) < 1e-9);
     }
     BOOST_TEST(spring.force(1.1) == 0.0);
+}
+
+namespace {
+const double copied = triangular_density;  // before main() begins, in any order of files
+}
+
+BOOST_AUTO_TEST_CASE(constants_of_the_triangular_lattice_are_there_before_anything_else) {
+    BOOST_TEST(copied == std::sqrt(4.0 / 3.0));
+    BOOST_TEST(triangular_modulus == std::sqrt(3.0 / 16.0));
+    static_assert(triangular_density > 1.15 && triangular_modulus < 0.44);
+    BOOST_TEST(ElasticSolid::triangular_lattice().eta == triangular_modulus);
 }

@@ -8,10 +8,11 @@
 
 namespace spam {
 
-/// Mass per area of a triangular lattice of mass and spacing 1.
-inline const double triangular_density = std::sqrt(4.0 / 3.0);
-/// lambda = eta of its springs of constant 1 (ElasticSolid::triangular_lattice()).
-inline const double triangular_modulus = std::sqrt(3.0 / 16.0);
+/// Mass per area of a triangular lattice of mass and spacing 1: sqrt(4/3). A literal, because constants of other
+/// files are made of it, which a compiler may initialise before the result of a function.
+constexpr double triangular_density = 1.1547005383792515;
+/// lambda = eta of its springs of constant 1 (ElasticSolid::triangular_lattice()): sqrt(3/16).
+constexpr double triangular_modulus = 0.4330127018922193;
 
 /// Regular hexagon of triangular lattice, nearest spacing `spacing`, centred on the origin, corners
 /// n spacings away (one on the +x axis): 2 x (1 + 3n + 3n^2). [HHM04] VIII. n >= 0.
