@@ -45,8 +45,8 @@ Region region_of(const Parameters& p) {
 }
 
 /// Of rk4. Frequencies go as 1 over the range squared; weak friction leaves the atoms fast, for longer, and each
-/// closest approach adds an error of the energy (measured: a few 1e-5 for all ranges and frictions that the
-/// options take); strong friction is stiff.
+/// closest approach adds an error of the energy (measured at ranges 1.1 to 1.5 and frictions .001 to 100: at most
+/// 7.4e-5); strong friction is stiff.
 double step_of(const Parameters& p) {
     return 0.1 *
            std::min({1.0, std::pow(p.range / 1.5, 2), std::cbrt(p.damping / 0.1), 2.5 / p.damping});

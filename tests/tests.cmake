@@ -255,7 +255,7 @@ endif()
 find_package(Python3 3.11 COMPONENTS Interpreter)
 function(spam_python_test path)
   string(REPLACE "/" "." name ${path})
-  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/${path}.py)
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/${path}.py ${ARGN})
   set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT ${timeout}
                                           SKIP_REGULAR_EXPRESSION "skipped: ")
   if(NOT Python3_EXECUTABLE)
@@ -264,10 +264,7 @@ function(spam_python_test path)
 endfunction()
 # Optimised code only: flags of other builds take other times.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT SPAM_SANITIZE AND CMAKE_GENERATOR STREQUAL "Ninja")
-  add_test(NAME builds.compile_time COMMAND ${Python3_EXECUTABLE} -B
-    ${CMAKE_CURRENT_SOURCE_DIR}/builds/compile_time.py ${PROJECT_BINARY_DIR})
-  set_tests_properties(builds.compile_time PROPERTIES LABELS style TIMEOUT ${timeout}
-                                                      SKIP_REGULAR_EXPRESSION "skipped: ")
+  spam_python_test(builds/compile_time ${PROJECT_BINARY_DIR})
 endif()
 spam_python_test(numbers/numbers)
 spam_python_test(docs/docs)

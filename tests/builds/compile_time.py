@@ -15,9 +15,8 @@ from pathlib import Path
 
 BUILD = Path(sys.argv.pop(1)) if len(sys.argv) > 1 else Path("build/release")
 MOST = 30.0
-# Its processor time on a quiet core: of a compiler that compiles everything else in half the time, half.
+# Its processor time on a quiet core of the quicker kind (1.8 s on a slower one), so that noise fails no build.
 REFERENCE, REFERENCE_SECONDS = "tests/support/main.cpp", 1.3
-SOURCES = 1
 
 
 def commands():
@@ -56,11 +55,10 @@ class CompileTimes(unittest.TestCase):
         reference = next(command for file, command in known.values() if file.endswith(REFERENCE))
         with tempfile.TemporaryDirectory() as folder:
             seconds = min(processor_seconds(reference, folder) for _ in range(2)) / REFERENCE_SECONDS
-            for output in slowest(known)[:SOURCES]:
-                file, command = known[output]
-                taken = processor_seconds(command, folder) / seconds
-                print(f"{os.path.relpath(file, BUILD)}: {taken:.1f} s of a quiet core")
-                self.assertLess(taken, MOST, file)
+            file, command = known[slowest(known)[0]]
+            taken = processor_seconds(command, folder) / seconds
+            print(f"{os.path.relpath(file, BUILD)}: {taken:.1f} s of a quiet core")
+            self.assertLess(taken, MOST, file)
 
 
 if __name__ == "__main__":

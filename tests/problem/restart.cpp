@@ -2,7 +2,7 @@
 // Checkpoints and --restart: a run that was stopped and one that was not are the same, byte for byte.
 #include "problem/twins.hpp"
 #include "support/effort.hpp"
-#include <spam/core/error.hpp>
+#include "support/refusal.hpp"
 
 #include <cmath>
 #include <random>
@@ -263,9 +263,10 @@ BOOST_AUTO_TEST_CASE(a_thousand_damaged_files_are_refused) {
         ++tried;
         folder.write("damaged.h5", damaged);
         if (tried % 10 != 0) {
-            const auto read = [&] { CheckpointReader((folder / "damaged.h5").string()); };
-            BOOST_CHECK_THROW(read(), spam::InputError);
-            ++refused;
+            const std::string why = refusal([&] { CheckpointReader(folder / "damaged.h5"); });
+            const bool said = why != "accepted" && why.find('\n') == std::string::npos;
+            BOOST_TEST(said, k << ": " << why);
+            refused += said ? 1 : 0;
             continue;
         }
         const Outcome outcome = run_in(folder, "rotating_hexagon", {"--restart", "damaged.h5"});
