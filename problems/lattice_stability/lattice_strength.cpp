@@ -100,7 +100,7 @@ struct Derivatives {
     }
 };
 
-Points<2> forces(const DensityPotentials& p, const AnyWeight<2>& w, const Neighbourhood<2>& near) {
+Points<2> forces(const DensityPotentials& p, const AnyWeight<2>& w, const ListedParticles<2>& near) {
     Points<2> force = Points<2>::Zero(2, near.position.cols());
     for_each_term(p, w,
                   [&](const auto& term) { force += energy_and_forces<2>(term, w, near).force; });
@@ -151,7 +151,7 @@ Eigen::MatrixXd hessian(const DensityPotentials& potentials, const Points<2>& po
     const auto force = [&](Eigen::Index k, double shift) {
         moved.reshaped()(k) += shift;
         const Eigen::VectorXd F =
-            forces(potentials, w, Neighbourhood<2>{moved, mass, pairs, box}).reshaped();
+            forces(potentials, w, ListedParticles<2>{moved, mass, pairs, box}).reshaped();
         moved.reshaped()(k) = position.reshaped()(k);
         return F;
     };

@@ -18,9 +18,7 @@ constexpr double touching = 1e-9;  ///< of a spacing: distances that count as no
 template <int Dim>
 Point<Dim> nearest_separation(const Box<Dim>& box, const Points<Dim>& wrapped, Eigen::Index from,
                               Eigen::Index to) {
-    Point<Dim> s;
-    for (int a = 0; a < Dim; ++a) s[a] = box.nearest_image(a, wrapped(a, to) - wrapped(a, from));
-    return s;
+    return box.nearest(wrapped.col(to) - wrapped.col(from));
 }
 
 template <int Dim>

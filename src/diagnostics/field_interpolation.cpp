@@ -121,8 +121,7 @@ void FieldInterpolation<Dim>::each_near(const Point<Dim>& place, const Visit& vi
         for (std::size_t e = start_[static_cast<std::size_t>(cell)];
              e < start_[static_cast<std::size_t>(cell) + 1]; ++e) {
             Point<Dim> s = here - sorted_.col(static_cast<Eigen::Index>(e));
-            if (!nearest)
-                for (int a = 0; a < Dim; ++a) s(a) = box_.nearest_image(a, s(a));
+            if (!nearest) s = box_.nearest(s);
             const double r2 = s.squaredNorm();
             if (r2 < range2) visit(particle_[e], s, std::sqrt(r2));
         }

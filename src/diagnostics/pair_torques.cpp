@@ -45,10 +45,10 @@ PairTorques pair_torques(const SmoothParticleModel<2>& model, std::span<const do
         for (const std::uint32_t j : list.neighbours(i)) {
             if (j <= i) continue;
             Vec<2> x_j = particle[j].x;
+            const Vec<2> r = x_j - particle[i].x;
+            const Point<2> nearest = model.box().nearest({r[0], r[1]});
             for (int a = 0; a < 2; ++a)
-                if (model.box().periodic(a))
-                    x_j[a] =
-                        particle[i].x[a] + model.box().nearest_image(a, x_j[a] - particle[i].x[a]);
+                if (model.box().periodic(a)) x_j[a] = particle[i].x[a] + nearest[a];
             const auto pair = make_pair<2, double>(weight, separation(particle[i].x, x_j),
                                                    particle[i], particle[j]);
             const double T = particle[i].m * particle[j].m *

@@ -42,29 +42,6 @@ ClusterView ClusterList<Dim>::view() const {
 }
 
 template <int Dim>
-ClusterView ClusterList<Dim>::behind_wall(int a, bool upper) const {
-    BehindWall& wall = behind_[static_cast<std::size_t>(2 * a + (upper ? 1 : 0))];
-    if (wall.build != builds_) {
-        wall.build = builds_;
-        wall.all.clear();
-        const auto owned = static_cast<std::uint32_t>(order_.size());
-        std::vector<std::size_t> first{0};
-        for (std::size_t c = 0; c < clusters(); ++c) {
-            for (const std::uint32_t entry : entries(c))
-                if (entry >= owned * stride_ && ghosts_.behind(entry / stride_ - owned, a, upper))
-                    wall.all.push_back(entry);
-            first.push_back(wall.all.size());
-        }
-        wall.all.insert(wall.all.end(), 2, 0);  // sweeps look one ahead
-        wall.entries.resize(clusters());
-        for (std::size_t c = 0; c < clusters(); ++c)
-            wall.entries[c] = {wall.all.data() + first[c],
-                               static_cast<std::uint32_t>(first[c + 1] - first[c])};
-    }
-    return {size_, wall.entries.size(), order_.data(), wall.entries.data()};
-}
-
-template <int Dim>
 std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) const {
     return {entries_[cluster].first, entries_[cluster].count};
 }

@@ -77,10 +77,8 @@ void ClosestApproach<Dim>::remember(Archive& archive) {
 
 template <int Dim>
 Point<Dim> ClosestApproach<Dim>::separation(const Points_& x, const Numbers& pair) const {
-    Point<Dim> r = x.col(pair.first) - x.col(pair.second);
-    if (periodic_)
-        for (int a = 0; a < Dim; ++a) r[a] = box_.nearest_image(a, r[a]);
-    return r;
+    const Point<Dim> r = x.col(pair.first) - x.col(pair.second);
+    return periodic_ ? box_.nearest(r) : r;
 }
 
 /// A list that is soon used up looks further next time; never by the clock.

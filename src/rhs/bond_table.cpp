@@ -4,6 +4,7 @@
 #include <spam/core/parallel.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/material_vectors.hpp>
+#include <spam/physics/record.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,13 +22,13 @@ constexpr FieldKind bodies_kind{"body_of_vectors", Rank::scalar, Role::memory, "
 // Of the range: how much farther than rows the list looks.
 constexpr double list_skin = 0.25;
 
+/// Of a position, a body and a number of a particle.
 template <int Dim>
-constexpr auto position_kinds() {
-    std::array<NumberKind, Dim + 2> kinds{};  // the last ones are the body and the particle
-    for (std::size_t a = 0; a < Dim; ++a)
-        kinds[a] = {Quantity::position, static_cast<unsigned char>(a)};
+constexpr auto kinds_of_record = [] {
+    std::array<NumberKind, Dim + 2> kinds{};
+    std::copy_n(RecordOf<Dim, double, column::Position>::kinds.begin(), Dim, kinds.begin());
     return kinds;
-}
+}();
 
 /// Whether somebody is among the partners of a particle, answered by a table of hashes.
 class Partners {
@@ -64,7 +65,7 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
       box_(box),
       loops_(loops),
       bodies_(std::move(bodies)),
-      list_((1.0 + skin) * range, list_skin * range, box.of_images(), lanes, Dim + 2),
+      near_((1.0 + skin) * range, list_skin * range, box, lanes, Dim + 2, kinds_of_record<Dim>),
       rows_(static_cast<std::size_t>(x.cols()), static_cast<std::size_t>(lanes)) {
     require_one_image(box, (1.0 + skin) * range);
     const std::size_t filled = groups() * rows_.lanes();
@@ -89,14 +90,10 @@ void BondTable<Dim>::set_bond(std::size_t k, std::size_t m, const Vec<Dim>& X, d
 
 template <int Dim>
 Vec<Dim> BondTable<Dim>::separation(const double* x, std::size_t k, std::size_t j) const {
+    const auto at = [x](std::size_t i) { return Eigen::Map<const Point<Dim>>(x + Dim * i); };
+    const Point<Dim> r_jk = box_.separation(at(j), at(k));
     Vec<Dim> r;
-    for (int a = 0; a < Dim; ++a) {
-        const auto c = static_cast<std::size_t>(a);
-        r[a] =
-            box_.periodic(a)
-                ? box_.nearest_image(a, box_.wrap(a, x[Dim * j + c]) - box_.wrap(a, x[Dim * k + c]))
-                : x[Dim * j + c] - x[Dim * k + c];
-    }
+    std::copy_n(r_jk.data(), Dim, r.c.begin());
     return r;
 }
 
@@ -109,17 +106,11 @@ std::vector<double> BondTable<Dim>::positions(const double* x) const {
 
 template <int Dim>
 void BondTable<Dim>::place(const double* x, double* to) const {
-    if (!box_.periodic()) {
-        parallel_for(particles(), [=](std::size_t i) {
-            for (std::size_t a = 0; a < Dim; ++a) to[i * Dim + a] = x[i * Dim + a];
-        });
-        return;
-    }
-    parallel_for(particles(), [&](std::size_t i) {
+    const bool periodic = box_.periodic();
+    parallel_for(particles(), [&, periodic](std::size_t i) {
         for (std::size_t a = 0; a < Dim; ++a)
-            to[i * Dim + a] = box_.periodic(static_cast<int>(a))
-                                  ? box_.wrap(static_cast<int>(a), x[i * Dim + a])
-                                  : x[i * Dim + a];
+            to[i * Dim + a] =
+                periodic ? box_.wrap(static_cast<int>(a), x[i * Dim + a]) : x[i * Dim + a];
     });
 }
 
@@ -139,32 +130,28 @@ BondView<Dim> BondTable<Dim>::view(double N0) {
 
 template <int Dim>
 void BondTable<Dim>::list_neighbours(const Eigen::Ref<const Points<Dim>>& x) {
-    list_.build(x);
+    near_.build(x);
     slot_of_.resize(particles());
     for (std::size_t slot = 0; slot < particles(); ++slot)
-        slot_of_[list_.order()[slot]] = static_cast<std::uint32_t>(slot);
+        slot_of_[near_.list().order()[slot]] = static_cast<std::uint32_t>(slot);
     rows_.tidy();
 }
 
 /// NeighbourSums of those of its body that are nearer than range + skin, by particle.
 template <int Dim>
 void BondTable<Dim>::count_neighbours(const double* x) {
-    constexpr std::size_t stride = Dim + 2;
     const double reach = (1.0 + skin) * range_;
-    records_.resize(list_.slots() * stride);
-    const Home<Dim> home = list_.home();
-    const auto order = list_.order();
-    parallel_for(order.size(), [&](std::size_t slot) {
-        const std::size_t i = order[slot];
-        double* const record = &records_[slot * stride];
-        for (std::size_t a = 0; a < Dim; ++a) record[a] = home(i, a, x[i * Dim + a]);
-        record[Dim] = 2.0 * reach * bodies_[i];  // another body is far away
-        record[Dim + 1] = static_cast<double>(i);
-    });
-    list_.refresh(records_.data(), position_kinds<Dim>());
-    const ClusterView view = list_.view();
+    near_.write(
+        0, Dim + 2,
+        [&](std::size_t i, double* record) {
+            std::copy_n(x + i * Dim, Dim, record);
+            record[Dim] = 2.0 * reach * bodies_[i];  // another body is far away
+            record[Dim + 1] = static_cast<double>(i);
+        },
+        kinds_of_record<Dim>);
+    const ClusterView view = near_.list().view();
     parallel_blocks(view.clusters, [&](std::size_t first, std::size_t count) {
-        loops_.count(view, records_.data(), reach * reach, missing_.data(), first, first + count);
+        loops_.count(view, near_.records().numbers, reach * reach, missing_.data(), first, first + count);
     });
 }
 
@@ -175,16 +162,16 @@ void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& part
     constexpr std::size_t stride = Dim + 2;
     const double reach2 = (1.0 + skin) * (1.0 + skin) * range_ * range_;
     const std::size_t cluster = slot_of_[k] / rows_.lanes(), before = newcomers.size();
-    const double* const own = &records_[slot_of_[k] * stride];
+    const double *const own = near_.record(slot_of_[k]), *const records = near_.records().numbers;
     partners.take(rows_, k);
-    for (const std::uint32_t entry : list_.entries(cluster)) {
+    for (const std::uint32_t entry : near_.list().entries(cluster)) {
         double r2 = 0.0;
         for (std::size_t a = 0; a <= Dim; ++a) {
-            const double r = records_[entry + a] - own[a];
+            const double r = records[entry + a] - own[a];
             r2 += r * r;
         }
         if (!(r2 < reach2)) continue;
-        const std::uint32_t j = list_.particle(entry / stride);
+        const std::uint32_t j = near_.list().particle(entry / stride);
         if (j != k && !partners.contain(j))
             newcomers.push_back({static_cast<std::uint32_t>(k), j, separation(x, k, j)});
     }
@@ -243,7 +230,7 @@ void BondTable<Dim>::idle_of(std::size_t k, const double* x, std::vector<Newcome
 
 template <int Dim>
 void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
-    if (!list_.serves(x)) list_neighbours(x);
+    if (!near_.list_serves(x)) list_neighbours(x);
     motion_.begin(x);
     ++updates_;
     load(x.data());
@@ -310,7 +297,7 @@ void BondTable<Dim>::remember(Memory<Dim>& memory) {
         return Eigen::Map<const Points<Dim>>(x.data(), Dim,
                                              static_cast<Eigen::Index>(x.size() / Dim));
     };
-    std::vector<double> listed_at = flat(list_.built_at()), sought_at = flat(motion_.then());
+    std::vector<double> listed_at = flat(near_.list().built_at()), sought_at = flat(motion_.then());
     memory.particles(listed_kind, listed_at);
     memory.particles(sought_kind, sought_at);
     memory.particles(bodies_kind, bodies_);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bond_rows.hpp"
-#include <spam/neighbors/cluster_list.hpp>
+#include <spam/neighbors/neighbourhood.hpp>
 #include <spam/physics/material_vectors.hpp>
 
 namespace spam {
@@ -90,11 +90,11 @@ class BondTable {
     Box<Dim> box_;
     BondUpdates<Dim> loops_;
     std::vector<std::int32_t> bodies_;
-    ClusterList<Dim> list_;
+    Neighbourhood<Dim> near_;  ///< of positions, bodies and numbers
     std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle
     MotionSince<Dim> motion_;             ///< since newcomers were looked for
     BondRows<Dim> rows_;
-    std::vector<double> x_, records_, anchoring_;
+    std::vector<double> x_, anchoring_;
     std::vector<double> missing_;  ///< NeighbourSums by particle
     std::vector<Newcomer> newcomers_, idle_;
     std::size_t updates_ = 0;

@@ -85,18 +85,13 @@ double Contact<Dim>::closest(std::span<const double> y) const {
     double least = scheme_.range;
     for (std::size_t i = 0; i < pairs.size(); ++i)
         for (const std::uint32_t j : pairs.neighbours(i)) {
-            double r2 = 0.0, apart2 = 0.0;
-            for (int a = 0; a < Dim; ++a) {
-                const auto difference = [&, a](const Points<Dim>& p) {
-                    return p(a, static_cast<Eigen::Index>(i)) - p(a, static_cast<Eigen::Index>(j));
-                };
-                const double free = difference(x), r = box.nearest_image(a, free);
-                r2 += r * r;
-                apart2 += std::pow(difference(X) + (r - free), 2);
-            }
-            const bool folded =
-                scheme_.folds_beyond > 0.0 && apart2 > std::pow(scheme_.folds_beyond, 2);
-            if (folded || bodies_[i] != bodies_[j]) least = std::min(least, std::sqrt(r2));
+            const auto difference = [&](const Points<Dim>& p) -> Point<Dim> {
+                return p.col(static_cast<Eigen::Index>(i)) - p.col(static_cast<Eigen::Index>(j));
+            };
+            const Point<Dim> free = difference(x), r = box.nearest(free);
+            const double apart = (difference(X) + (r - free)).norm();
+            const bool folded = scheme_.folds_beyond > 0.0 && apart > scheme_.folds_beyond;
+            if (folded || bodies_[i] != bodies_[j]) least = std::min(least, r.norm());
         }
     return least;
 }

@@ -212,16 +212,13 @@ DensityPotentialTerm<Dim>::DensityPotentialTerm(const Selection<Dim>& among,
     : Term<Dim>(among),
       potentials_(validated(potentials, this->particles())),
       parts_(std::make_unique<Parts>(potentials_)) {
-    parts_->packed = packed_with(ListUse::again_and_again);
+    parts_->packed = std::make_unique<PackedParticles<Dim>>(
+        parts_->weight, ListUse::again_and_again, this->box(), parts_->sweeps);
+    this->look_after(*parts_->packed);
 }
 
 template <int Dim>
 DensityPotentialTerm<Dim>::~DensityPotentialTerm() = default;
-
-template <int Dim>
-std::unique_ptr<PackedParticles<Dim>> DensityPotentialTerm<Dim>::packed_with(ListUse use) const {
-    return std::make_unique<PackedParticles<Dim>>(parts_->weight, use, this->box(), parts_->sweeps);
-}
 
 /// The order that the equations force: rho, g and D; their slopes; forces.
 template <int Dim>
@@ -237,7 +234,7 @@ std::string DensityPotentialTerm<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.v_dot = now.v_dot;
     parts_->sweeps.force(parts_->input(packed), out);
-    packed.sweep_walls(parts_->input(packed), parts_->sweeps.force);
+    sweep_walls(packed, parts_->input(packed), parts_->sweeps.force);
     return {};
 }
 
@@ -256,40 +253,35 @@ std::string DensityPotentialTerm<Dim>::complaint() const {
                        this->particles().id[first], law);
 }
 
-template <int Dim>
-void DensityPotentialTerm<Dim>::remember(Memory<Dim>& memory) {
-    if (memory.reading()) parts_->packed = packed_with(ListUse::again_and_again);
-}
-
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as
 /// it is.
 template <int Dim>
 std::vector<double> DensityPotentialTerm<Dim>::density(std::span<const double> y) const {
-    const auto own = packed_with(ListUse::once);
+    auto own = parts_->packed->for_observer();
     std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
-    if (!own->follow(rho.size(), fields(this->particles(), this->state_of(y)))) return rho;
-    parts_->find_fields(*own);
+    if (!own.follow(rho.size(), fields(this->particles(), this->state_of(y)))) return rho;
+    parts_->find_fields(own);
     for (std::size_t slot = 0; slot < rho.size(); ++slot)
-        rho[own->list().order()[slot]] = own->record(slot)[Places<Dim>::rho];
+        rho[own.list().order()[slot]] = own.record(slot)[Places<Dim>::rho];
     return rho;
 }
 
 template <int Dim>
 double DensityPotentialTerm<Dim>::energy(std::span<const double> y) const {
-    const auto own = packed_with(ListUse::once);
+    auto own = parts_->packed->for_observer();
     const std::size_t n = this->particles().size();
-    if (!own->follow(n, fields(this->particles(), this->state_of(y))))
+    if (!own.follow(n, fields(this->particles(), this->state_of(y))))
         return std::numeric_limits<double>::quiet_NaN();
     std::vector<double> energy(n, 0.0);
     if (potentials_.core.e_c > 0.0) {
         SweepOutput<Dim> out;
         out.energy = energy.data();
-        parts_->sweeps.energy(parts_->input(*own), out);
+        parts_->sweeps.energy(parts_->input(own), out);
     }
-    parts_->find_fields(*own);
+    parts_->find_fields(own);
     for (std::size_t slot = 0; slot < n; ++slot) {
-        const std::size_t i = own->list().order()[slot];
-        energy[i] += parts_->energy(this->particles().mass[i], own->record(slot));
+        const std::size_t i = own.list().order()[slot];
+        energy[i] += parts_->energy(this->particles().mass[i], own.record(slot));
     }
     return exact_sum(n, [&](std::size_t i) { return energy[i]; });
 }
@@ -311,16 +303,6 @@ double DensityPotentialTerm<Dim>::neighbour_forces(std::span<const double> y) co
 template <int Dim>
 std::string DensityPotentialTerm<Dim>::describe() const {
     return fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
-}
-
-template <int Dim>
-const WallRates<Dim>* DensityPotentialTerm<Dim>::wall_rates(int a, bool upper) const {
-    return parts_->packed->walls().find(a, upper);
-}
-
-template <int Dim>
-std::size_t DensityPotentialTerm<Dim>::pairs() const {
-    return parts_->packed->list().pairs();
 }
 
 template class DensityPotentialTerm<1>;

@@ -91,6 +91,11 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
             "range: ranges that follow the density are for fluids without friction and conduction; "
             "use "
             "one range for all");
+    // How far it reaches is known with the first state.
+    packed_ = std::make_unique<PackedParticles<Dim>>(
+        GeneralWeight<Dim>(scheme.kernel, this->particles().spacing), ListUse::again_and_again,
+        this->box(), *sweeps_);
+    this->look_after(*packed_);
 }
 
 template <int Dim>
@@ -140,21 +145,9 @@ std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
 /// A list that reaches as far as the longest range, and some way further as long as ranges grow.
 template <int Dim>
 void OwnRanges<Dim>::make_room() {
-    if (packed_ && reach_ <= packed_reach_ && reach_ > 0.7 * packed_reach_) return;
-    packed_reach_ = std::min(1.1 * reach_, 0.5 * (reach_ + most_range()));
-    packed_ =
-        std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, packed_reach_),
-                                               ListUse::again_and_again, this->box(), *sweeps_);
-}
-
-template <int Dim>
-template <class Fill>
-void OwnRanges<Dim>::fill(const Fill& fill) {
-    const auto order = packed_->list().order();
-    parallel_for(order.size(),
-                 [&](std::size_t slot) { fill(std::size_t{order[slot]}, packed_->record(slot)); });
-    using R = RangeRecord<Dim>;
-    packed_->template refresh<R>(R::template at<column::InverseRange>);
+    const double listed = packed_->range();
+    if (packed_->list().builds() > 0 && reach_ <= listed && reach_ > 0.7 * listed) return;
+    packed_->set_range(std::min(1.1 * reach_, 0.5 * (reach_ + most_range())));
 }
 
 template <int Dim>
@@ -166,9 +159,11 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     if (!packed_->follow(n, {now.state.position().data(), now.state.velocity().data(),
                              this->particles().mass.data()}))
         return "a position is not finite";
-    fill([&](std::size_t i, double* record) {
-        record[R::template at<column::InverseRange>] = 1.0 / range_[i];
-    });
+    const auto fill = [&](int at, const auto& number_of) {
+        packed_->template write<R>(
+            at, 1, [&](std::size_t i, double* number) { *number = number_of(i); });
+    };
+    fill(R::template at<column::InverseRange>, [&](std::size_t i) { return 1.0 / range_[i]; });
     SweepInput<Dim> in = packed_->input();
     in.weight = &unit_;
     SweepOutput<Dim> out;
@@ -176,7 +171,7 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     out.approach = now.rate.density().data();
     out.v_dot = now.v_dot;
     sweeps_->density(in, out);
-    WallSweeps<Dim>& walls = packed_->sweep_walls(in, sweeps_->density);
+    sweep_walls(*packed_, in, sweeps_->density);
     if (close_own_sums(now) > 0) {
         std::size_t i = 0;
         while (std::isfinite(pressure_[i]) && i + 1 < n) ++i;
@@ -186,14 +181,14 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
             now.state.density().data()[i], now.state.energy().data()[i], this->particles().id[i],
             fluid_.state.describe());
     }
-    fill([&](std::size_t i, double* record) { record[R::template at<column::Pull>] = pull_[i]; });
+    fill(R::template at<column::Pull>, [&](std::size_t i) { return pull_[i]; });
     sweeps_->force(in, out);
     // As in close_own_sums(): e_dot = P/rho^2 rho_dot, of which each wall has its part.
-    walls.for_each([&](WallRates<Dim>& wall) {
+    packed_->for_each_wall([&](BehindWall<Dim>& wall) {
         for (std::size_t k = 0; k < wall.particle.size(); ++k)
             wall.e_dot[wall.place[k]] *= -pull_[wall.particle[k]];
     });
-    packed_->sweep_walls(in, sweeps_->force);
+    sweep_walls(*packed_, in, sweeps_->force);
     return {};
 }
 
@@ -237,10 +232,9 @@ std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position)
         for (std::size_t i = 0; i < rho.size() && found; ++i) {
             Surroundings near;
             for (const std::uint32_t j : list.neighbours(i)) {
-                Point<Dim> r = x.col(j) - x.col(static_cast<Eigen::Index>(i));
-                for (int a = 0; a < Dim; ++a) r[a] = this->box().nearest_image(a, r[a]);
                 near.mass.push_back(mass[j]);
-                near.r.push_back(r.norm());
+                near.r.push_back(
+                    this->box().nearest(x.col(j) - x.col(static_cast<Eigen::Index>(i))).norm());
             }
             const double h =
                 solve_range<Dim>(near, unit_, mass[i] * power<Dim>(scheme_.range), start, look);
@@ -282,21 +276,6 @@ double OwnRanges<Dim>::energy(std::span<const double> y) const {
 template <int Dim>
 double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
     return carried_energies(this->particles(), this->state_of(y)) / this->particles().spacing;
-}
-
-template <int Dim>
-void OwnRanges<Dim>::remember(Memory<Dim>& memory) {
-    if (memory.reading()) packed_.reset();
-}
-
-template <int Dim>
-const WallRates<Dim>* OwnRanges<Dim>::wall_rates(int a, bool upper) const {
-    return packed_ ? packed_->walls().find(a, upper) : nullptr;
-}
-
-template <int Dim>
-std::size_t OwnRanges<Dim>::pairs() const {
-    return packed_ ? packed_->list().pairs() : 0;
 }
 
 template <int Dim>

@@ -18,30 +18,21 @@ constexpr double most_pairs = 2e9;
 
 }  // namespace
 
-/// Returns how many particles have moved too far for the list.
 template <int Dim>
 std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_only) {
-    const PackCount count =
-        make_records_.write({fields, list_.order(), &list_.home(), list_.displacement(), stride_},
-                            density_only, records_.data());
+    const ClusterList<Dim>& list = this->list();
+    if (list.slots() == 0) return 0;
+    const PackCount count = make_records_.write(
+        {fields, list.order(), &list.home(), list.displacement(), this->records().stride}, density_only,
+        this->record(0));
     invalid_ = count.invalid;
     return count.far;
 }
 
 template <int Dim>
 bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
-    // Most often nobody has gone too far, and packing has read all positions anyway.
-    ++served_;
-    if (list_.size() == n && pack(fields, false) == 0) return refresh(), true;
     const Eigen::Map<const Points<Dim>> x(fields.x, Dim, static_cast<Eigen::Index>(n));
-    if (list_.serves(x)) return refresh(), true;
-    if (!x.allFinite()) return false;
-    if (list_.builds() > 0 && list_.skin() > 0.0) choose_skin();
-    list_.build(x);
-    records_.resize(list_.slots() * stride_);
-    pack(fields, false);
-    refresh();
-    return true;
+    return Neighbourhood<Dim>::follow(x, [&] { return pack(fields, false); });
 }
 
 template <int Dim>
@@ -58,7 +49,7 @@ std::vector<double> PackedParticles<Dim>::summed_density(Sweep<Dim> sum, std::si
 template <int Dim>
 void PackedParticles<Dim>::load_density(const PackedFields& fields) {
     pack(fields, true);
-    refresh();
+    this->refresh(make_records_.kinds, 0);
 }
 
 template <int Dim>
@@ -79,20 +70,29 @@ double valid_range(double range, double spacing, std::size_t particles) {
     return range;
 }
 
-/// By what the list that is used up has served: never by the clock, or no run could be repeated.
 template <int Dim>
-void PackedParticles<Dim>::choose_skin() {
-    if (served_ < 8) share_ = std::min(1.25 * share_, most_share);
-    if (served_ > 60) share_ = std::max(share_ / 1.25, least_share);
-    list_.set_skin(share_ * weight_.range());
-    served_ = 0;
+void sweep_walls(Neighbourhood<Dim>& near, const SweepInput<Dim>& in, Sweep<Dim> sweep) {
+    near.for_each_wall([&](BehindWall<Dim>& wall) {
+        if (!wall.load(near.list(), in.records.numbers, in.records.stride)) return;
+        SweepInput<Dim> behind = in;
+        behind.list = wall.view();
+        SweepOutput<Dim> out;
+        behind.records.numbers = out.records = wall.records();
+        out.v_dot = wall.v_dot.data();
+        out.e_dot = out.approach = wall.e_dot.data();
+        out.x_dot = wall.not_wanted.data();
+        out.rho_dot = out.x_dot + Dim * wall.lanes();
+        out.spread = out.rho_dot + wall.lanes();
+        sweep(behind, out);
+    });
 }
 
-template double valid_range<1>(double, double, std::size_t);
-template double valid_range<2>(double, double, std::size_t);
-template double valid_range<3>(double, double, std::size_t);
-template class PackedParticles<1>;
-template class PackedParticles<2>;
-template class PackedParticles<3>;
+#define SPAM_INSTANTIATE(D)                                                                 \
+    template double valid_range<D>(double, double, std::size_t);                            \
+    template void sweep_walls<D>(Neighbourhood<D>&, const SweepInput<D>&, Sweep<D>);        \
+    template class PackedParticles<D>;
+SPAM_INSTANTIATE(1)
+SPAM_INSTANTIATE(2)
+SPAM_INSTANTIATE(3)
 
 }  // namespace spam

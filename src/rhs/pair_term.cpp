@@ -2,7 +2,6 @@
 #include "packed_particles.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
-#include <spam/core/parallel.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/rhs/pair_term.hpp>
 
@@ -42,7 +41,11 @@ PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
     : Term<Dim>(among),
       law_(validated(std::move(law), among.particles().size())),
       kinds_(record_kinds()),
-      packed_(packed_with(ListUse::again_and_again)) {}
+      packed_(std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(Kernel::lucy, law_.range),
+                                                     ListUse::again_and_again, this->box(),
+                                                     law_.sweeps)) {
+    this->look_after(*packed_);
+}
 
 template <int Dim>
 PairTerm<Dim>::~PairTerm() = default;
@@ -52,12 +55,6 @@ std::vector<NumberKind> PairTerm<Dim>::record_kinds() const {
     std::vector<NumberKind> kinds(static_cast<std::size_t>(law_.sweeps.numbers));
     std::copy(law_.kinds.begin(), law_.kinds.end(), kinds.begin() + PointRecord<Dim>::numbers);
     return kinds;
-}
-
-template <int Dim>
-std::unique_ptr<PackedParticles<Dim>> PairTerm<Dim>::packed_with(ListUse use) const {
-    return std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(Kernel::lucy, law_.range), use,
-                                                  this->box(), law_.sweeps);
 }
 
 template <int Dim>
@@ -74,18 +71,12 @@ bool PairTerm<Dim>::follow(PackedParticles<Dim>& packed, const ConstState<Dim>& 
                        {state.position().data(), nullptr, this->particles().mass.data()}))
         return false;
     if (law_.columns.empty()) return true;
-    const auto order = packed.list().order();
-    const Home<Dim> home = packed.list().home();
-    parallel_for(order.size(), [&](std::size_t slot) {
-        double* const number = packed.record(slot) + PointRecord<Dim>::numbers;
-        const std::uint32_t i = order[slot];
-        for (std::size_t k = 0; k < law_.columns.size(); ++k) {
-            const double own = law_.columns[k][i];
-            const bool moved = !law_.kinds.empty() && law_.kinds[k].quantity == Quantity::position;
-            number[k] = moved ? home(i, law_.kinds[k].a, own) : own;
-        }
-    });
-    packed.refresh(kinds_, PointRecord<Dim>::numbers);
+    packed.write(
+        PointRecord<Dim>::numbers, static_cast<int>(law_.columns.size()),
+        [&](std::size_t i, double* number) {
+            for (const auto& column : law_.columns) *number++ = column[i];
+        },
+        kinds_);
     return true;
 }
 
@@ -95,48 +86,28 @@ std::string PairTerm<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.v_dot = now.v_dot;
     law_.sweeps.force(input(*packed_), out);
-    packed_->sweep_walls(input(*packed_), law_.sweeps.force);
+    sweep_walls(*packed_, input(*packed_), law_.sweeps.force);
     return {};
 }
 
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as it is.
 template <int Dim>
 double PairTerm<Dim>::energy(std::span<const double> y) const {
-    const auto own = packed_with(ListUse::once);
+    auto own = packed_->for_observer();
     std::vector<double> half(this->particles().size());
-    if (!follow(*own, this->state_of(y))) return std::numeric_limits<double>::quiet_NaN();
+    if (!follow(own, this->state_of(y))) return std::numeric_limits<double>::quiet_NaN();
     SweepOutput<Dim> out;
     out.energy = half.data();
-    law_.sweeps.energy(input(*own), out);
+    law_.sweeps.energy(input(own), out);
     return exact_sum(half.size(), [&](std::size_t i) { return half[i]; });
 }
 
 template <int Dim>
 std::vector<double> PairTerm<Dim>::density(std::span<const double> y) const {
     if (law_.sweeps.density == nullptr) return {};
-    return packed_with(ListUse::once)
-        ->summed_density(
-            law_.sweeps.density, this->particles().size(),
-            {this->state_of(y).position().data(), nullptr, this->particles().mass.data()});
-}
-
-template <int Dim>
-const WallRates<Dim>* PairTerm<Dim>::wall_rates(int a, bool upper) const {
-    return packed_->walls().find(a, upper);
-}
-
-template <int Dim>
-std::size_t PairTerm<Dim>::pairs() const {
-    return packed_->list().pairs();
-}
-template <int Dim>
-std::size_t PairTerm<Dim>::list_builds() const {
-    return packed_->list().builds();
-}
-
-template <int Dim>
-void PairTerm<Dim>::remember(Memory<Dim>& memory) {
-    if (memory.reading()) packed_ = packed_with(ListUse::again_and_again);
+    return packed_->for_observer().summed_density(
+        law_.sweeps.density, this->particles().size(),
+        {this->state_of(y).position().data(), nullptr, this->particles().mass.data()});
 }
 
 template class PairTerm<1>;

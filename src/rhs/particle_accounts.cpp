@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What externals and walls give to the particles of a model, and to its accounts.
 #include <spam/core/exact_sum.hpp>
+#include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <Eigen/Geometry>
@@ -96,24 +97,25 @@ void ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a
     const auto v = now.state.velocity();
     const bool energy = wall.passes_energy() && now.rate.has(Field::energy);
     Given sum;
-    for (const auto& term : terms_) {
-        const WallRates<Dim>* rates = term->wall_rates(a, upper);
-        if (rates == nullptr) continue;
-        Given given = Given::to_all(rates->particle.size(), [&](std::size_t k) {
-            const std::size_t i = term->among().first() + rates->particle[k];
+    const auto give = [&](std::size_t first, const BehindWall<Dim>& rates) {
+        Given given = Given::to_all(rates.particle.size(), [&](std::size_t k) {
+            const std::size_t i = first + rates.particle[k];
             const double m = now.particles.mass[i];
             const Point<Dim> one =
-                m * Eigen::Map<const Point<Dim>>(&rates->v_dot[Dim * rates->place[k]]);
+                m * Eigen::Map<const Point<Dim>>(&rates.v_dot[Dim * rates.place[k]]);
             Given to;
             to.force() = one;
             if (energy)
                 to.power() = one.dot(v.col(static_cast<Eigen::Index>(i))) +
-                             m * rates->e_dot[rates->place[k]];
+                             m * rates.e_dot[rates.place[k]];
             return to;
         });
         sum.force() += given.force();
         sum.power() += given.power();
-    }
+    };
+    for (const auto& term : terms_)
+        for (const auto* near : term->neighbourhoods())
+            if (const auto* rates = near->behind(a, upper)) give(term->among().first(), *rates);
     now.rate.field(Field::wall_impulse(a, upper)) += sum.force();
     if (!energy) return;
     const double work = sum.force().dot(wall.velocity);
@@ -144,10 +146,11 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
     const std::size_t before = reflections_;
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         const auto x = state.position(), v = state.velocity();
+        const bool folds = wall.has_images() && !neighbours_for_good();
         std::vector<Given> turned;
         for (Eigen::Index i = 0; i < x.cols(); ++i) {
             if (!(upper ? x(a, i) > wall.at : x(a, i) < wall.at)) continue;
-            if (wall.has_images())
+            if (folds)
                 turned.push_back(fold_back(state, i, a, upper));
             else if (upper ? v(a, i) > 0.0 : v(a, i) < 0.0)
                 turned.push_back(turn_back(state, i, a));
@@ -186,6 +189,15 @@ double ParticleModel<Dim>::gained(std::size_t i, const Point<Dim>& from,
             energy += external->energy_at(this->particles(), i, to) -
                       external->energy_at(this->particles(), i, from);
     return energy;
+}
+
+/// A particle and its image would change places, with their neighbours for good or without.
+template <int Dim>
+bool ParticleModel<Dim>::neighbours_for_good() const {
+    for (const auto& term : terms_)
+        for (const auto* near : term->neighbourhoods())
+            if (near->for_good()) return true;
+    return false;
 }
 
 /// A particle beyond a mirror and its image change places: nothing that others see changes, whenever it is
@@ -228,6 +240,7 @@ auto ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
         const;                                                                                    \
     template bool ParticleModel<D>::settle(double, std::span<double>);                            \
     template bool ParticleModel<D>::reflect(const State<D>&);                                     \
+    template bool ParticleModel<D>::neighbours_for_good() const;                                  \
     template ParticleModel<D>::Given ParticleModel<D>::turn_back(const State<D>&, Eigen::Index,   \
                                                                  int) const;                      \
     template ParticleModel<D>::Given ParticleModel<D>::fold_back(const State<D>&, Eigen::Index,   \

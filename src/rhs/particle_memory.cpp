@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a model remembers beside y, and how it passes to other particles.
+#include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <algorithm>
@@ -23,6 +24,9 @@ void ParticleModel<Dim>::remember(Memory<Dim>& memory) {
     }
     memory.laws(std::move(laws));
     for (const auto& term : terms_) {
+        if (memory.reading())
+            for (auto* near : term->neighbourhoods())
+                if (!near->for_good()) near->forget();
         memory.among(term->among().first(), term->among().count());
         term->remember(memory);
     }

@@ -2,7 +2,7 @@
 #include "resting_body.hpp"
 
 #include <spam/core/exact_sum.hpp>
-#include <spam/neighbors/cluster_list.hpp>
+#include <spam/neighbors/neighbourhood.hpp>
 #include <spam/physics/record.hpp>
 
 #include <cmath>
@@ -12,26 +12,24 @@ namespace spam {
 template <int Dim>
 RestingBody resting_body(const Particles<Dim>& particles, const Box<Dim>& box,
                          const GeneralWeight<Dim>& weight) {
-    const auto& X = particles.reference_position;
-    ClusterList<Dim> list(weight.range(), 0.0, box.of_images(), 1, Dim);
-    list.build(X);
-    std::vector<double> x(list.slots() * Dim);
-    for (std::size_t slot = 0; slot < list.size(); ++slot)
-        for (std::size_t a = 0; a < Dim; ++a)
-            x[slot * Dim + a] =
-                list.home()(list.order()[slot], a, X.data()[list.order()[slot] * Dim + a]);
-    list.refresh(x.data(), RecordOf<Dim, double, column::Position>::kinds);
+    using R = RecordOf<Dim, double, column::Position>;
+    const double* const X = particles.reference_position.data();
+    Neighbourhood<Dim> near(weight.range(), ListUse::once, box, 1, Dim, R::kinds);
+    near.build(particles.reference_position);
+    near.template write<R>(0, Dim, [X](std::size_t i, double* x) { std::copy_n(X + Dim * i, Dim, x); });
+    const auto& list = near.list();
     const auto sums = exact_sums(list.size(), [&](std::size_t slot) {
         std::array<double, 2> of_slot{};
         for (const std::uint32_t entry : list.entries(slot)) {
+            const std::size_t other = entry / Dim;
             double r2 = 0.0;
-            for (std::size_t a = 0; a < Dim; ++a) {
-                const double s = x[slot * Dim + a] - x[entry + a];
+            for (int a = 0; a < Dim; ++a) {
+                const double s = near.record(slot)[a] - near.record(other)[a];
                 r2 += s * s;
             }
-            const double m = particles.mass[list.particle(entry / Dim)], r = std::sqrt(r2);
+            const double m = particles.mass[list.particle(other)], r = std::sqrt(r2);
             of_slot[0] += m * weight.value(r);
-            if (entry != slot * Dim) of_slot[1] += m * weight.minus_slope_over_r(r);
+            if (other != slot) of_slot[1] += m * weight.minus_slope_over_r(r);
         }
         return of_slot;
     });

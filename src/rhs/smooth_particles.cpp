@@ -57,7 +57,10 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
       scheme_(validated(scheme, Dim)),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
           sweeps_of<Dim>(scheme, constitution_->matter(scheme)))),
-      packed_(packed_with(ListUse::again_and_again)) {
+      packed_(std::make_unique<PackedParticles<Dim>>(
+          GeneralWeight<Dim>(scheme_.kernel, scheme_.range), ListUse::again_and_again, this->box(),
+          *sweeps_)) {
+    this->look_after(*packed_);
     const std::size_t n = this->particles().size();
     valid_range<Dim>(scheme.range, this->particles().spacing, n);
     scheme.validate_distances(this->particles().spacing);
@@ -127,13 +130,13 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
         balance(now, in, out);
     } else {
         sweeps_->force(in, out);
-        packed_->sweep_walls(in, sweeps_->force);
+        sweep_walls(*packed_, in, sweeps_->force);
         if (sweeps_->second != nullptr) {
             load_transport(now);
             if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
             out.close = nullptr;
             sweeps_->second(in, out);
-            packed_->sweep_walls(in, sweeps_->second);
+            sweep_walls(*packed_, in, sweeps_->second);
         }
     }
     if (gauss_)
@@ -168,12 +171,6 @@ void SmoothParticles<Dim>::balance(const Now& now, const SweepInput<Dim>& in,
     sweeps_->second(in, out);
     double* const e_dot = out.e_dot;
     if (!heat_.empty()) parallel_for(heat_.size(), [&](std::size_t i) { e_dot[i] += heat_[i]; });
-}
-
-template <int Dim>
-std::unique_ptr<PackedParticles<Dim>> SmoothParticles<Dim>::packed_with(ListUse use) const {
-    return std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, scheme_.range),
-                                                  use, this->box(), *sweeps_);
 }
 
 template <int Dim>
@@ -220,19 +217,18 @@ void SmoothParticles<Dim>::load_transport(const Now& now) {
     using R = ViscousRecord<Dim>;
     constexpr auto d = static_cast<std::size_t>(Dim);
     const double* const u = now.rate.position().data();
-    const auto order = packed_->list().order();
     const bool sound = sweeps_->gradient != nullptr && scheme_.viscosity > 0.0;
-    parallel_for(order.size(), [&](std::size_t slot) {
-        const std::size_t i = order[slot];
-        double* const record = packed_->record(slot);
-        for (std::size_t a = 0; a < d; ++a)
-            record[R::template at<column::Transport> + static_cast<int>(a)] = u[i * d + a];
+    constexpr int from = R::template at<column::Transport>;
+    static_assert(R::template at<column::NegativeFactor> == from + Dim &&
+                  R::template at<column::PositiveFactor> == from + Dim + 1 &&
+                  R::template at<column::SoundSpeed> == from + Dim + 2);
+    packed_->template write<R>(from, Dim + 3, [&](std::size_t i, double* number) {
+        std::copy_n(u + i * d, d, number);
         const TorqueScale s = torques_ ? torques_->of(i, group_[i]) : TorqueScale{};
-        record[R::template at<column::NegativeFactor>] = s.negative;
-        record[R::template at<column::PositiveFactor>] = s.positive;
-        if (sound) record[R::template at<column::SoundSpeed>] = constitution_->sound_speed_of(i);
+        number[d] = s.negative;
+        number[d + 1] = s.positive;
+        if (sound) number[d + 2] = constitution_->sound_speed_of(i);
     });
-    packed_->template refresh<R>(R::template at<column::Transport>);
 }
 
 template <int Dim>
@@ -256,7 +252,6 @@ std::vector<Remark> SmoothParticles<Dim>::watch(double t, std::span<const double
 template <int Dim>
 void SmoothParticles<Dim>::remember(Memory<Dim>& memory) {
     memory.run(works_kind, gauss_works_);
-    if (memory.reading()) packed_ = packed_with(ListUse::again_and_again);
 }
 
 template <int Dim>
@@ -272,8 +267,8 @@ double SmoothParticles<Dim>::energy(std::span<const double> y) const {
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
 template <int Dim>
 std::vector<double> SmoothParticles<Dim>::summed_density(const PackedFields& fields) const {
-    return packed_with(ListUse::once)
-        ->summed_density(sweeps_->density, this->particles().size(), fields);
+    return packed_->for_observer().summed_density(sweeps_->density, this->particles().size(),
+                                                  fields);
 }
 
 template <int Dim>
@@ -304,20 +299,6 @@ std::vector<Event> SmoothParticles<Dim>::events() const {
     return {closest_approach_event<Dim>(
         {this->particles().mass, this->box(), scheme_.closest_approach, moves_with_velocity()},
         this->layout(), this->among().first())};
-}
-
-template <int Dim>
-const WallRates<Dim>* SmoothParticles<Dim>::wall_rates(int a, bool upper) const {
-    return packed_->walls().find(a, upper);
-}
-
-template <int Dim>
-std::size_t SmoothParticles<Dim>::pairs() const {
-    return packed_->list().pairs();
-}
-template <int Dim>
-std::size_t SmoothParticles<Dim>::list_builds() const {
-    return packed_->list().builds();
 }
 
 template <int Dim>

@@ -3,6 +3,7 @@
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/neighbors/pair_list.hpp>
+#include <spam/physics/record.hpp>
 #include <spam/rhs/springs.hpp>
 
 #include <fmt/format.h>
@@ -10,83 +11,121 @@
 #include <cmath>
 
 namespace spam {
+namespace {
+
+template <int Dim>
+using Positions = RecordOf<Dim, double, column::Position>;
+
+}  // namespace
 
 template <int Dim>
 Springs<Dim>::Springs(const Selection<Dim>& among, const HarmonicSpring& spring)
     : Term<Dim>(among),
       spring_(spring),
-      bond_reach_(1.2 * this->particles().spacing) {
-    const PairList<Dim> list(this->particles().reference_position, bond_reach_, this->box());
-    start_.push_back(0);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        for (const std::uint32_t j : list.neighbours(i))
-            if (j != i) partner_.push_back(j);
-        start_.push_back(partner_.size());
-    }
+      near_(1.2 * this->particles().spacing, ListUse::for_good, this->box(), 1, Dim,
+            Positions<Dim>::kinds) {
+    const Points<Dim>& X = this->particles().reference_position;
+    require_one_image(this->box(), near_.range());
+    this->look_after(near_);
+    near_.build(X);
+    load(near_, X.data());
+    for (std::size_t slot = 0; slot < near_.list().size(); ++slot)
+        each_bond(near_, slot, [&](const Point<Dim>&, double r, std::size_t other) {
+            if (r == 0.0)
+                throw InputError(fmt::format(
+                    "springs: particle {} is where particle {} or its image is, and no spring has a direction "
+                    "there; move it off, from a mirror by half a spacing",
+                    this->particles().id[near_.list().particle(slot)],
+                    this->particles().id[near_.list().particle(other)]));
+        });
 }
 
-/// Nearest image of x_i - x_j.
 template <int Dim>
-template <class View>
-Point<Dim> Springs<Dim>::bond(const View& x, std::size_t i, std::size_t j) const {
-    Point<Dim> r;
-    for (int a = 0; a < Dim; ++a) {
-        const auto ci = static_cast<Eigen::Index>(i), cj = static_cast<Eigen::Index>(j);
-        r[a] = this->box().periodic(a)
-                   ? this->box().nearest_image(
-                         a, this->box().wrap(a, x(a, ci)) - this->box().wrap(a, x(a, cj)))
-                   : x(a, ci) - x(a, cj);
+void Springs<Dim>::load(Neighbourhood<Dim>& near, const double* x) const {
+    near.template write<Positions<Dim>>(
+        0, Dim, [x](std::size_t i, double* to) { std::copy_n(x + Dim * i, Dim, to); });
+}
+
+/// visit(r_ij, |r_ij|, slot of j): of every bond of the particle i at a slot, in ascending j.
+template <int Dim>
+template <class Visit>
+void Springs<Dim>::each_bond(const Neighbourhood<Dim>& near, std::size_t slot, const Visit& visit) {
+    const auto at = [&](std::size_t k) {
+        return Eigen::Map<const Point<Dim>>(near.record(k));
+    };
+    for (const std::uint32_t entry : near.list().entries(slot)) {
+        const std::size_t other = entry / Dim;
+        if (other == slot) continue;
+        const Point<Dim> r_ij = at(slot) - at(other);
+        visit(r_ij, r_ij.norm(), other);
     }
-    return r;
 }
 
 template <int Dim>
 std::string Springs<Dim>::rates(const Now& now) {
-    const auto x = now.state.position();
-    Eigen::Map<Points<Dim>> v_dot(now.v_dot, Dim, x.cols());
-    parallel_for(this->particles().size(), [&](std::size_t i) {
+    load(near_, now.state.position().data());
+    Eigen::Map<Points<Dim>> v_dot(now.v_dot, Dim, now.state.position().cols());
+    parallel_for(near_.list().size(), [&](std::size_t slot) {
+        const std::size_t i = near_.list().order()[slot];
         Point<Dim> force = Point<Dim>::Zero();
-        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
-            const Point<Dim> r_ij = bond(x, i, partner_[k]);
-            const double r = r_ij.norm();
+        each_bond(near_, slot, [&](const Point<Dim>& r_ij, double r, std::size_t) {
             force += (spring_.force(r) / r) * r_ij;
-        }
+        });
         v_dot.col(static_cast<Eigen::Index>(i)) = force / this->particles().mass[i];
+    });
+    near_.for_each_wall([&](BehindWall<Dim>& wall) {
+        wall.load(near_.list(), near_.record(0), Dim);
+        for (std::size_t k = 0; k < wall.particle.size(); ++k) {
+            Point<Dim> force = Point<Dim>::Zero();
+            wall.each_neighbour(wall.place[k], [&](const double* x_i, const double* x_j) {
+                const Point<Dim> r_ij =
+                    Eigen::Map<const Point<Dim>>(x_i) - Eigen::Map<const Point<Dim>>(x_j);
+                force += (spring_.force(r_ij.norm()) / r_ij.norm()) * r_ij;
+            });
+            Eigen::Map<Point<Dim>>(&wall.v_dot[Dim * wall.place[k]]) =
+                force / this->particles().mass[wall.particle[k]];
+        }
     });
     return {};
 }
 
+/// Sum of of_bond(|r_ij|)/2 over both directions of every bond: of one across a mirror our side is a half.
+template <int Dim>
+template <class OfBond>
+double Springs<Dim>::half_of_bonds(std::span<const double> y, const OfBond& of_bond) const {
+    Neighbourhood<Dim> own = near_.for_observer();
+    load(own, this->state_of(y).position().data());
+    ExactSum sum;
+    for (std::size_t slot = 0; slot < own.list().size(); ++slot)
+        each_bond(own, slot, [&](const Point<Dim>&, double r, std::size_t) {
+            sum += 0.5 * of_bond(r);
+        });
+    return sum;
+}
+
 template <int Dim>
 double Springs<Dim>::energy(std::span<const double> y) const {
-    const auto x = this->state_of(y).position();
-    ExactSum sum;
-    for (std::size_t i = 0; i < this->particles().size(); ++i)
-        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
-            if (partner_[k] > i) sum += spring_.energy(bond(x, i, partner_[k]).norm());
-    return sum;
+    return half_of_bonds(y, [&](double r) { return spring_.energy(r); });
 }
 
 template <int Dim>
 double Springs<Dim>::neighbour_forces(std::span<const double> y) const {
-    const auto x = this->state_of(y).position();
-    ExactSum sum;
-    for (std::size_t i = 0; i < this->particles().size(); ++i)
-        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k)
-            sum += std::abs(spring_.force(bond(x, i, partner_[k]).norm()));
-    return sum;
+    return 2.0 * half_of_bonds(y, [&](double r) { return std::abs(spring_.force(r)); });
 }
 
 template <int Dim>
 std::vector<SymTensor<Dim>> Springs<Dim>::stress(std::span<const double> y, double volume) const {
-    const auto x = this->state_of(y).position();
-    std::vector<SymTensor<Dim>> all(this->particles().size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
-            const Point<Dim> r_ij = bond(x, i, partner_[k]);
-            const double r = r_ij.norm(), tension = -spring_.force(r) / (2.0 * volume * r);
+    Neighbourhood<Dim> own = near_.for_observer();
+    load(own, this->state_of(y).position().data());
+    std::vector<SymTensor<Dim>> all(own.list().size());
+    for (std::size_t slot = 0; slot < all.size(); ++slot) {
+        SymTensor<Dim>& sigma = all[own.list().order()[slot]];
+        each_bond(own, slot, [&](const Point<Dim>& r_ij, double r, std::size_t) {
+            const double tension = -spring_.force(r) / (2.0 * volume * r);
             for (int a = 0; a < Dim; ++a)
-                for (int b = a; b < Dim; ++b) all[i](a, b) += tension * r_ij[a] * r_ij[b];
-        }
+                for (int b = a; b < Dim; ++b) sigma(a, b) += tension * r_ij[a] * r_ij[b];
+        });
+    }
     return all;
 }
 
@@ -106,7 +145,7 @@ std::string Springs<Dim>::describe() const {
     return fmt::format(
         "molecular dynamics, {} harmonic springs kappa = {:g}, rest length {:g}, between initial "
         "neighbours",
-        pairs(), spring_.kappa, spring_.rest_length);
+        this->pairs(), spring_.kappa, spring_.rest_length);
 }
 
 template class Springs<1>;

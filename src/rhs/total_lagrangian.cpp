@@ -22,21 +22,21 @@ namespace {
 template <int Dim>
 constexpr std::size_t stride = StressedRecord<Dim>::numbers;
 template <int Dim>
-constexpr std::size_t present_at = StressedRecord<Dim>::template at<column::Present>;
+constexpr int present_at = StressedRecord<Dim>::template at<column::Present>;
 template <int Dim>
-constexpr std::size_t volume_at = StressedRecord<Dim>::template at<column::Volume>;
+constexpr int volume_at = StressedRecord<Dim>::template at<column::Volume>;
 template <int Dim>
-constexpr std::size_t K_at = StressedRecord<Dim>::template at<column::Correction>;
+constexpr int K_at = StressedRecord<Dim>::template at<column::Correction>;
 template <int Dim>
-constexpr std::size_t F_at = StressedRecord<Dim>::template at<column::Deformation>;
+constexpr int F_at = StressedRecord<Dim>::template at<column::Deformation>;
 template <int Dim>
-constexpr std::size_t B_at = StressedRecord<Dim>::template at<column::ReferenceStress>;
+constexpr int B_at = StressedRecord<Dim>::template at<column::ReferenceStress>;
 
 /// Of records that hold velocities in place of present positions: images have the same.
 template <int Dim>
 constexpr auto moving_kinds = [] {
     auto kinds = StressedRecord<Dim>::kinds;
-    for (std::size_t a = 0; a < Dim; ++a) kinds[present_at<Dim> + a].quantity = Quantity::velocity;
+    for (std::size_t a = 0; a < Dim; ++a) kinds[static_cast<std::size_t>(present_at<Dim>) + a].quantity = Quantity::velocity;
     return kinds;
 }();
 
@@ -76,14 +76,14 @@ Mat<Dim> tensor_at(const double* numbers) {
 template <int Dim>
 struct TotalLagrangian<Dim>::Stresses {
     const HyperelasticMaterial<Dim>& material;
-    std::vector<double>& records;
+    double* records;
     const ConstState<Dim>& state;
     mutable std::atomic<bool> finite = true;
 
     static void call(const void* context, const SweptBlock& block) {
         const auto& self = *static_cast<const Stresses*>(context);
         const std::size_t count = block.count;
-        double* const record = self.records.data() + block.first_slot * stride<Dim>;
+        double* const record = self.records + block.first_slot * stride<Dim>;
         double* const B = record + B_at<Dim>;
         if (!self.material.stresses({block.particle, count}, stride<Dim>, record + F_at<Dim>, B,
                                     self.state))
@@ -109,7 +109,8 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
       scheme_(validated(scheme, this->particles(), material.stiffness())),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
           best_sweeps([](auto level) { return lagrangian_sweeps<Dim, level>(); }))),
-      list_(scheme.range, 0.0, this->box().of_images(), sweeps_->width, stride<Dim>) {
+      near_(scheme.range, ListUse::for_good, this->box(), sweeps_->width, sweeps_->numbers,
+            StressedRecord<Dim>::kinds) {
     if (material_.flows())
         throw InputError(fmt::format(
             "material: '{}' flows by changing what neighbours remember, and these never change; use a "
@@ -117,14 +118,15 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
             material_.describe()));
     if (!this->particles().reference_position.allFinite())
         throw InputError("particles: a reference position is not finite");
-    list_.build(this->particles().reference_position);
+    this->look_after(near_);
+    near_.build(this->particles().reference_position);
     pack_reference();
     find_corrections();
 }
 
 template <int Dim>
-SweepInput<Dim> TotalLagrangian<Dim>::input(const std::vector<double>& records) const {
-    SweepInput<Dim> in{list_.view(), {records.data(), stride<Dim>}, scheme_.range};
+SweepInput<Dim> TotalLagrangian<Dim>::input(const Neighbourhood<Dim>& near) const {
+    SweepInput<Dim> in{near.list().view(), near.records(), scheme_.range};
     in.constants.inverse_density = 1.0 / scheme_.density;
     in.constants.penalty = scheme_.penalty * material_.stiffness();
     return in;
@@ -133,29 +135,24 @@ SweepInput<Dim> TotalLagrangian<Dim>::input(const std::vector<double>& records) 
 /// What stays: X and V; and K = 1 to begin with.
 template <int Dim>
 void TotalLagrangian<Dim>::pack_reference() {
-    const auto order = list_.order();
-    const Home<Dim> home = list_.home();
-    records_.assign(list_.slots() * stride<Dim>, 0.0);
-    for (std::size_t slot = 0; slot < order.size(); ++slot) {
-        double* const record = &records_[slot * stride<Dim>];
-        for (std::size_t a = 0; a < Dim; ++a) {
-            const double X = this->particles().reference_position.data()[Dim * order[slot] + a];
-            record[a] = record[present_at<Dim> + a] = home(order[slot], a, X);
-            record[K_at<Dim> + a] = 1.0;
-        }
-        record[volume_at<Dim>] = this->particles().mass[order[slot]] / scheme_.density;
-    }
-    refresh(records_, 0);
+    using R = ReferenceRecord<Dim>;
+    const double* const X = this->particles().reference_position.data();
+    near_.template write<R>(0, R::numbers, [&](std::size_t i, double* record) {
+        std::copy_n(X + Dim * i, Dim, record);
+        std::copy_n(X + Dim * i, Dim, record + present_at<Dim>);
+        std::fill_n(record + K_at<Dim>, Dim, 1.0);
+        record[volume_at<Dim>] = this->particles().mass[i] / scheme_.density;
+    });
 }
 
 /// K_i = [sum_j V_j (X_j - X_i) (x) grad_i W_ij]^-1, by the sweep that will multiply with it.
 template <int Dim>
 void TotalLagrangian<Dim>::find_corrections() {
     SweepOutput<Dim> out;
-    out.records = records_.data();
-    sweeps_->gradient(input(records_), out);
-    for (std::size_t slot = 0; slot < list_.size(); ++slot) {
-        double* const record = &records_[slot * stride<Dim>];
+    out.records = near_.record(0);
+    sweeps_->gradient(input(near_), out);
+    for (std::size_t slot = 0; slot < near_.list().size(); ++slot) {
+        double* const record = near_.record(slot);
         const Tensor<Dim> A = Eigen::Map<const Tensor<Dim>>(record + F_at<Dim>);
         Eigen::SelfAdjointEigenSolver<Tensor<Dim>> modes;
         modes.computeDirect(A, Eigen::EigenvaluesOnly);  // good to 1e-8 of the largest
@@ -164,7 +161,7 @@ void TotalLagrangian<Dim>::find_corrections() {
             throw InputError(fmt::format(
                 "range: particle {} has too few neighbours within {} spacings for a deformation "
                 "gradient; widen --range",
-                this->particles().id[list_.order()[slot]],
+                this->particles().id[near_.list().order()[slot]],
                 scheme_.range / this->particles().spacing));
         const Tensor<Dim> K = A.inverse();
         for (int a = 0; a < Dim; ++a)
@@ -172,71 +169,67 @@ void TotalLagrangian<Dim>::find_corrections() {
                 record[K_at<Dim> + static_cast<std::size_t>(symmetric_index(Dim, a, b))] =
                     0.5 * (K(a, b) + K(b, a));
     }
-    refresh(records_, K_at<Dim>);
-}
-
-template <int Dim>
-void TotalLagrangian<Dim>::refresh(std::vector<double>& records, std::size_t from) const {
-    list_.refresh(records.data(), StressedRecord<Dim>::kinds, from);
+    near_.template refresh<StressedRecord<Dim>>(K_at<Dim>);
 }
 
 /// The positions now, of the images that the list took of X.
 template <int Dim>
-void TotalLagrangian<Dim>::load(const ConstState<Dim>& state, std::vector<double>& records) const {
-    const double* const x = state.position().data();
-    const auto order = list_.order();
-    const Home<Dim> home = list_.home();
-    parallel_for(order.size(), [&](std::size_t slot) {
-        double* const present = &records[slot * stride<Dim> + present_at<Dim>];
-        for (std::size_t a = 0; a < Dim; ++a)
-            present[a] = home(order[slot], a, x[order[slot] * Dim + a]);
-    });
-    refresh(records, present_at<Dim>);
+void TotalLagrangian<Dim>::load(const ConstState<Dim>& state, Neighbourhood<Dim>& near) const {
+    near.template write<StressedRecord<Dim>>(
+        present_at<Dim>, Dim,
+        [x = state.position().data()](std::size_t i, double* present) {
+            std::copy_n(x + Dim * i, Dim, present);
+        });
 }
 
 /// The order that the equations force: A, F, P and B = P K^t - the penalty, which takes M/V K^t off B - force.
 template <int Dim>
 std::string TotalLagrangian<Dim>::rates(const Now& now) {
-    load(now.state, records_);
-    const SweepInput<Dim> in = input(records_);
+    load(now.state, near_);
+    const SweepInput<Dim> in = input(near_);
     SweepOutput<Dim> out;
-    out.records = records_.data();
+    out.records = near_.record(0);
     out.v_dot = now.v_dot;
-    const Stresses stresses{material_, records_, now.state};
+    const Stresses stresses{material_, near_.record(0), now.state};
     out.close = Stresses::call;
     out.context = &stresses;
     sweeps_->gradient(in, out);
     if (!stresses.finite) return complaint();
     if (material_.has_rates()) memory_rates(now);
-    refresh(records_, F_at<Dim>);
+    near_.template refresh<StressedRecord<Dim>>(F_at<Dim>);
     out.close = nullptr;
-    if (scheme_.penalty > 0.0)
+    if (scheme_.penalty > 0.0) {
         sweeps_->second(in, out);
-    else
+        sweep_walls(near_, in, sweeps_->second);
+    } else {
         std::fill_n(now.v_dot, Dim * this->particles().size(), 0.0);
-    refresh(records_, B_at<Dim>);
+        near_.for_each_wall([](BehindWall<Dim>& wall) { std::ranges::fill(wall.v_dot, 0.0); });
+    }
+    near_.template refresh<StressedRecord<Dim>>(B_at<Dim>);
     sweeps_->force(in, out);
+    sweep_walls(near_, in, sweeps_->force);
     return {};
 }
 
 /// F is linear in the positions: F_dot = F(v).
 template <int Dim>
 void TotalLagrangian<Dim>::memory_rates(const Now& now) {
-    moving_ = records_;
-    const double* const v = now.state.velocity().data();
-    const auto order = list_.order();
-    parallel_for(order.size(), [&](std::size_t slot) {
-        std::copy_n(v + order[slot] * Dim, Dim, &moving_[slot * stride<Dim> + present_at<Dim>]);
-    });
-    list_.refresh(moving_.data(), moving_kinds<Dim>, present_at<Dim>);
+    if (!moving_) moving_ = std::make_unique<Neighbourhood<Dim>>(near_.for_observer());
+    moving_->write(
+        present_at<Dim>, Dim,
+        [v = now.state.velocity().data()](std::size_t i, double* velocity) {
+            std::copy_n(v + Dim * i, Dim, velocity);
+        },
+        moving_kinds<Dim>);
     SweepOutput<Dim> out;
-    out.records = moving_.data();
-    sweeps_->gradient(input(moving_), out);
+    out.records = moving_->record(0);
+    sweeps_->gradient(input(*moving_), out);
+    const auto order = near_.list().order();
     for (const Field field : material_.history()) now.rate.field(field).setZero();
     parallel_for(order.size(), [&](std::size_t slot) {
-        const std::size_t at = slot * stride<Dim> + F_at<Dim>;
-        const Mat<Dim> F = tensor_at<Dim>(&records_[at]);
-        material_.rates(order[slot], F, tensor_at<Dim>(&moving_[at]), now.state, now.rate);
+        const Mat<Dim> F = tensor_at<Dim>(near_.record(slot) + F_at<Dim>);
+        material_.rates(order[slot], F, tensor_at<Dim>(moving_->record(slot) + F_at<Dim>),
+                        now.state, now.rate);
     });
 }
 
@@ -244,26 +237,26 @@ void TotalLagrangian<Dim>::memory_rates(const Now& now) {
 template <int Dim>
 bool TotalLagrangian<Dim>::settle(double, const State<Dim>& state) {
     if (material_.history().empty() || material_.has_rates()) return false;
-    load(ConstState<Dim>(state), records_);
+    load(ConstState<Dim>(state), near_);
     SweepOutput<Dim> out;
-    out.records = records_.data();
-    sweeps_->gradient(input(records_), out);
-    return parallel_count(list_.size(), [&](std::size_t slot) -> std::size_t {
-               const Mat<Dim> F = tensor_at<Dim>(&records_[slot * stride<Dim> + F_at<Dim>]);
-               return material_.settle(list_.order()[slot], F, state) ? 1 : 0;
+    out.records = near_.record(0);
+    sweeps_->gradient(input(near_), out);
+    return parallel_count(near_.list().size(), [&](std::size_t slot) -> std::size_t {
+               const Mat<Dim> F = tensor_at<Dim>(near_.record(slot) + F_at<Dim>);
+               return material_.settle(near_.list().order()[slot], F, state) ? 1 : 0;
            }) > 0;
 }
 
 /// Names the first particle, in the order of the slots, whose stress has no meaning.
 template <int Dim>
 std::string TotalLagrangian<Dim>::complaint() const {
-    const auto order = list_.order();
-    const auto finite = [&](std::size_t slot, std::size_t at) {
-        const double* const first = &records_[slot * stride<Dim> + at];
+    const auto order = near_.list().order();
+    const auto finite = [&](std::size_t slot, int at) {
+        const double* const first = near_.record(slot) + at;
         return std::all_of(first, first + Dim * Dim, [](double x) { return std::isfinite(x); });
     };
     std::size_t slot = 0;
-    while (slot + 1 < list_.size() && finite(slot, B_at<Dim>)) ++slot;
+    while (slot + 1 < near_.list().size() && finite(slot, B_at<Dim>)) ++slot;
     return fmt::format("the {} of particle {} is not finite",
                        finite(slot, F_at<Dim>) ? "stress" : "deformation gradient",
                        this->particles().id[order[slot]]);
@@ -271,21 +264,21 @@ std::string TotalLagrangian<Dim>::complaint() const {
 
 /// For observers: records of their own, so that those of the right-hand side stay as they are.
 template <int Dim>
-std::vector<double> TotalLagrangian<Dim>::deformed(std::span<const double> y) const {
-    std::vector<double> records = records_;
-    load(this->state_of(y), records);
+Neighbourhood<Dim> TotalLagrangian<Dim>::deformed(std::span<const double> y) const {
+    Neighbourhood<Dim> own = near_.for_observer();
+    load(this->state_of(y), own);
     SweepOutput<Dim> out;
-    out.records = records.data();
-    sweeps_->gradient(input(records), out);
-    return records;
+    out.records = own.record(0);
+    sweeps_->gradient(input(own), out);
+    return own;
 }
 
 template <int Dim>
 std::vector<Mat<Dim>> TotalLagrangian<Dim>::deformation_gradients(std::span<const double> y) const {
-    const std::vector<double> records = deformed(y);
-    std::vector<Mat<Dim>> F(list_.size());
+    const Neighbourhood<Dim> own = deformed(y);
+    std::vector<Mat<Dim>> F(own.list().size());
     for (std::size_t slot = 0; slot < F.size(); ++slot)
-        F[list_.order()[slot]] = tensor_at<Dim>(&records[slot * stride<Dim> + F_at<Dim>]);
+        F[own.list().order()[slot]] = tensor_at<Dim>(own.record(slot) + F_at<Dim>);
     return F;
 }
 
@@ -300,17 +293,17 @@ std::vector<double> TotalLagrangian<Dim>::density(std::span<const double> y) con
 template <int Dim>
 double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
     const ConstState<Dim> state = this->state_of(y);
-    std::vector<double> records = deformed(y);
-    std::vector<double> penalty(list_.size(), 0.0);
+    Neighbourhood<Dim> own = deformed(y);
+    std::vector<double> penalty(own.list().size(), 0.0);
     if (scheme_.penalty > 0.0) {
-        refresh(records, F_at<Dim>);
+        own.template refresh<StressedRecord<Dim>>(F_at<Dim>);
         SweepOutput<Dim> out;
         out.energy = penalty.data();
-        sweeps_->energy(input(records), out);
+        sweeps_->energy(input(own), out);
     }
-    const auto [stored, of_penalty] = exact_sums(list_.size(), [&](std::size_t slot) {
-        const std::size_t i = list_.order()[slot];
-        const double* const record = &records[slot * stride<Dim>];
+    const auto [stored, of_penalty] = exact_sums(penalty.size(), [&](std::size_t slot) {
+        const std::size_t i = own.list().order()[slot];
+        const double* const record = own.record(slot);
         return std::array<double, 2>{
             record[volume_at<Dim>] * material_.energy(i, tensor_at<Dim>(record + F_at<Dim>), state),
             penalty[i]};

@@ -44,7 +44,7 @@ struct Sample {
     template <class Evaluate>
     EnergyAndForces<Dim> at(const Points<Dim>& x, const Evaluate& evaluate) const {
         const PairList<Dim> pairs(x, range, box);
-        return evaluate(Neighbourhood<Dim>{x, particles.mass, pairs, box});
+        return evaluate(ListedParticles<Dim>{x, particles.mass, pairs, box});
     }
 };
 
@@ -117,11 +117,11 @@ void check(const char* name, const Evaluate& evaluate) {
 template <int Dim, class Weight, class Term>
 auto of(const Term& term, const Weight& weight) {
     return
-        [=](const Neighbourhood<Dim>& near) { return energy_and_forces<Dim>(term, weight, near); };
+        [=](const ListedParticles<Dim>& near) { return energy_and_forces<Dim>(term, weight, near); };
 }
 template <int Dim>
 auto of(const DistancePotential auto& potential) {
-    return [=](const Neighbourhood<Dim>& near) { return energy_and_forces<Dim>(potential, near); };
+    return [=](const ListedParticles<Dim>& near) { return energy_and_forces<Dim>(potential, near); };
 }
 
 template <int Dim>

@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(moduli_are_those_of_a_deformed_block) {
         x.row(1) *= std::exp(-s);
         const Box<2> box({10.0 * std::exp(s), lattice.box.length(1) * std::exp(-s)});
         const PairList<2> pairs(x, p.range, box);
-        const Neighbourhood<2> near{x, mass, pairs, box};
+        const ListedParticles<2> near{x, mass, pairs, box};
         return energy_and_forces<2>(curvature, w, near).energy +
                energy_and_forces<2>(p.core, near).energy;
     };

@@ -60,7 +60,7 @@ EnergyAndForces<Dim> oracle(const Particles<Dim>& particles, const DensityPotent
                             const Box<Dim>& box, const Points<Dim>& x) {
     const AnyWeight<Dim> w = weight_function<Dim>(to_string(p.kernel), p.range);
     const PairList<Dim> pairs(x, p.range, box);
-    const Neighbourhood<Dim> near{x, particles.mass, pairs, box};
+    const ListedParticles<Dim> near{x, particles.mass, pairs, box};
     EnergyAndForces<Dim> sum =
         energy_and_forces<Dim>(CorePotential{p.core.e_c, std::max(p.core.s, 0.1)}, near);
     if (p.state) sum += energy_and_forces<Dim>(EmbeddedEnergy<SameLaw>{SameLaw{*p.state}}, w, near);
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(densities_are_sums_over_neighbours) {
     const AnyWeight<2> w = weight_function<2>("w5", range);
     const EmbeddedEnergy<EmbeddedAtom> any{EmbeddedAtom{}};
     const auto rho =
-        density_fields<2>(any, w, Neighbourhood<2>{x, model.particles().mass, pairs, open});
+        density_fields<2>(any, w, ListedParticles<2>{x, model.particles().mass, pairs, open});
     BOOST_TEST(relative_difference(model.density(y), rho) < 1e-14);
 }
 

@@ -10,11 +10,14 @@
 #include <spam/material/embedded_atom.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
+#include <spam/material/smooth_hencky_solid.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -66,9 +69,10 @@ double sign_of(Field field, int dim, int c, unsigned flipped) {
 template <int Dim>
 using Build = std::function<std::unique_ptr<Model<Dim>>(Particles<Dim>, const Box<Dim>&)>;
 
-/// Largest difference of any rate between mirrors and the symmetric whole, relative to the largest.
+/// Largest difference of any rate between mirrors and the symmetric whole, relative to the largest; or of anything in
+/// y after that many steps of time 0.02.
 template <int Dim>
-double against_symmetric_whole(const Build<Dim>& build) {
+double against_symmetric_whole(const Build<Dim>& build, int steps = 0) {
     constexpr unsigned images = 1U << Dim;
     const auto half = jittered<Dim>(cells, 3);
     const auto n = half.reference_position.cols();
@@ -88,6 +92,10 @@ double against_symmetric_whole(const Build<Dim>& build) {
     auto walled = build(half, mirrors<Dim>(cells));
     auto whole = build(all, Box<Dim>(twice));
     auto y = random_state(*walled, 5);
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> aside(-0.05, 0.05);
+    for (auto& x : State<Dim>(walled->layout(), y).position().reshaped()) x += aside(random);
+    if (steps > 0) State<Dim>(walled->layout(), y).velocity() *= 0.1;  // none reaches a mirror
     std::vector<double> Y(whole->layout().size(), 0.0);
     const State<Dim> small(walled->layout(), y), large(whole->layout(), Y);
     if (small.has(Field::energy))
@@ -98,7 +106,13 @@ double against_symmetric_whole(const Build<Dim>& build) {
                 large.field(block.field).row(c).segment(image * n, n) =
                     sign_of(block.field, Dim, static_cast<int>(c), image) *
                     small.field(block.field).row(c);
-    const auto rates = rates_of(*walled, y), expected = rates_of(*whole, Y);
+    const auto later = [&](Model<Dim>& model, const std::vector<double>& from) {
+        if (steps == 0) return rates_of(model, from);
+        Motion<Dim> motion(model, from, {.method = "rk4", .dt = 0.02});
+        motion.advance_to(0.02 * steps);
+        return std::vector<double>(motion.y().begin(), motion.y().end());
+    };
+    const auto rates = later(*walled, y), expected = later(*whole, Y);
     const ConstState<Dim> found(walled->layout(), rates), right(whole->layout(), expected);
     double worst = 0.0;
     for (const auto& block : whole->layout().blocks()) {
@@ -204,6 +218,58 @@ BOOST_AUTO_TEST_CASE(mirrors_are_half_of_a_symmetric_whole) {
     BOOST_TEST(against_symmetric_whole<2>(own) < 1e-13);
 }
 
+template <int Dim>
+void bodies_with_neighbours_for_good() {
+    const TotalLagrangianScheme scheme{.density = 1.0, .range = 2.6, .penalty = 0.3};
+    const Build<Dim> solid = [&](Particles<Dim> particles, const Box<Dim>& box) {
+        return std::make_unique<TotalLagrangianModel<Dim>>(
+            std::move(particles), StVenantKirchhoff{0.7, 0.4}, scheme, box);
+    };
+    const Build<Dim> springs = [](Particles<Dim> particles, const Box<Dim>& box) {
+        return std::make_unique<BondedModel<Dim>>(std::move(particles), HarmonicSpring{}, box);
+    };
+    for (const auto* build : {&solid, &springs})
+        for (const int steps : {0, 50}) BOOST_TEST_CONTEXT(Dim << "D, " << steps << " steps")
+    BOOST_TEST(against_symmetric_whole<Dim>(*build, steps) < 1e-12);
+}
+
+// Mirrors are planes of symmetry for them.
+BOOST_AUTO_TEST_CASE(solids_with_neighbours_for_good_are_half_of_a_symmetric_whole) {
+    bodies_with_neighbours_for_good<1>();
+    bodies_with_neighbours_for_good<2>();
+    bodies_with_neighbours_for_good<3>();
+    const Build<2> yields = [](Particles<2> particles, const Box<2>& box) {
+        return std::make_unique<TotalLagrangianModel<2>>(
+            std::move(particles), SmoothHenckySolid<PlaneStrainVonMises>({0.7, 0.4}, {0.05, 0.1}),
+            TotalLagrangianScheme{.density = 1.0, .range = 2.6}, box);
+    };
+    BOOST_TEST(against_symmetric_whole<2>(yields) < 1e-12);
+}
+
+// One that flies to a mirror is turned back at it, and the mirror's impulse and the body's energy are accounted for.
+BOOST_AUTO_TEST_CASE(a_solid_flies_to_a_mirror) {
+    Points<2> x = square_lattice<2>({4, 4});
+    x.colwise() -= x.rowwise().minCoeff().eval();
+    x.array() += 0.6;
+    Box<2> box;
+    box.set_wall(0, false, {WallKind::mirror, -4.0});
+    TotalLagrangianModel<2> model(make_particles<2>(x, 1.0), StVenantKirchhoff{0.7, 0.4},
+                                  {.density = 1.0, .range = 2.6}, box);
+    std::vector<double> y(model.layout().size(), 0.0);
+    const State<2> state(model.layout(), y);
+    state.position() = x;
+    state.velocity().row(0).setConstant(-0.5);
+    Motion<2> motion(model, y, {.method = "rk4", .dt = 0.01});
+    const auto before = measure_invariants<2>(model, motion.y());
+    motion.advance_to(25.0);
+    const auto after = measure_invariants<2>(model, motion.y());
+    const auto v = ConstState<2>(model.layout(), motion.y()).velocity();
+    BOOST_TEST(v.row(0).mean() > 0.15);  // the rest is in its vibrations
+    BOOST_TEST(model.reflections() >= 4U);
+    BOOST_TEST(std::abs(after.energy - before.energy) < 1e-6 * before.energy);
+    BOOST_TEST((after.momentum_balance() - before.momentum_balance()).norm() < 1e-10);
+}
+
 // A square and a cube of gas: the energy by itself, the momentum with what the mirrors gave.
 BOOST_AUTO_TEST_CASE(gas_between_mirrors_keeps_its_energy) {
     const auto coarse = run<2>(gas, mirrors<2>(cells), 0.04, 12.0);
@@ -287,9 +353,16 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
                         PairPotentialModel<2>(particles, 2.5, mirrors<2>(cells, WallKind::no_slip));
                     }),
                     "neither the velocity nor the temperature of a wall"));
+    BOOST_TEST(says(refused([&] {
+                        BondedModel<2>(particles, HarmonicSpring{},
+                                       mirrors<2>(cells, WallKind::no_slip));
+                    }),
+                    "use a mirror"));
+    auto at_the_wall = particles;
+    at_the_wall.reference_position(0, 3) = 0.0;
     BOOST_TEST(
-        says(refused([&] { BondedModel<2>(particles, HarmonicSpring{}, mirrors<2>(cells)); }),
-             "reference configuration"));
+        says(refused([&] { BondedModel<2>(at_the_wall, HarmonicSpring{}, mirrors<2>(cells)); }),
+             "is where particle"));
     BOOST_TEST(says(refused([&] {
                         Box<2> warm = mirrors<2>(cells);
                         warm.set_wall(1, true, {WallKind::mirror, double(cells), {0, 0}, 1.5});

@@ -163,6 +163,34 @@ BOOST_AUTO_TEST_CASE(sums_over_particles_are_exact) {
     BOOST_TEST(!is_plain_sum("    double energy = 0.0;"));
 }
 
+namespace {
+
+/// What only the room `neighbors` does: make lists that right-hand sides sweep, find nearest images, refresh images.
+bool is_of_neighbors(const std::string& line) {
+    static const std::regex does(
+        R"(ClusterList<\w+> +\w+[;({_]|<ClusterList<|nearest_image\(|\blist\w*\.refresh\()");
+    return std::regex_search(line, does);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(lists_and_images_belong_to_neighbors) {
+    // Has a list whose skin follows the steps, and no records.
+    const std::set<std::string> others{"include/spam/physics/closest_approach.hpp",
+                                       "src/physics/closest_approach.cpp"};
+    for (const auto& path : sources({"include", "src", "problems"})) {
+        const auto relative = fs::relative(path, SPAM_SOURCE).generic_string();
+        if (room_of(path) == "neighbors" || others.contains(relative)) continue;
+        for (const auto& line : lines_of(path))
+            BOOST_TEST(!is_of_neighbors(line), relative << ": " << line);
+    }
+    BOOST_TEST(is_of_neighbors("    ClusterList<Dim> list_;"));
+    BOOST_TEST(is_of_neighbors("    ClusterList<2> list(range, 0.0, box, 1);"));
+    BOOST_TEST(is_of_neighbors("    list_.refresh(records.data(), kinds, from);"));
+    BOOST_TEST(is_of_neighbors("    r[a] = box.nearest_image(a, r[a]);"));
+    BOOST_TEST(!is_of_neighbors("    const ClusterList<Dim>& list = this->list();"));
+}
+
 BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
     for (const auto& path : sources({"include", "src", "problems", "tests"})) {
         const auto lines = lines_of(path);

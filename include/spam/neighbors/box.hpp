@@ -121,6 +121,21 @@ class Box {
         return s - T(length_[at(a)]) * nearest_integer(s * T(inverse_[at(a)]));
     }
 
+    /// The nearest image of r, a difference of two positions.
+    Point<Dim> nearest(Point<Dim> r) const {
+        for (int a = 0; a < Dim; ++a)
+            if (periodic(a)) r[a] = nearest_image(a, r[a]);
+        return r;
+    }
+    /// The nearest image of x_i - x_j, of any two positions; exactly x_i - x_j in free directions.
+    Point<Dim> separation(const Point<Dim>& x_i, const Point<Dim>& x_j) const {
+        Point<Dim> r;
+        for (int a = 0; a < Dim; ++a)
+            r[a] = periodic(a) ? nearest_image(a, wrap(a, x_i[a]) - wrap(a, x_j[a]))
+                               : x_i[a] - x_j[a];
+        return r;
+    }
+
   private:
     static constexpr std::size_t at(int a) { return static_cast<std::size_t>(a); }
     std::array<double, Dim> length_{};

@@ -55,9 +55,10 @@ class ClusterList {
 
     /// For sweeps over records whose positions the list serves.
     ClusterView view() const;
-    /// The same clusters with no neighbours but the images behind one wall (Ghosts::behind). Kept until the
-    /// next build; not to be asked for from several threads.
-    ClusterView behind_wall(int a, bool upper) const;
+    /// Whether an image behind that wall is at a slot (Ghosts::behind). Precondition: the side is not open.
+    bool behind(std::size_t slot, int a, bool upper) const {
+        return slot >= order_.size() && ghosts_.behind(slot - order_.size(), a, upper);
+    }
     std::size_t size() const { return size_; }
     std::size_t clusters() const { return entries_.size(); }
     int width() const { return width_; }
@@ -121,12 +122,6 @@ class ClusterList {
     std::vector<ClusterView::Entries> entries_;                   ///< by cluster
     std::vector<std::vector<NearLevel<Dim>>> levels_;             ///< of the searches through cells
     std::vector<std::vector<std::vector<std::uint32_t>>> parts_;  ///< pages of entries
-    struct BehindWall {
-        std::size_t build = 0;  ///< of which list
-        std::vector<ClusterView::Entries> entries;
-        std::vector<std::uint32_t> all;
-    };
-    mutable std::array<BehindWall, 2 * Dim> behind_;
 };
 
 extern template class ClusterList<1>;

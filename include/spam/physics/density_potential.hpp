@@ -105,7 +105,7 @@ struct EnergyAndForces {
 /// Particles and who is near whom: `position` Dim x N, `mass` N; the list's reach must not be below the
 /// range. Refers to what it is made of.
 template <int Dim>
-struct Neighbourhood {
+struct ListedParticles {
     const Points<Dim>& position;
     std::span<const double> mass;
     const PairList<Dim>& pairs;
@@ -114,10 +114,10 @@ struct Neighbourhood {
     std::size_t size() const { return mass.size(); }
     /// r_i - r_j
     Vec<Dim> separation(std::size_t i, std::size_t j) const {
+        const Point<Dim> r = box.nearest(position.col(static_cast<Eigen::Index>(i)) -
+                                         position.col(static_cast<Eigen::Index>(j)));
         Vec<Dim> r_ij;
-        for (int a = 0; a < Dim; ++a)
-            r_ij[a] = box.nearest_image(a, position(a, static_cast<Eigen::Index>(i)) -
-                                               position(a, static_cast<Eigen::Index>(j)));
+        std::copy_n(r.data(), Dim, r_ij.c.begin());
         return r_ij;
     }
 };
@@ -125,7 +125,7 @@ struct Neighbourhood {
 /// f_i of all particles. The particle itself is counted.
 template <int Dim, DensityTerm<Dim> Term, SmoothWeightFunction Weight>
 std::vector<typename Term::template Field<Dim>> density_fields(const Term&, const Weight& weight,
-                                                               const Neighbourhood<Dim>& near) {
+                                                               const ListedParticles<Dim>& near) {
     std::vector<typename Term::template Field<Dim>> f(near.size());
     for (std::size_t i = 0; i < near.size(); ++i)
         for (const std::uint32_t j : near.pairs.neighbours(i)) {
@@ -139,7 +139,7 @@ std::vector<typename Term::template Field<Dim>> density_fields(const Term&, cons
 /// as check_smooth_enough() does.
 template <int Dim, DensityTerm<Dim> Term, SmoothWeightFunction Weight>
 EnergyAndForces<Dim> energy_and_forces(const Term& term, const Weight& weight,
-                                       const Neighbourhood<Dim>& near) {
+                                       const ListedParticles<Dim>& near) {
     check_smooth_enough<Dim>(term, weight);
     const auto f = density_fields<Dim>(term, weight, near);
     std::vector<typename Term::template Field<Dim>> G(near.size());

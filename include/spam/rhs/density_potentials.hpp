@@ -12,7 +12,6 @@ namespace spam {
 
 template <int Dim>
 class PackedParticles;
-enum class ListUse;
 
 /// Which potentials of the density act, [HH07] 6 to 8, and with what weight function. Zero: none.
 struct DensityPotentials {
@@ -48,17 +47,13 @@ class DensityPotentialTerm final : public Term<Dim> {
     std::string describe() const override;
 
     double neighbour_forces(std::span<const double> y) const override;
-    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
-    std::size_t pairs() const override;
     double reach() const override { return potentials_.range; }
-    void remember(Memory<Dim>& memory) override;
 
     const DensityPotentials& potentials() const { return potentials_; }
 
   private:
     struct Parts;
     std::string complaint() const;
-    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
 
     DensityPotentials potentials_;
     std::unique_ptr<Parts> parts_;  ///< sweeps, records and fields

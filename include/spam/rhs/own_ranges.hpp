@@ -46,11 +46,8 @@ class OwnRanges final : public Term<Dim> {
     double neighbour_forces(std::span<const double> y) const override;
     std::string describe() const override;
 
-    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
-    std::size_t pairs() const override;
     /// The largest range of the latest rates().
     double reach() const override { return reach_; }
-    void remember(Memory<Dim>& memory) override;
 
     const Fluid& fluid() const { return fluid_; }
     const VariableRangeScheme& scheme() const { return scheme_; }
@@ -70,15 +67,13 @@ class OwnRanges final : public Term<Dim> {
     std::string find_ranges(const ConstState<Dim>& state);
     std::size_t close_own_sums(const Now& now);
     void make_room();
-    template <class Fill>
-    void fill(const Fill& fill);
 
     Fluid fluid_;
     VariableRangeScheme scheme_;
     GeneralWeight<Dim> unit_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
-    std::unique_ptr<PackedParticles<Dim>> packed_;  ///< null before the first rates()
-    double packed_reach_ = 0.0, reach_ = 0.0;
+    std::unique_ptr<PackedParticles<Dim>> packed_;
+    double reach_ = 0.0;
     std::vector<double> range_, pressure_, pull_, rho_dot_;
 };
 

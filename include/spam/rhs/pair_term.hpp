@@ -10,7 +10,6 @@ namespace spam {
 
 template <int Dim>
 class PackedParticles;
-enum class ListUse;
 
 /// A law of pairs, as registered_sweeps() or a *.lanes.cpp gives it.
 template <int Dim>
@@ -42,15 +41,10 @@ class PairTerm : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     std::vector<double> density(std::span<const double> y) const override;
     std::string describe() const override { return law_.description; }
-    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
-    std::size_t pairs() const override;
     double reach() const override { return law_.range; }
-    std::size_t list_builds() const override;
-    void remember(Memory<Dim>& memory) override;
 
   private:
     std::vector<NumberKind> record_kinds() const;
-    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     bool follow(PackedParticles<Dim>& packed, const ConstState<Dim>& state) const;
     SweepInput<Dim> input(const PackedParticles<Dim>& packed) const;
 

@@ -108,7 +108,7 @@ class ParticleModel : public Model<Dim> {
     bool settles_seldom() const final;
     /// Of the terms; then particles that have crossed a wall are reflected. Of walls with images r -> -r,
     /// v_n -> -v_n, where externals have potentials with the velocity that keeps the energy; of rigid ones
-    /// v_n -> -v_n where that leads outwards.
+    /// v_n -> -v_n where that leads outwards, and so of mirrors where a law has neighbours for good.
     bool settle(double t, std::span<double> y) final;
     /// How many have been, so far.
     std::size_t reflections() const { return reflections_; }
@@ -151,6 +151,7 @@ class ParticleModel : public Model<Dim> {
     void book_wall(const typename External<Dim>::Now& now, int a, bool upper,
                    const Wall<Dim>& wall) const;
     bool reflect(const State<Dim>& state);
+    bool neighbours_for_good() const;
     Given turn_back(const State<Dim>& state, Eigen::Index i, int a) const;
     double gained(std::size_t i, const Point<Dim>& from, const Point<Dim>& to) const;
     Given fold_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;

@@ -19,7 +19,6 @@ template <int Dim>
 struct SweepOutput;
 template <int Dim>
 class PackedParticles;
-enum class ListUse;
 struct PackedFields;
 struct Groups;
 class TorqueFactors;
@@ -68,7 +67,6 @@ class SmoothParticles final : public Term<Dim> {
     /// Torques are balanced among particles, and reflections are of pairs of them, without images.
     std::string no_images(const Wall<Dim>& wall) const override;
     bool conducts() const override;
-    const WallRates<Dim>* wall_rates(int a, bool upper) const override;
     /// The restriction of the distance of closest approach, where the scheme has one.
     std::vector<Event> events() const override;
     Promises promises() const override;
@@ -77,9 +75,7 @@ class SmoothParticles final : public Term<Dim> {
     /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
     /// sets in and out, nor of solids that begin to yield.
     bool smooth() const override;
-    std::size_t pairs() const override;
     double reach() const override { return scheme_.range; }
-    std::size_t list_builds() const override;
     /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
     /// denominator (physics/gauss_constraint.hpp).
     std::vector<Remark> watch(double t, std::span<const double> y) override;
@@ -111,7 +107,6 @@ class SmoothParticles final : public Term<Dim> {
     void balance(const Now& now, const SweepInput<Dim>& in, SweepOutput<Dim>& out);
     PackedFields fields_of(const ConstState<Dim>& state) const;
     std::vector<double> summed_density(const PackedFields& fields) const;
-    std::unique_ptr<PackedParticles<Dim>> packed_with(ListUse use) const;
     void load_transport(const Now& now);
     void prepare_damping();
     Groups groups() const;

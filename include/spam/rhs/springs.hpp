@@ -2,9 +2,8 @@
 #pragma once
 
 #include <spam/material/harmonic_spring.hpp>
+#include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/particle_model.hpp>
-
-#include <cstdint>
 
 namespace spam {
 
@@ -14,16 +13,14 @@ namespace spam {
 template <int Dim>
 class Springs final : public Term<Dim> {
   public:
-    /// Bonds every pair closer than 1.2 spacings in the reference configuration.
     using typename Term<Dim>::Now;
 
+    /// Bonds every pair closer than 1.2 spacings in the reference configuration, across periodic borders and with
+    /// the images behind a mirror as well. Throws InputError where two of these are at one place.
     Springs(const Selection<Dim>& among, const HarmonicSpring& spring);
 
     std::string rates(const Now& now) override;
     double energy(std::span<const double> y) const override;
-    std::string no_images(const Wall<Dim>&) const override {
-        return "the neighbours of a particle are those of the reference configuration, without images; use rigid sides";
-    }
     std::string describe() const override;
     /// Throws InputError where particles are split or merged: all springs have one length.
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
@@ -34,17 +31,17 @@ class Springs final : public Term<Dim> {
     std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const;
     /// Of all bonds, from both ends.
     double neighbour_forces(std::span<const double> y) const override;
-    std::size_t pairs() const override { return partner_.size() / 2; }
-    double reach() const override { return bond_reach_; }
+    double reach() const override { return near_.range(); }
 
   private:
-    template <class View>
-    Point<Dim> bond(const View& x, std::size_t i, std::size_t j) const;
+    void load(Neighbourhood<Dim>& near, const double* x) const;
+    template <class Visit>
+    static void each_bond(const Neighbourhood<Dim>& near, std::size_t slot, const Visit& visit);
+    template <class OfBond>
+    double half_of_bonds(std::span<const double> y, const OfBond& of_bond) const;
 
     HarmonicSpring spring_;
-    double bond_reach_;
-    std::vector<std::size_t> start_;      ///< N + 1
-    std::vector<std::uint32_t> partner_;  ///< every bond from both its ends, ascending
+    Neighbourhood<Dim> near_;  ///< of the reference positions; the records are positions
 };
 
 extern template class Springs<1>;

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <spam/rhs/selection.hpp>
-#include <spam/rhs/wall_rates.hpp>
 
 #include <span>
 #include <string>
 #include <vector>
 
 namespace spam {
+
+template <int Dim>
+class Neighbourhood;
 
 /// One law by which the particles of a model, or a selection of them, act on each other: stress, a pair
 /// potential, springs. A model is a list of terms (particle_model.hpp); what they give adds up. Terms are called once a
@@ -73,8 +75,9 @@ class Term {
     /// Whether heat passes from particle to particle, and from what is behind a wall.
     virtual bool conducts() const { return false; }
 
-    /// Of the latest rates() the part that is due to the images behind one wall; null where there are none.
-    virtual const WallRates<Dim>* wall_rates(int /*a*/, bool /*upper*/) const { return nullptr; }
+    /// Those that the term sweeps (look_after): the model looks there for what walls give, and has them forgotten
+    /// where a run is read back.
+    std::span<Neighbourhood<Dim>* const> neighbourhoods() const { return neighbourhoods_; }
 
     virtual std::vector<Event> events() const { return {}; }
     /// In open space.
@@ -86,9 +89,10 @@ class Term {
     virtual std::string describe() const = 0;
     virtual double fastest_damping(std::span<const double> /*y*/) const { return 0.0; }
     virtual bool smooth() const { return true; }
-    virtual std::size_t pairs() const = 0;
+    /// Of its neighbourhoods, here and below.
+    virtual std::size_t pairs() const;
     virtual double reach() const = 0;
-    virtual std::size_t list_builds() const { return 0; }
+    virtual std::size_t list_builds() const;
 
     /// As the model's functions of these names.
     virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
@@ -117,6 +121,8 @@ class Term {
     virtual bool settles_seldom() const { return false; }
 
   protected:
+    /// To be called once for each, when it is made; it stays where it is.
+    void look_after(Neighbourhood<Dim>& near) { neighbourhoods_.push_back(&near); }
     const Particles<Dim>& particles() const { return among_.particles(); }
     const Box<Dim>& box() const { return model().box(); }
     const FieldLayout<Dim>& layout() const { return model().layout(); }
@@ -134,6 +140,11 @@ class Term {
 
   private:
     Selection<Dim> among_;
+    std::vector<Neighbourhood<Dim>*> neighbourhoods_;
 };
+
+extern template class Term<1>;
+extern template class Term<2>;
+extern template class Term<3>;
 
 }  // namespace spam

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <spam/material/hyperelastic_material.hpp>
-#include <spam/neighbors/cluster_list.hpp>
+#include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <memory>
@@ -31,7 +31,7 @@ template <int Dim>
 class TotalLagrangian final : public Term<Dim> {
   public:
     /// `material`: any hyperelastic law (hyperelastic_law.hpp), with a memory or without. In a periodic box the lattice closes on
-    /// itself as in the reference configuration. Throws InputError for a density, range or penalty
+    /// itself as in the reference configuration; a mirror is a plane of symmetry for those that have neighbours behind it there. Throws InputError for a density, range or penalty
     /// that makes no sense, a periodic box narrower than a fifth of the range, and a particle whose
     /// neighbours do not span space.
     TotalLagrangian(const Selection<Dim>& among, const HyperelasticMaterial<Dim>& material,
@@ -48,9 +48,6 @@ class TotalLagrangian final : public Term<Dim> {
     double energy(std::span<const double> y) const override;
     /// rho_0/det F; negative where a particle is turned inside out.
     std::vector<double> density(std::span<const double> y) const override;
-    std::string no_images(const Wall<Dim>&) const override {
-        return "the neighbours of a particle are those of the reference configuration, without images; use rigid sides";
-    }
     std::string describe() const override;
     Promises promises() const override {
         Promises p = Term<Dim>::promises();
@@ -60,7 +57,6 @@ class TotalLagrangian final : public Term<Dim> {
     /// Not of solids that begin to yield.
     bool smooth() const override { return material_.history().empty() || material_.has_rates(); }
 
-    std::size_t pairs() const override { return list_.pairs(); }
     double reach() const override { return scheme_.range; }
 
     const TotalLagrangianScheme& scheme() const { return scheme_; }
@@ -69,22 +65,19 @@ class TotalLagrangian final : public Term<Dim> {
 
   private:
     struct Stresses;
-    SweepInput<Dim> input(const std::vector<double>& records) const;
+    SweepInput<Dim> input(const Neighbourhood<Dim>& near) const;
     void pack_reference();
     void find_corrections();
-    void load(const ConstState<Dim>& state, std::vector<double>& records) const;
-    /// Images of particles, from a number of their records on.
-    void refresh(std::vector<double>& records, std::size_t from) const;
+    void load(const ConstState<Dim>& state, Neighbourhood<Dim>& near) const;
     void memory_rates(const Now& now);
-    std::vector<double> deformed(std::span<const double> y) const;
+    Neighbourhood<Dim> deformed(std::span<const double> y) const;
     std::string complaint() const;
 
     HyperelasticMaterial<Dim> material_;
     TotalLagrangianScheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
-    ClusterList<Dim> list_;        ///< of the reference positions
-    std::vector<double> records_;  ///< StressedRecord by slot
-    std::vector<double> moving_;   ///< of velocities, where the material's memory has rates
+    Neighbourhood<Dim> near_;  ///< of the reference positions, StressedRecord
+    std::unique_ptr<Neighbourhood<Dim>> moving_;  ///< of velocities, where the material's memory has rates
 };
 
 extern template class TotalLagrangian<1>;
