@@ -100,7 +100,8 @@ struct Derivatives {
     }
 };
 
-Points<2> forces(const DensityPotentials& p, const AnyWeight<2>& w, const ListedParticles<2>& near) {
+Points<2> forces(const DensityPotentials& p, const AnyWeight<2>& w,
+                 const ListedParticles<2>& near) {
     Points<2> force = Points<2>::Zero(2, near.position.cols());
     for_each_term(p, w,
                   [&](const auto& term) { force += energy_and_forces<2>(term, w, near).force; });

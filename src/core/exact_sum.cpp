@@ -2,6 +2,7 @@
 #include "exact_sum_digits.hpp"
 #include "levels.hpp"
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 
 #include <bit>
 #include <cmath>
@@ -66,6 +67,16 @@ void ExactSum::carry() {
         digit_[d + 1] += carried;
     }
     uncarried_ = 0;
+}
+
+void add_other_parts(std::span<ExactSum> sums) {
+    Parts& parts = Parts::here();
+    if (parts.alone()) return;
+    const auto all = parts.gather(std::span<const ExactSum>(sums), Parts::Content::sums);
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        sums[k] = {};
+        for (const auto& of_part : all) sums[k] += of_part[k];
+    }
 }
 
 double ExactSum::value() const {

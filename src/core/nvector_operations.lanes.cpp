@@ -4,6 +4,7 @@
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/lanes.hpp>
+#include <spam/core/parts.hpp>
 
 #include <nvector/nvector_serial.h>
 
@@ -122,17 +123,20 @@ double dot_product(N_Vector x, N_Vector y) {
 }
 double weighted_rms_norm(N_Vector x, N_Vector w) {
     const double total = sum(x, w, [](const auto& a, const auto& b) { return (a * b) * (a * b); });
-    return std::sqrt(total / static_cast<double>(of(x).n));
+    // Entries that every part of a run has a copy of are accounts, of weight 0.
+    const std::size_t copies = Parts::here().alone() ? 0 : Parts::here().copies;
+    const std::size_t n = Parts::here().total(of(x).n - copies) + copies;
+    return std::sqrt(total / static_cast<double>(n));
 }
 double largest_magnitude(N_Vector x) {
     double largest = 0.0;
     for (std::size_t k = 0; k < of(x).n; ++k) largest = std::max(largest, std::abs(of(x).p[k]));
-    return largest;
+    return Parts::here().most(largest);
 }
 double smallest(N_Vector x) {
     double least = std::numeric_limits<double>::max();
     for (std::size_t k = 0; k < of(x).n; ++k) least = std::min(least, of(x).p[k]);
-    return least;
+    return -Parts::here().most(-least);
 }
 
 /// z = sum c_m p_m over [first, last) in one pass over memory.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/core/rigid_motion.hpp>
 
 #include <Eigen/LU>
@@ -27,7 +28,7 @@ RigidMotion<Dim> best_translation(const Eigen::Ref<const Points<Dim>>& from,
         Eigen::Map<Point<Dim>>(terms.data() + Dim) = to.col(static_cast<Eigen::Index>(i));
         return terms;
     });
-    const auto n = static_cast<double>(from.cols());
+    const auto n = static_cast<double>(Parts::here().total(static_cast<std::size_t>(from.cols())));
     RigidMotion<Dim> motion;
     motion.from = Eigen::Map<const Point<Dim>>(sums.data()) / n;
     motion.to = Eigen::Map<const Point<Dim>>(sums.data() + Dim) / n;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/core/rigid_motion.hpp>
 #include <spam/external/thermostat.hpp>
 
@@ -26,7 +27,8 @@ void Thermostat<Dim>::prepare(const typename External<Dim>::Now& now) {
     const double twice_kinetic = exact_sum(mass.size(), [&](std::size_t i) {
         return mass[i] * (v.col(static_cast<Eigen::Index>(i)) - V_).squaredNorm();
     });
-    const double kT = twice_kinetic / (Dim * (static_cast<double>(v.cols()) - 1.0));
+    const auto n = static_cast<double>(Parts::here().total(mass.size()));
+    const double kT = twice_kinetic / (Dim * (n - 1.0));
     // Nothing that is at rest can be warmed by its own velocities.
     factor_ = kT > 0.0 ? -0.5 * gamma_ * (1.0 - kT_0_ / kT) : 0.0;
 }

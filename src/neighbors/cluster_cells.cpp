@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/cluster_cells.hpp>
 
 #include <algorithm>
@@ -168,22 +169,25 @@ void ClusterCells<Dim>::load(const Input& in) {
     };
     for (auto& coordinate : x)
         std::fill_n(coordinate.begin() + static_cast<std::ptrdiff_t>(count), lanes, nowhere);
-    constexpr std::uint32_t nobody = 0xffffffff;
-    const auto owner = [&] {
-        return ghost < ghosts.size() ? in.order[ghosts.owner(ghost)] : nobody;
-    };
-    std::uint32_t next = owner();
+    const Parts& parts = Parts::here();
+    constexpr std::uint32_t none = 0xffffffff;
+    const auto number = [&] { return ghost < ghosts.size() ? ghosts.number(ghost) : none; };
+    std::uint32_t next = number();
     const auto enter_ghost = [&] {
         const std::size_t slot = ghosts.slot(ghost++);
         enter(slot, [&](std::size_t a) { return in.x[a][slot]; });
-        next = owner();
+        next = number();
     };
     for (std::uint32_t i = 0; i < owned; ++i) {
-        while (next == i && ghosts.which(ghost) < Ghosts<Dim>::itself) enter_ghost();
+        const std::uint32_t own_number = parts.number(i);
+        while (next < own_number ||
+               (next == own_number && ghosts.which(ghost) < Ghosts<Dim>::itself))
+            enter_ghost();
         const double* const own = in.position.data() + Dim * std::size_t{i};
         enter(in.slot_of[i], [&](std::size_t a) { return own[a]; });
-        while (next == i) enter_ghost();
+        while (next == own_number) enter_ghost();
     }
+    while (next != none) enter_ghost();
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/ghosts.hpp>
 
 #include <algorithm>
@@ -9,23 +10,25 @@
 namespace spam {
 
 template <int Dim>
-void Ghosts<Dim>::find_bounds(const Points<Dim>& position) {
-    low_.fill(std::numeric_limits<double>::infinity());
-    high_.fill(-std::numeric_limits<double>::infinity());
+auto Ghosts<Dim>::bounds_of(const Points<Dim>& position) -> Corners {
+    Corners bounds;
+    bounds.low.fill(std::numeric_limits<double>::infinity());
+    bounds.high.fill(-std::numeric_limits<double>::infinity());
     for (Eigen::Index i = 0; i < position.cols(); ++i)
         for (std::size_t a = 0; a < Dim; ++a) {
             const double x = position(static_cast<Eigen::Index>(a), i);
-            low_[a] = std::min(low_[a], x);
-            high_[a] = std::max(high_[a], x);
+            bounds.low[a] = std::min(bounds.low[a], x);
+            bounds.high[a] = std::max(bounds.high[a], x);
         }
+    return bounds;
 }
 
-/// By the walls, or as many periods away as have room between the particles' bounds.
+/// By the walls, or as many periods away as have room between our own particles and those of `around_`.
 template <int Dim>
-void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double reach) {
+void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double reach, const Corners& own) {
     const auto axis = static_cast<std::size_t>(a);
     Along& along = along_[axis];
-    const double from = low_[axis] - reach, to = high_[axis] + reach;
+    const double from = around_.low[axis] - reach, to = around_.high[axis] + reach;
     along.numbers.clear();
     along.image.fill({});
     along.low = -std::numeric_limits<double>::infinity(), along.high = -along.low;
@@ -46,11 +49,10 @@ void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double reach) {
         if (const auto& wall = box.wall(a, upper); wall.has_images())
             add(upper ? middle + 1 : middle - 1, wall.image(a));
     if (!box.periodic(a)) return;
-    const double L = box.length(a);
+    const double L = box.length(a), extent = std::max(around_.high[axis], own.high[axis]) -
+                                             std::min(around_.low[axis], own.low[axis]);
     int most = 0;
-    while (most + 1 < static_cast<int>(middle) &&
-           (most + 1) * L <= high_[axis] - low_[axis] + reach)
-        ++most;
+    while (most + 1 < static_cast<int>(middle) && (most + 1) * L <= extent + reach) ++most;
     for (int k = -most; k <= most; ++k) {
         if (k == 0) continue;
         Image<Dim> image;
@@ -61,7 +63,8 @@ void Ghosts<Dim>::find_images(const Box<Dim>& box, int a, double reach) {
 
 /// All combinations of the images along each direction: so corners are images of images.
 template <int Dim>
-void Ghosts<Dim>::add_images(std::uint32_t owner, const Point<Dim>& x, double reach) {
+void Ghosts<Dim>::add_images(std::uint32_t owner, std::uint32_t number, const double* x,
+                             double reach, bool itself_too) {
     struct Option {
         std::uint32_t number;
         double x;
@@ -69,102 +72,174 @@ void Ghosts<Dim>::add_images(std::uint32_t owner, const Point<Dim>& x, double re
     std::array<std::array<Option, most_images>, Dim> options;
     std::array<std::size_t, Dim> count{}, chosen{};
     for (std::size_t a = 0; a < Dim; ++a) {
-        const double now = x[static_cast<Eigen::Index>(a)];
-        const auto append = [&](std::uint32_t number, double image) {
-            options[a][count[a]++] = {number, image};
+        const double from = around_.low[a] - reach, to = around_.high[a] + reach;
+        const auto append = [&](std::uint32_t of, double image) {
+            if (image >= from && image <= to) options[a][count[a]++] = {of, image};
         };
         bool passed = false;
-        for (const std::uint32_t number : along_[a].numbers) {
-            if (number > middle && !passed) append(middle, now), passed = true;
-            const auto change = along_[a].image[number].position[a];
-            const double image = change.sign * now + change.shift;
-            if (!(image >= low_[a] - reach && image <= high_[a] + reach)) continue;
-            append(number, image);
+        for (const std::uint32_t of : along_[a].numbers) {
+            if (of > middle && !passed) append(middle, x[a]), passed = true;
+            const auto change = along_[a].image[of].position[a];
+            append(of, change.sign * x[a] + change.shift);
         }
-        if (!passed) append(middle, now);
+        if (!passed) append(middle, x[a]);
+        if (count[a] == 0) return;
     }
     for (;;) {
-        Place place{owner, 0, {}};
+        Place place{owner, number, 0, 0, {}};
         for (std::size_t a = 0; a < Dim; ++a) {
             const Option& option = options[a][chosen[a]];
             place.code = place.code * most_images + option.number;
-            place.x[static_cast<Eigen::Index>(a)] = option.x;
+            place.x[a] = option.x;
         }
-        if (place.code != itself) places_.push_back(place);
+        if (itself_too || place.code != itself) places_.push_back(place);
         std::size_t a = Dim;
         while (a > 0 && ++chosen[a - 1] == count[a - 1]) chosen[--a] = 0;
         if (a == 0) return;
     }
 }
 
+/// `itself_too`: for another part.
 template <int Dim>
 void Ghosts<Dim>::collect(double reach, const Points<Dim>& position,
-                          std::span<const std::uint32_t> slot_of) {
-    for (Eigen::Index i = 0; i < position.cols(); ++i) {
-        bool inside = true;
-        for (std::size_t a = 0; a < Dim; ++a) {
-            const double x = position(static_cast<Eigen::Index>(a), i);
-            inside = inside && x > along_[a].low && x < along_[a].high;
-        }
-        if (inside) continue;
-        add_images(slot_of[static_cast<std::size_t>(i)], position.col(i), reach);
+                          std::span<const std::uint32_t> slot_of, bool itself_too) {
+    const Parts& parts = Parts::here();
+    places_.clear();
+    for (std::size_t i = 0; i < slot_of.size(); ++i) {
+        const double* const x = position.data() + Dim * i;
+        bool inside = !itself_too;
+        for (std::size_t a = 0; a < Dim; ++a)
+            inside = inside && x[a] > along_[a].low && x[a] < along_[a].high;
+        if (!inside) add_images(slot_of[i], parts.number(i), x, reach, itself_too);
     }
 }
 
-/// The image of that code and the wall it is behind.
+/// Where the image of that code is among those that occur.
 template <int Dim>
-void Ghosts<Dim>::add_image(const Box<Dim>& box, std::uint32_t code) {
+std::uint32_t Ghosts<Dim>::image_of(const Box<Dim>& box, std::uint32_t code) {
+    constexpr std::uint32_t unseen = 0xffffffff;
+    if (images_.empty()) at_.fill(unseen);
+    if (at_[code] != unseen) return at_[code];
     Image<Dim> image;
-    int wall = -1;
     for (int a = 0; a < Dim; ++a) {
-        const std::uint32_t number = code >> 4 * (Dim - 1 - a) & (most_images - 1);
-        image = image.then(along_[static_cast<std::size_t>(a)].image[number]);
-        if (number != middle && box.walled(a)) wall = 2 * a + (number > middle ? 1 : 0);
+        const std::uint32_t number = number_along(code, a);
+        if (number == middle) continue;
+        Image<Dim> along;
+        if (box.periodic(a))
+            along.position[static_cast<std::size_t>(a)].shift =
+                (static_cast<int>(number) - static_cast<int>(middle)) * box.length(a);
+        else
+            along = box.wall(a, number > middle).image(a);
+        image = image.then(along);
     }
     images_.push_back(image);
-    wall_of_.push_back(wall);
+    return at_[code] = static_cast<std::uint32_t>(images_.size() - 1);
+}
+
+/// Every part tells each other one which of its particles, and images of them, are near there; what is near here comes
+/// among our own images, by number.
+template <int Dim>
+void Ghosts<Dim>::meet_other_parts(const Box<Dim>& box, double reach, const Points<Dim>& position,
+                                   std::span<const std::uint32_t> slot_of, const Corners& own) {
+    Parts& parts = Parts::here();
+    const auto bounds = parts.gather(std::span<const Corners>(&own, 1));
+    std::vector<Place> all = std::move(places_);
+    std::vector<Parts::Bytes> messages(parts.count());
+    parts_.assign(parts.count(), {});
+    for (std::size_t p = 0; p < parts.count(); ++p) {
+        if (p == parts.own()) continue;
+        around_ = bounds[p].front();
+        for (int a = 0; a < Dim; ++a) find_images(box, a, reach, own);
+        collect(reach, position, slot_of, true);
+        for (const Place& place : places_) {
+            parts_[p].slot.push_back(place.owner);
+            parts_[p].image.push_back(image_of(box, place.code));
+        }
+        messages[p] = Parts::bytes_of(std::span<const Place>(places_));
+    }
+    const auto received = parts.exchange(std::move(messages));
+    for (std::size_t p = 0; p < parts.count(); ++p)
+        if (p != parts.own())
+            for (Place place : Parts::values_of<Place>(received[p])) {
+                place.owner = elsewhere - static_cast<std::uint32_t>(p);
+                all.push_back(place);
+            }
+    std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) {
+        return std::pair(a.number, a.code) < std::pair(b.number, b.code);
+    });
+    for (std::size_t g = 0; g < all.size(); ++g)
+        if (all[g].owner > elsewhere - parts.count())
+            parts_[elsewhere - all[g].owner].ghost.push_back(static_cast<std::uint32_t>(g));
+    places_ = std::move(all);
+}
+
+template <int Dim>
+void Ghosts<Dim>::take_places(const Box<Dim>& box, std::array<std::vector<double>, Dim>& x) {
+    const std::size_t count = places_.size();
+    for (auto& coordinate : x) coordinate.resize(first_ + count + 8);
+    owner_.resize(count);
+    number_.resize(count);
+    code_.resize(count);
+    image_.resize(count);
+    wall_of_.resize(count);
+    for (std::size_t g = 0; g < count; ++g) {
+        const Place& place = places_[g];
+        owner_[g] = place.owner;
+        number_[g] = place.number;
+        code_[g] = place.code;
+        for (std::size_t a = 0; a < Dim; ++a) x[a][first_ + g] = place.x[a];
+        image_[g] = image_of(box, place.code);
+        wall_of_[g] = -1;
+        for (int a = 0; a < Dim; ++a) {
+            const std::uint32_t number = number_along(place.code, a);
+            if (number != middle && box.walled(a)) wall_of_[g] = 2 * a + (number > middle ? 1 : 0);
+        }
+    }
 }
 
 template <int Dim>
 void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& position,
                         std::span<const std::uint32_t> slot_of, std::size_t first,
                         std::array<std::vector<double>, Dim>& x) {
+    const bool alone = Parts::here().alone();
     first_ = static_cast<std::uint32_t>(first);
     places_.clear();
-    if (position.cols() > 0 && (box.periodic() || box.walled())) {
-        find_bounds(position);
-        for (int a = 0; a < Dim; ++a) find_images(box, a, reach);
-        collect(reach, position, slot_of);
-    }
-    const std::size_t count = places_.size();
-    for (auto& coordinate : x) coordinate.resize(first + count + 8);
-    owner_.resize(count);
-    code_.resize(count);
-    image_.resize(count);
     images_.clear();
-    wall_of_.clear();
-    constexpr std::uint32_t unseen = 0xffffffff;
-    std::array<std::uint32_t, 1U << 4 * Dim> image_of;
-    if (count > 0) image_of.fill(unseen);
-    for (std::size_t g = 0; g < count; ++g) {
-        const Place& place = places_[g];
-        owner_[g] = place.owner;
-        code_[g] = place.code;
-        for (std::size_t a = 0; a < Dim; ++a)
-            x[a][first + g] = place.x[static_cast<Eigen::Index>(a)];
-        std::uint32_t& number = image_of[place.code];
-        if (number == unseen) {
-            number = static_cast<std::uint32_t>(images_.size());
-            add_image(box, place.code);
-        }
-        image_[g] = number;
+    if (alone && !box.periodic() && !box.walled()) return take_places(box, x);
+    const Corners own = around_ = bounds_of(position);
+    for (int a = 0; a < Dim; ++a) find_images(box, a, reach, own);
+    collect(reach, position, slot_of, false);
+    if (!alone) meet_other_parts(box, reach, position, slot_of, own);
+    take_places(box, x);
+}
+
+/// The numbers of images that other parts have, for those of theirs that are here.
+template <int Dim>
+void Ghosts<Dim>::give(double* records, std::size_t stride, std::size_t count,
+                       std::size_t from) const {
+    Parts& parts = Parts::here();
+    std::vector<Parts::Bytes> messages(parts.count());
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        std::vector<double> numbers(parts_[p].slot.size() * count);
+        for (std::size_t n = 0; n < parts_[p].slot.size(); ++n)
+            make(records + parts_[p].slot[n] * stride + from, parts_[p].image[n], count,
+                 numbers.data() + n * count);
+        messages[p] = Parts::bytes_of(std::span<const double>(numbers));
+    }
+    const auto received = parts.exchange(std::move(messages), Parts::Content::images);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const auto numbers = Parts::values_of<double>(received[p]);
+        for (std::size_t n = 0; n < parts_[p].ghost.size(); ++n)
+            std::copy_n(numbers.data() + n * count, count,
+                        records + (first_ + parts_[p].ghost[n]) * stride + from);
     }
 }
 
 template <int Dim>
 void Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const NumberKind> numbers,
                           std::size_t from) const {
-    if (owner_.empty()) return;
+    const bool alone = Parts::here().alone();
+    if (alone && owner_.empty()) return;
     const std::size_t count = std::min(numbers.size(), stride) - from;
     changes_.resize(2 * count * images_.size());
     double* change = changes_.data();
@@ -174,13 +249,12 @@ void Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const N
             change[k] = sign, change[count + k] = shift;
             if (k + 1 == count) change += 2 * count;
         }
+    if (!alone) give(records, stride, count, from);
+    const auto owned = static_cast<std::uint32_t>(first_);
     parallel_for(owner_.size(), [&](std::size_t g) {
-        const double* const sign = changes_.data() + 2 * count * image_[g];
-        const double* const shift = sign + count;
-        const double* const own = records + owner_[g] * stride + from;
-        double* const ghost = records + (first_ + g) * stride + from;
-        // A sign and, for positions, a shift on the grid of the period: exact.
-        for (std::size_t k = 0; k < count; ++k) ghost[k] = sign[k] * own[k] + shift[k];
+        if (owner_[g] < owned)
+            make(records + owner_[g] * stride + from, image_[g], count,
+                 records + (first_ + g) * stride + from);
     });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/motion_since.hpp>
 
 namespace spam {
@@ -24,8 +25,8 @@ Displacement<Dim> MotionSince<Dim>::displacement(double distance) const {
 }
 
 template <int Dim>
-bool MotionSince<Dim>::nobody_beyond(double distance,
-                                     const Eigen::Ref<const Points<Dim>>& position) const {
+bool MotionSince<Dim>::none_beyond(double distance,
+                                   const Eigen::Ref<const Points<Dim>>& position) const {
     const Displacement<Dim> now = displacement(distance);
     const double* const x = position.data();
     return parallel_count(static_cast<std::size_t>(then_.cols()),
@@ -37,12 +38,13 @@ bool MotionSince<Dim>::within(double distance, const Eigen::Ref<const Points<Dim
                               const Box<Dim>& box) {
     // Any rigid motion will do for the criterion: a better one is looked for when the last one is
     // used up.
-    if (nobody_beyond(distance, position)) return true;
+    const auto all_within = [&] { return !Parts::here().any(!none_beyond(distance, position)); };
+    if (all_within()) return true;
     motion_ = box.periodic() || box.walled() ? best_translation<Dim>(then_, position)
                                              : best_rigid_motion<Dim>(then_, position);
     for (int a = 0; a < Dim; ++a)  // walls stay where they are
         if (box.walled(a)) motion_.to[a] = motion_.from[a];
-    return nobody_beyond(distance, position);
+    return all_within();
 }
 
 template class MotionSince<1>;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parts.hpp>
 #include <spam/diagnostics/total_energy.hpp>
 #include <spam/problem/motion.hpp>
 
@@ -71,6 +72,7 @@ Motion<Dim>::Motion(Model<Dim>& model, std::span<const double> y0, const Integra
     : model_(model),
       y_(y0.size(), context_),
       ode_(as_ode(model, options, pairs_)) {
+    Parts::here().copies = ode_.accounts;
     std::copy(y0.begin(), y0.end(), y_.span().begin());
     integrator_ = make_integrator(options, ode_, y_, t0, context_);
 }

@@ -151,7 +151,8 @@ void BondTable<Dim>::count_neighbours(const double* x) {
         kinds_of_record<Dim>);
     const ClusterView view = near_.list().view();
     parallel_blocks(view.clusters, [&](std::size_t first, std::size_t count) {
-        loops_.count(view, near_.records().numbers, reach * reach, missing_.data(), first, first + count);
+        loops_.count(view, near_.records().numbers, reach * reach, missing_.data(), first,
+                     first + count);
     });
 }
 

@@ -90,7 +90,7 @@ class BondTable {
     Box<Dim> box_;
     BondUpdates<Dim> loops_;
     std::vector<std::int32_t> bodies_;
-    Neighbourhood<Dim> near_;  ///< of positions, bodies and numbers
+    Neighbourhood<Dim> near_;             ///< of positions, bodies and numbers
     std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle
     MotionSince<Dim> motion_;             ///< since newcomers were looked for
     BondRows<Dim> rows_;

@@ -4,6 +4,7 @@
 
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/material/fluid.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -38,7 +39,8 @@ template <int Dim>
 double speed_of_fall(Model<Dim>& model, const std::vector<double>& y) {
     std::vector<double> y_dot(y.size());
     model.rates(0.0, y, y_dot);
-    const double a = ConstState<Dim>(model.layout(), y_dot).velocity().colwise().norm().maxCoeff();
+    const double a = Parts::here().most(
+        ConstState<Dim>(model.layout(), y_dot).velocity().colwise().norm().maxCoeff());
     return a > 0.0 ? std::sqrt(a * model.particles().spacing) : 1.0;
 }
 
@@ -53,7 +55,7 @@ std::vector<double> fluid_start(Model<Dim>& model, const LawOf& law_of, const Po
     const State<Dim> state(model.layout(), y);
     state.position() = position;
     state.velocity() = velocity;
-    double fastest = 0.0, most = 0.0, mean = 0.0;
+    double fastest = 0.0, most = 0.0;
     for (std::size_t i = 0; i < rho.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);
         const AnyEquationOfState& law = law_of(i);
@@ -67,8 +69,12 @@ std::vector<double> fluid_start(Model<Dim>& model, const LawOf& law_of, const Po
         if (state.has(Field::density)) state.density()(0, k) = rho[i];
         fastest = std::max({fastest, velocity.col(k).norm(), law.sound_speed(rho[i], e)});
         most = std::max(most, std::abs(e));
-        mean += rho[i] / static_cast<double>(rho.size());
     }
+    Parts& parts = Parts::here();
+    fastest = parts.most(fastest);
+    most = parts.most(most);
+    const double mean = exact_sum(rho.size(), [&](std::size_t i) { return rho[i]; }) /
+                        static_cast<double>(parts.total(rho.size()));
     if (!(fastest > 0.0)) fastest = speed_of_fall(model, y);
     model.set_scales({model.particles().spacing, fastest, mean, mean * fastest * fastest});
     model.layout().set_scale(Field::energy, std::max(most, fastest * fastest));

@@ -40,6 +40,7 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
       corners_(std::move(corners)),
       materials_(std::move(materials)),
       material_(std::move(material)) {
+    require_one_part("a mesh of elements");
     if (corners_.empty()) throw InputError("elements: there are none; leave the term out");
     if (box().periodic() || box().has_images())
         throw InputError("elements: they cannot reach across the borders of a box; use free space");

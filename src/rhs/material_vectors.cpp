@@ -87,6 +87,7 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     : Term<Dim>(among),
       material_(material),
       scheme_(validated(scheme, this->particles(), material)) {
+    this->require_one_part("a solid with material vectors");
     const auto sweeps = at_level(instruction_set(), [&](auto level) {
         return bond_sweeps<Dim, level>(this->box().periodic());
     });

@@ -4,7 +4,7 @@
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/neighbors/pair_list.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/physics/variable_range.hpp>
 #include <spam/rhs/own_ranges.hpp>
 
@@ -134,7 +134,7 @@ std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
         range_[i] = range_of(i, r);
         if (range_[i] > range_[widest]) widest = i;
     }
-    reach_ = range_[widest];
+    reach_ = Parts::here().most(range_[widest]);
     if (reach_ < most_range()) return {};
     return fmt::format(
         "range {:g} of particle {} has grown to half of the periodic box or to the distance of two "
@@ -160,8 +160,8 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
                              this->particles().mass.data()}))
         return "a position is not finite";
     const auto fill = [&](int at, const auto& number_of) {
-        packed_->template write<R>(
-            at, 1, [&](std::size_t i, double* number) { *number = number_of(i); });
+        packed_->template write<R>(at, 1,
+                                   [&](std::size_t i, double* number) { *number = number_of(i); });
     };
     fill(R::template at<column::InverseRange>, [&](std::size_t i) { return 1.0 / range_[i]; });
     SweepInput<Dim> in = packed_->input();
@@ -221,26 +221,36 @@ std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
 template <int Dim>
 std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position) const {
     const auto& mass = this->particles().mass;
-    const Points<Dim> x = this->box().wrapped(position);
+    using R = PointRecord<Dim>;
     const double start = scheme_.range * this->particles().spacing, most = most_range();
     std::vector<double> rho(mass.size());
     bool found = false;
     for (double reach = 1.2 * start; !found; reach *= 1.5) {
         const double look = std::min(reach, 0.999 * most);
-        const PairList<Dim> list(x, look, this->box());
+        Neighbourhood<Dim> listed(look, ListUse::once, this->box().without_walls(), 1, R::numbers,
+                                  R::kinds);
+        listed.build(position);
+        listed.template write<R>(0, R::numbers, [&](std::size_t i, double* record) {
+            std::copy_n(position.data() + Dim * i, Dim, record);
+            record[Dim] = mass[i];
+        });
+        const auto at = [&](std::size_t slot) {
+            return Eigen::Map<const Point<Dim>>(listed.record(slot));
+        };
         found = true;
-        for (std::size_t i = 0; i < rho.size() && found; ++i) {
+        for (std::size_t slot = 0; slot < rho.size() && found; ++slot) {
+            const std::size_t i = listed.list().order()[slot];
             Surroundings near;
-            for (const std::uint32_t j : list.neighbours(i)) {
-                near.mass.push_back(mass[j]);
-                near.r.push_back(
-                    this->box().nearest(x.col(j) - x.col(static_cast<Eigen::Index>(i))).norm());
+            for (const std::uint32_t entry : listed.list().entries(slot)) {
+                near.mass.push_back(listed.record(entry / R::numbers)[Dim]);
+                near.r.push_back((at(entry / R::numbers) - at(slot)).norm());
             }
             const double h =
                 solve_range<Dim>(near, unit_, mass[i] * power<Dim>(scheme_.range), start, look);
             found = std::isfinite(h);
             rho[i] = mass[i] * power<Dim>(scheme_.range / h);
         }
+        found = !Parts::here().any(!found);
         if (!found && (look < reach || reach > 1e6 * start))
             throw InputError(
                 fmt::format("range: with {:g} (m/rho)^(1/D) a particle finds too few neighbours "

@@ -23,8 +23,8 @@ std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_
     const ClusterList<Dim>& list = this->list();
     if (list.slots() == 0) return 0;
     const PackCount count = make_records_.write(
-        {fields, list.order(), &list.home(), list.displacement(), this->records().stride}, density_only,
-        this->record(0));
+        {fields, list.order(), &list.home(), list.displacement(), this->records().stride},
+        density_only, this->record(0));
     invalid_ = count.invalid;
     return count.far;
 }
@@ -87,9 +87,9 @@ void sweep_walls(Neighbourhood<Dim>& near, const SweepInput<Dim>& in, Sweep<Dim>
     });
 }
 
-#define SPAM_INSTANTIATE(D)                                                                 \
-    template double valid_range<D>(double, double, std::size_t);                            \
-    template void sweep_walls<D>(Neighbourhood<D>&, const SweepInput<D>&, Sweep<D>);        \
+#define SPAM_INSTANTIATE(D)                                                          \
+    template double valid_range<D>(double, double, std::size_t);                     \
+    template void sweep_walls<D>(Neighbourhood<D>&, const SweepInput<D>&, Sweep<D>); \
     template class PackedParticles<D>;
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)

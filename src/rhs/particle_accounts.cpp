@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What externals and walls give to the particles of a model, and to its accounts.
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/particle_model.hpp>
 
@@ -106,8 +107,8 @@ void ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a
             Given to;
             to.force() = one;
             if (energy)
-                to.power() = one.dot(v.col(static_cast<Eigen::Index>(i))) +
-                             m * rates.e_dot[rates.place[k]];
+                to.power() =
+                    one.dot(v.col(static_cast<Eigen::Index>(i))) + m * rates.e_dot[rates.place[k]];
             return to;
         });
         sum.force() += given.force();
@@ -138,7 +139,7 @@ bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
     const State<Dim> state(this->layout(), y);
     bool changed = false;
     for (const auto& term : terms_) changed = term->settle(t, term->among().of(state)) || changed;
-    return (walled_ && reflect(state)) || changed;
+    return Parts::here().any((walled_ && reflect(state)) || changed);
 }
 
 template <int Dim>
@@ -155,8 +156,9 @@ bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
             else if (upper ? v(a, i) > 0.0 : v(a, i) < 0.0)
                 turned.push_back(turn_back(state, i, a));
         }
-        if (turned.empty()) return;
-        reflections_ += turned.size();
+        const std::size_t turns = Parts::here().total(turned.size());
+        if (turns == 0) return;
+        reflections_ += turns;
         Given sum = Given::to_all(turned.size(), [&](std::size_t k) { return turned[k]; });
         for (const Field impulse : {Field::impulse, Field::wall_impulse(a, upper)})
             state.field(impulse)(a, 0) += sum.force()[a];

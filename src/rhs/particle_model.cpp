@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <fmt/format.h>
@@ -64,6 +65,10 @@ void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
     refuse_walls(*term);
+    if (!Parts::here().alone() && !term->among().whole())
+        throw InputError(fmt::format(
+            "parts: '{}' acts among some of the particles, and cannot be parted; run it in one part",
+            term->describe()));
     for (const auto& other : terms_) {
         if (!other->quadrilaterals().empty() && !term->quadrilaterals().empty())
             throw InputError(fmt::format(
@@ -140,9 +145,22 @@ bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::sp
     return true;
 }
 
+/// Where a state has no meaning in some part, the others are told at whatever they exchange next, at the end at the
+/// latest: no law needs to take care that it makes as many exchanges as elsewhere.
 template <int Dim>
 void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
+    try {
+        find_rates(t, y, y_dot);
+        if (!this->failure_.empty()) return Parts::here().give_up(this->failure_);
+        Parts::here().agree();
+    } catch (const PartGaveUp& other) {
+        this->fail(y_dot, other.what());
+    }
+}
+
+template <int Dim>
+void ParticleModel<Dim>::find_rates(double t, std::span<const double> y, std::span<double> y_dot) {
     if (!term_rates(t, y, y_dot)) return;
     const State<Dim> rate(this->layout(), y_dot);
     for (const auto& b : this->layout().blocks())
@@ -199,6 +217,10 @@ std::vector<Event> ParticleModel<Dim>::events() const {
     for (const auto& term : terms_)
         for (Event& event : term->events()) events.push_back(std::move(event));
     if (events.empty()) return events;
+    if (!Parts::here().alone())
+        throw InputError(
+            "closest-approach: pairs of particles in different parts are not watched; run it in one "
+            "part, or leave it out");
     const std::size_t n = this->particles().size();
     std::size_t held = 0;
     for (std::size_t i = 0; i < n; ++i)

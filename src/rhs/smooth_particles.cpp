@@ -5,6 +5,7 @@
 #include "torque_factors.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/physics/closest_approach.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
@@ -57,9 +58,9 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
       scheme_(validated(scheme, Dim)),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
           sweeps_of<Dim>(scheme, constitution_->matter(scheme)))),
-      packed_(std::make_unique<PackedParticles<Dim>>(
-          GeneralWeight<Dim>(scheme_.kernel, scheme_.range), ListUse::again_and_again, this->box(),
-          *sweeps_)) {
+      packed_(
+          std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, scheme_.range),
+                                                 ListUse::again_and_again, this->box(), *sweeps_)) {
     this->look_after(*packed_);
     const std::size_t n = this->particles().size();
     valid_range<Dim>(scheme.range, this->particles().spacing, n);
@@ -97,6 +98,7 @@ void SmoothParticles<Dim>::set_bodies() {
     group_count_ = 1;
     for (const std::int32_t g : group_)
         group_count_ = std::max(group_count_, static_cast<std::size_t>(g) + 1);
+    group_count_ = static_cast<std::size_t>(Parts::here().most(static_cast<double>(group_count_)));
 }
 
 template <int Dim>

@@ -30,13 +30,12 @@ Springs<Dim>::Springs(const Selection<Dim>& among, const HarmonicSpring& spring)
     near_.build(X);
     load(near_, X.data());
     for (std::size_t slot = 0; slot < near_.list().size(); ++slot)
-        each_bond(near_, slot, [&](const Point<Dim>&, double r, std::size_t other) {
+        each_bond(near_, slot, [&](const Point<Dim>&, double r, std::size_t) {
             if (r == 0.0)
                 throw InputError(fmt::format(
-                    "springs: particle {} is where particle {} or its image is, and no spring has a direction "
-                    "there; move it off, from a mirror by half a spacing",
-                    this->particles().id[near_.list().particle(slot)],
-                    this->particles().id[near_.list().particle(other)]));
+                    "springs: particle {} is where another one or its own image is, and no spring has a "
+                    "direction there; move it off, from a mirror by half a spacing",
+                    this->particles().id[near_.list().particle(slot)]));
         });
 }
 
@@ -50,9 +49,7 @@ void Springs<Dim>::load(Neighbourhood<Dim>& near, const double* x) const {
 template <int Dim>
 template <class Visit>
 void Springs<Dim>::each_bond(const Neighbourhood<Dim>& near, std::size_t slot, const Visit& visit) {
-    const auto at = [&](std::size_t k) {
-        return Eigen::Map<const Point<Dim>>(near.record(k));
-    };
+    const auto at = [&](std::size_t k) { return Eigen::Map<const Point<Dim>>(near.record(k)); };
     for (const std::uint32_t entry : near.list().entries(slot)) {
         const std::size_t other = entry / Dim;
         if (other == slot) continue;
@@ -97,9 +94,9 @@ double Springs<Dim>::half_of_bonds(std::span<const double> y, const OfBond& of_b
     load(own, this->state_of(y).position().data());
     ExactSum sum;
     for (std::size_t slot = 0; slot < own.list().size(); ++slot)
-        each_bond(own, slot, [&](const Point<Dim>&, double r, std::size_t) {
-            sum += 0.5 * of_bond(r);
-        });
+        each_bond(own, slot,
+                  [&](const Point<Dim>&, double r, std::size_t) { sum += 0.5 * of_bond(r); });
+    add_other_parts({&sum, 1});
     return sum;
 }
 

@@ -36,7 +36,8 @@ constexpr int B_at = StressedRecord<Dim>::template at<column::ReferenceStress>;
 template <int Dim>
 constexpr auto moving_kinds = [] {
     auto kinds = StressedRecord<Dim>::kinds;
-    for (std::size_t a = 0; a < Dim; ++a) kinds[static_cast<std::size_t>(present_at<Dim>) + a].quantity = Quantity::velocity;
+    for (std::size_t a = 0; a < Dim; ++a)
+        kinds[static_cast<std::size_t>(present_at<Dim>) + a].quantity = Quantity::velocity;
     return kinds;
 }();
 
@@ -176,8 +177,7 @@ void TotalLagrangian<Dim>::find_corrections() {
 template <int Dim>
 void TotalLagrangian<Dim>::load(const ConstState<Dim>& state, Neighbourhood<Dim>& near) const {
     near.template write<StressedRecord<Dim>>(
-        present_at<Dim>, Dim,
-        [x = state.position().data()](std::size_t i, double* present) {
+        present_at<Dim>, Dim, [x = state.position().data()](std::size_t i, double* present) {
             std::copy_n(x + Dim * i, Dim, present);
         });
 }

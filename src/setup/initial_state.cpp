@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parts.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
@@ -20,6 +21,7 @@ std::vector<double> initial_state(Model<Dim>& model, double density, double modu
         v.col(i) = velocity(x.col(i));
         speed = std::max(speed, v.col(i).norm());
     }
+    speed = Parts::here().most(speed);
     if (state.has(Field::density)) state.density().setConstant(density);
 
     const double sound = std::sqrt(modulus / density);

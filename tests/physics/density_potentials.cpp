@@ -116,12 +116,14 @@ void check(const char* name, const Evaluate& evaluate) {
 /// A term as a function of the neighbourhood.
 template <int Dim, class Weight, class Term>
 auto of(const Term& term, const Weight& weight) {
-    return
-        [=](const ListedParticles<Dim>& near) { return energy_and_forces<Dim>(term, weight, near); };
+    return [=](const ListedParticles<Dim>& near) {
+        return energy_and_forces<Dim>(term, weight, near);
+    };
 }
 template <int Dim>
 auto of(const DistancePotential auto& potential) {
-    return [=](const ListedParticles<Dim>& near) { return energy_and_forces<Dim>(potential, near); };
+    return
+        [=](const ListedParticles<Dim>& near) { return energy_and_forces<Dim>(potential, near); };
 }
 
 template <int Dim>

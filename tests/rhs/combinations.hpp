@@ -4,6 +4,7 @@
 
 #include <spam/core/dimensions.hpp>
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/external/distributed_load.hpp>
@@ -49,9 +50,27 @@ struct Sample {
     /// In a periodic box particles fill it.
     explicit Sample(const Box<2>& box = {}, const Units& in = {})
         : units(in),
-          model(make_particles<2>(triangular_block(8, box.periodic() ? 6 : 5, in.length), in.mass,
-                                  in.length, box),
+          model(own_part(make_particles<2>(triangular_block(8, box.periodic() ? 6 : 5, in.length),
+                                           in.mass, in.length, box)),
                 box) {}
+    /// Those that this part of a run has (core/parts.hpp).
+    static Particles<2> own_part(Particles<2> all) {
+        if (Parts::here().alone()) return all;
+        Particles<2> own = all;
+        const auto numbers = Parts::here().numbers();
+        own.reference_position.resize(2, static_cast<Eigen::Index>(numbers.size()));
+        own.mass.clear();
+        own.id.clear();
+        own.body.clear();
+        for (const std::uint32_t i : numbers) {
+            own.reference_position.col(static_cast<Eigen::Index>(own.mass.size())) =
+                all.reference_position.col(i);
+            own.mass.push_back(all.mass[i]);
+            own.id.push_back(all.id[i]);
+            own.body.push_back(all.body[i]);
+        }
+        return own;
+    }
     Units units;
     ParticleModel<2> model;
     std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};
@@ -137,7 +156,8 @@ inline void add_springs(Sample& s) {
 
 /// Between the rows of triangular_block(8, ...), whose numbers are the ids.
 inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
-    std::vector<std::uint32_t> stored(particles.size());
+    const auto most = std::max_element(particles.id.begin(), particles.id.end());
+    std::vector<std::uint32_t> stored(static_cast<std::size_t>(*most) + 1);
     for (std::uint32_t k = 0; k < stored.size(); ++k)
         stored[static_cast<std::size_t>(particles.id[k])] = k;
     std::vector<Quadrilateral> mesh;

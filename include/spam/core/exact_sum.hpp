@@ -52,7 +52,10 @@ class ExactSum {
     double not_finite_ = 0.0;  ///< the sum of infinite terms and NaN
 };
 
-/// K sums over 0, ..., n - 1 at once. fill(first, count, rows) writes what first, ..., first + count - 1 add to
+/// Adds to each sum those that the other parts of the run have found (core/parts.hpp).
+void add_other_parts(std::span<ExactSum> sums);
+
+/// K sums over 0, ..., n - 1 at once, and of all parts of the run. fill(first, count, rows) writes what first, ..., first + count - 1 add to
 /// sum k to rows[k][0], ..., rows[k][count - 1]; from so many on several threads call it, for other blocks each.
 template <std::size_t K, class Fill>
 std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
@@ -78,6 +81,7 @@ std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
             for (std::size_t k = 0; k < K; ++k) sums[k] += part[k];
         }
     }
+    add_other_parts(sums);
     std::array<double, K> values;
     for (std::size_t k = 0; k < K; ++k) values[k] = sums[k];
     return values;
@@ -121,6 +125,7 @@ class ExactGroupSums {
             for (std::size_t k = 0; k < K; ++k)
                 sums_[static_cast<std::size_t>(group[i])][k] += of_i[k];
         }
+        for (auto& of_group : sums_) add_other_parts(of_group);
         for (std::size_t g = 0; g < groups; ++g)
             std::copy(sums_[g].begin(), sums_[g].end(), values_[g].begin());
         return values_;

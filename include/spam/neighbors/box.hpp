@@ -131,8 +131,8 @@ class Box {
     Point<Dim> separation(const Point<Dim>& x_i, const Point<Dim>& x_j) const {
         Point<Dim> r;
         for (int a = 0; a < Dim; ++a)
-            r[a] = periodic(a) ? nearest_image(a, wrap(a, x_i[a]) - wrap(a, x_j[a]))
-                               : x_i[a] - x_j[a];
+            r[a] =
+                periodic(a) ? nearest_image(a, wrap(a, x_i[a]) - wrap(a, x_j[a])) : x_i[a] - x_j[a];
         return r;
     }
 

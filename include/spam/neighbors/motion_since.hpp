@@ -20,11 +20,12 @@ class MotionSince {
     /// Whether no particle has moved farther than that. Never true where a position is not finite.
     bool within(double distance, const Eigen::Ref<const Points<Dim>>& position,
                 const Box<Dim>& box);
-    /// Who has moved farther, the rigid motion known last taken off. Where nobody has, within() is true.
+    /// Which particles have moved farther, the rigid motion known last taken off. Where none has, in any part of the
+    /// run, within() is true.
     Displacement<Dim> displacement(double distance) const;
 
   private:
-    bool nobody_beyond(double distance, const Eigen::Ref<const Points<Dim>>& position) const;
+    bool none_beyond(double distance, const Eigen::Ref<const Points<Dim>>& position) const;
 
     Points<Dim> then_;
     RigidMotion<Dim> motion_;  ///< since then, roughly

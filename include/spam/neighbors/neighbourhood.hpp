@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/behind_wall.hpp>
 
 #include <algorithm>
@@ -42,9 +43,10 @@ class Neighbourhood {
     template <class Pack>
     bool follow(const Eigen::Ref<const Points<Dim>>& x, const Pack& pack) {
         ++served_;
+        // All parts of a run go on with their lists, or all make new ones.
         const bool packed = list_->size() == static_cast<std::size_t>(x.cols()) && pack() == 0;
-        if (!packed && !list_->serves(x)) {
-            if (!x.allFinite()) return false;
+        if (Parts::here().any(!packed) && !list_->serves(x)) {
+            if (Parts::here().any(!x.allFinite())) return false;
             build(x);
             pack();
         }
@@ -132,7 +134,7 @@ class Neighbourhood {
     std::size_t numbers_;
     std::vector<NumberKind> kinds_;
     double share_ = first_share;
-    std::size_t served_ = 0;  ///< states by this list
+    std::size_t served_ = 0;                  ///< states by this list
     std::shared_ptr<ClusterList<Dim>> list_;  ///< shared by observers where it stays
     std::vector<double> records_;             ///< by slot
     std::vector<BehindWall<Dim>> walls_;

@@ -17,7 +17,8 @@ concept DistancePotential = requires(const Potential potential, double r2) {
 
 /// In double, for tests and as the oracle of passes. The list's reach must not be below the range.
 template <int Dim, DistancePotential Potential>
-EnergyAndForces<Dim> energy_and_forces(const Potential& potential, const ListedParticles<Dim>& near) {
+EnergyAndForces<Dim> energy_and_forces(const Potential& potential,
+                                       const ListedParticles<Dim>& near) {
     EnergyAndForces<Dim> result{0.0, Points<Dim>(Dim, near.position.cols())};
     ExactSum energy;
     for (std::size_t i = 0; i < near.size(); ++i) {

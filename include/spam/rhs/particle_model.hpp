@@ -143,6 +143,7 @@ class ParticleModel : public Model<Dim> {
     void refuse_beyond_walls() const;
     void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
+    void find_rates(double t, std::span<const double> y, std::span<double> y_dot);
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
     void book(const External<Dim>& external, Given given, const State<Dim>& rate) const;

@@ -77,7 +77,8 @@ class TotalLagrangian final : public Term<Dim> {
     TotalLagrangianScheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     Neighbourhood<Dim> near_;  ///< of the reference positions, StressedRecord
-    std::unique_ptr<Neighbourhood<Dim>> moving_;  ///< of velocities, where the material's memory has rates
+    std::unique_ptr<Neighbourhood<Dim>>
+        moving_;  ///< of velocities, where the material's memory has rates
 };
 
 extern template class TotalLagrangian<1>;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace spam {
+
+/// Some part cannot go on (Parts::give_up): thrown in all others, with its reason.
+struct PartGaveUp : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The parts into which the particles of one run are cut. Each is a model of its own particles, in a thread or a
+/// process of its own, which makes the same calls in the same order as the others. Sums over particles (exact_sum.hpp),
+/// decisions that all must share, and the neighbours that belong to other parts (neighbors/ghosts.hpp) are found by
+/// exchanges; laws know nothing of them. Nothing of what a part finds depends on how particles are parted, to the last
+/// bit (tests/rhs/parts.cpp).
+///
+/// Every function but count(), own() and numbers() is a call that all parts must make together.
+class Parts {
+  public:
+    /// Those that this thread works for: one that is alone and exchanges nothing, unless there is a Here.
+    static Parts& here();
+    /// Makes parts those of this thread, as long as it lives.
+    class Here {
+      public:
+        explicit Here(Parts& parts);
+        ~Here();
+        Here(const Here&) = delete;
+        Here& operator=(const Here&) = delete;
+
+      private:
+        Parts* before_;
+    };
+
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+    virtual ~Parts() = default;
+
+    std::size_t count() const { return count_; }
+    std::size_t own() const { return own_; }
+    bool alone() const { return count_ == 1; }
+
+    /// Which particles of the whole run this part's are, ascending. Where it is alone these are 0, 1, ... and the
+    /// list is empty.
+    std::span<const std::uint32_t> numbers() const { return numbers_; }
+    void set_numbers(std::vector<std::uint32_t> numbers) { numbers_ = std::move(numbers); }
+    std::uint32_t number(std::size_t i) const {
+        return numbers_.empty() ? static_cast<std::uint32_t>(i) : numbers_[i];
+    }
+    /// How many entries at the end of y every part has a copy of (accounts of the whole run).
+    std::size_t copies = 0;
+
+    using Bytes = std::vector<std::byte>;
+    /// What is exchanged.
+    enum class Content { sums, images, others };
+    /// Gives to[p] to part p; what part p has given to this one is then in [p]. Throws PartGaveUp.
+    std::vector<Bytes> exchange(std::vector<Bytes> to, Content content = Content::others);
+    /// For this part alone: it makes no more of the calls that others are at, which end there with this reason.
+    void give_up(const std::string& reason);
+    /// Waits for the others, so that what has been found counts only where none has given up.
+    void agree() {
+        if (!alone()) exchange({});
+    }
+
+    /// Whether it is so in any part.
+    bool any(bool own) { return alone() ? own : most(own ? 1.0 : 0.0) > 0.0; }
+    /// The largest.
+    double most(double own);
+    /// The sum.
+    std::size_t total(std::size_t own);
+
+    /// The same values for all parts; what each has given, in the order of the parts.
+    template <class Value>
+    std::vector<std::vector<Value>> gather(std::span<const Value> own,
+                                           Content content = Content::others) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        std::vector<std::vector<Value>> all;
+        for (const Bytes& bytes : exchange(std::vector<Bytes>(count_, bytes_of(own)), content))
+            all.push_back(values_of<Value>(bytes));
+        return all;
+    }
+
+    template <class Value>
+    static Bytes bytes_of(std::span<const Value> values) {
+        Bytes bytes(values.size_bytes());
+        if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+        return bytes;
+    }
+    template <class Value>
+    static std::vector<Value> values_of(const Bytes& bytes) {
+        std::vector<Value> values(bytes.size() / sizeof(Value));
+        if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    }
+
+  protected:
+    Parts(std::size_t count, std::size_t own) : count_(count), own_(own) {}
+
+  private:
+    /// exchange() of bytes as they are; never called where a part is alone.
+    virtual std::vector<Bytes> transport(std::vector<Bytes> to, Content content) = 0;
+
+    std::size_t count_, own_;
+    std::vector<std::uint32_t> numbers_;
+};
+
+}  // namespace spam

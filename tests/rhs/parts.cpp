@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any model cut into parts gives the bytes of the whole: laws with schemes, walls, externals, periodic boxes, a fixed
+// and an adaptive method; particles move between the parts on the way.
+#include "rhs/walled.hpp"
+#include "support/parts_in_threads.hpp"
+#include "support/refusal.hpp"
+
+#include <cstring>
+#include <mutex>
+#include <numeric>
+
+using namespace spam;
+using namespace spam::test;
+
+namespace {
+
+using Run = std::function<void(Sample&)>;  ///< makes a model
+
+constexpr int segments = 3, steps_in_each = 5;
+
+/// Strips across x, then across y, then ...; one in 13 goes to another part, far from its neighbours.
+std::vector<std::uint32_t> own_numbers(std::size_t count, std::size_t own, int segment,
+                                       const Points<2>& x) {
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(x.cols())), numbers;
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return std::pair(x(segment % 2, i), i) < std::pair(x(segment % 2, j), j);
+    });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        std::size_t part = k * count / order.size();
+        if (order[k] % 13 == static_cast<std::uint32_t>(segment)) part = (part + 1) % count;
+        if (part == own) numbers.push_back(order[k]);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+/// f(where in the whole, where in the part, how many numbers): of all entries of a part's y.
+template <class F>
+void for_each_entry(const FieldLayout<2>& layout, std::span<const std::uint32_t> numbers,
+                    std::size_t n, const F& f) {
+    std::size_t whole = 0;
+    for (const auto& block : layout.blocks()) {
+        if (block.field.role() == Role::account) {
+            f(whole, block.offset, block.size);
+            whole += block.size;
+            continue;
+        }
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            f(whole + numbers[k] * block.components, block.offset + k * block.components,
+              block.components);
+        whole += n * block.components;
+    }
+}
+
+std::vector<double> gathered(const FieldLayout<2>& layout, std::span<const double> y,
+                             std::size_t n) {
+    Parts& parts = Parts::here();
+    const auto numbers = parts.gather(parts.numbers());
+    const auto ys = parts.gather(y);
+    std::size_t size = 0;
+    for (const auto& block : layout.blocks())
+        size += block.field.role() == Role::account ? block.size : n * block.components;
+    std::vector<double> whole(size);
+    for (std::size_t p = 0; p < parts.count(); ++p) {
+        std::vector<Field> fields;
+        std::size_t offset = 0;  // of the layout of part p
+        std::size_t to = 0;
+        for (const auto& block : layout.blocks()) {
+            const bool account = block.field.role() == Role::account;
+            const std::size_t c = block.components;
+            if (account)
+                std::copy_n(&ys[p][offset], block.size, &whole[to]);
+            else
+                for (std::size_t k = 0; k < numbers[p].size(); ++k)
+                    std::copy_n(&ys[p][offset + k * c], c, &whole[to + numbers[p][k] * c]);
+            offset += account ? block.size : numbers[p].size() * c;
+            to += account ? block.size : n * c;
+        }
+    }
+    return whole;
+}
+
+std::vector<double> moved(Sample& sample, const std::vector<double>& y0,
+                          const IntegratorOptions& options) {
+    Motion<2> motion(sample.model, y0, options);
+    for (int step = 0; step < steps_in_each; ++step) motion.step(1.0);
+    return {motion.y().begin(), motion.y().end()};
+}
+
+std::vector<double> whole(const Run& make, const Box<2>& box, const IntegratorOptions& options) {
+    std::vector<double> y;
+    for (int segment = 0; segment < segments; ++segment) {
+        Sample sample(box);
+        make(sample);
+        sample.model.events();
+        const std::vector<double> start = sample.start();  // it tells scales as well
+        y = moved(sample, segment == 0 ? start : y, options);
+    }
+    return y;
+}
+
+std::vector<double> in_parts(std::size_t count, const Run& make, const Box<2>& box,
+                             const IntegratorOptions& options, Wrong wrong = Wrong::nothing) {
+    const Points<2> X = Sample(box).model.particles().reference_position;
+    const auto n = static_cast<std::size_t>(X.cols());
+    std::vector<double> result;
+    const auto work = [&] {
+        Parts& parts = Parts::here();
+        std::vector<double> all;
+        Points<2> x = X;
+        for (int segment = 0; segment < segments; ++segment) {
+            parts.set_numbers(own_numbers(count, parts.own(), segment, x));
+            Sample sample(box);
+            make(sample);
+            sample.model.events();
+            std::vector<double> y = sample.start();
+            if (segment > 0)
+                for_each_entry(sample.model.layout(), parts.numbers(), n,
+                               [&](std::size_t from, std::size_t to, std::size_t size) {
+                                   std::copy_n(&all[from], size, &y[to]);
+                               });
+            y = moved(sample, y, options);
+            all = gathered(sample.model.layout(), y, n);
+            x = Eigen::Map<const Points<2>>(all.data(), 2, X.cols());
+        }
+        if (parts.own() == 0) result = all;
+    };
+    PartsInThreads::run(count, work, wrong);
+    return result;
+}
+
+std::size_t different_bytes(const std::vector<double>& a, const std::vector<double>& b) {
+    if (a.size() != b.size()) return std::max(a.size(), b.size());
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        different += std::memcmp(&a[k], &b[k], sizeof(double)) != 0 ? 1 : 0;
+    return different;
+}
+
+const IntegratorOptions fixed{.method = "rk4", .dt = 0.05};
+const IntegratorOptions adaptive{
+    .method = "arkode:BOGACKI_SHAMPINE_4_2_3", .dt = {}, .rtol = 1e-7, .atol = 1e-9};
+
+struct Counts {
+    int ran = 0, refused = 0;
+};
+
+/// Refused as a whole, or the same bytes in 2 to 4 parts; where parts refuse it they say why.
+void compare(const Run& make, const Box<2>& box, const IntegratorOptions& options, Counts& counts,
+             std::size_t most = 4) {
+    std::vector<double> right;
+    try {
+        right = whole(make, box, options);
+    } catch (const InputError&) {
+        return;
+    } catch (const GuardStop& stop) {
+        BOOST_TEST_MESSAGE("whole: " << stop.what());
+        return;
+    }
+    for (std::size_t count = 2; count <= most; ++count) {
+        std::vector<double> found;
+        try {
+            found = in_parts(count, make, box, options);
+        } catch (const InputError& refused) {
+            BOOST_TEST(std::string(refused.what()).find("in one part") != std::string::npos,
+                       refused.what());
+            ++counts.refused;
+            return;
+        }
+        BOOST_TEST(different_bytes(found, right) == 0U, count << " parts");
+    }
+    ++counts.ran;
+}
+
+/// Every law that needs no scheme, with a further one, and every law that needs one, in the default.
+template <class F>
+void for_each_law(const F& f) {
+    for (const auto* laws : {&with_scheme, &without_scheme})
+        for (const auto& [law, build] : *laws)
+            for (const auto& [more, add] : further)
+                f(law + (more.empty() ? "" : " + " + more), [&build, &add](Sample& s) {
+                    build(s, Scheme{});
+                    add(s);
+                });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_law_between_every_kind_of_walls) {
+    Counts counts;
+    for (const auto& [kind, wall] : walls)
+        for_each_law(
+            [&, name = kind, box = walled_by(wall)](const std::string& law, const Run& make) {
+                BOOST_TEST_CONTEXT(name << ": " << law) {
+                    compare(make, box, fixed, counts, law.find('+') == std::string::npos ? 4 : 2);
+                }
+            });
+    BOOST_TEST_MESSAGE(counts.ran << " laws between walls have the bytes of the whole, "
+                                  << counts.refused << " cannot be parted");
+    BOOST_TEST(counts.ran > 100);
+    BOOST_TEST(counts.refused < 30);
+}
+
+BOOST_AUTO_TEST_CASE(every_law_in_open_and_periodic_space_with_a_fixed_and_an_adaptive_method) {
+    Counts counts;
+    for (const auto& box : {Box<2>(), triangular_box(8, 6)})
+        for (const auto* options : {&fixed, &adaptive})
+            for_each_law([&](const std::string& law, const Run& make) {
+                BOOST_TEST_CONTEXT(law << (box.periodic() ? ", periodic, " : ", ")
+                                       << options->method) {
+                    compare(make, box, *options, counts, options == &fixed ? 4 : 3);
+                }
+            });
+    BOOST_TEST_MESSAGE(counts.ran << " have the bytes of the whole, " << counts.refused
+                                  << " cannot be parted");
+    BOOST_TEST(counts.ran > 150);
+    BOOST_TEST(counts.refused < 60);
+}
+
+BOOST_AUTO_TEST_CASE(every_scheme) {
+    Counts counts;
+    for (const auto& box : {Box<2>(), triangular_box(8, 6)})
+        for (const auto& [law, build] : with_scheme)
+            for_each_scheme([&, name = law, &of = build](const Scheme& scheme) {
+                if (scheme.closest_approach > 0.0) return;
+                BOOST_TEST_CONTEXT(name << (box.periodic() ? ", periodic, " : ", ")
+                                        << scheme.describe()) {
+                    compare([&](Sample& s) { of(s, scheme); }, box, fixed, counts, 2);
+                }
+            });
+    BOOST_TEST_MESSAGE(counts.ran << " schemes have the bytes of the whole");
+    BOOST_TEST(counts.ran > 150);
+}
+
+BOOST_AUTO_TEST_CASE(every_external) {
+    Counts counts;
+    for (const auto& [external, add] : externals) BOOST_TEST_CONTEXT(external) {
+            for (const auto* options : {&fixed, &adaptive})
+                compare(
+                    [&, &more = add](Sample& s) {
+                        with_scheme.at("SmoothParticles, solid")(s, Scheme{});
+                        more(s);
+                    },
+                    walled_by(walls.at("rigid")), *options, counts, 3);
+        }
+    BOOST_TEST(counts.ran == 2 * static_cast<int>(externals.size()));
+}
+
+// The test can fail: images that are not refreshed, and sums of parts that are rounded before they are added.
+BOOST_AUTO_TEST_CASE(what_is_left_out_is_seen) {
+    Scheme balanced;
+    balanced.angular_momentum = AngularMomentum::torque_pair;
+    const Run make = [&](Sample& s) { with_scheme.at("SmoothParticles, solid")(s, balanced); };
+    const auto right = whole(make, {}, fixed);
+    BOOST_TEST(different_bytes(in_parts(3, make, {}, fixed), right) == 0U);
+    for (const auto wrong : {Wrong::images, Wrong::sums}) {
+        std::vector<double> found;
+        try {
+            found = in_parts(3, make, {}, fixed, wrong);
+        } catch (const GuardStop&) {  // it has none of the bytes
+        }
+        BOOST_TEST(different_bytes(found, right) > 0U);
+    }
+}
+
+// A state without meaning in one part ends the right-hand sides of all, with its reason.
+BOOST_AUTO_TEST_CASE(all_parts_hear_of_a_state_without_meaning) {
+    const Points<2> X = Sample().model.particles().reference_position;
+    std::mutex one;
+    std::vector<std::string> reasons;
+    PartsInThreads::run(3, [&] {
+        Parts& parts = Parts::here();
+        parts.set_numbers(own_numbers(3, parts.own(), 0, X));
+        Sample sample;
+        with_scheme.at("SmoothParticles, gas")(sample, Scheme{.density = Density::continuity});
+        std::vector<double> y = sample.start(), y_dot(y.size());
+        sample.model.rates(0.0, y, y_dot);
+        const std::string before = sample.model.failure();
+        State<2>(sample.model.layout(), y).density()(0, 0) = parts.own() == 1 ? -1.0 : 1.0;
+        sample.model.rates(0.0, y, y_dot);
+        const std::lock_guard lock(one);
+        reasons.push_back(before + sample.model.failure());
+    });
+    BOOST_TEST_REQUIRE(reasons.size() == 3U);
+    for (const auto& reason : reasons)
+        BOOST_TEST(reason.find("is not positive") != std::string::npos, reason);
+}
