@@ -215,6 +215,9 @@ DensityPotentialTerm<Dim>::DensityPotentialTerm(const Selection<Dim>& among,
     parts_->packed = std::make_unique<PackedParticles<Dim>>(
         parts_->weight, ListUse::again_and_again, this->box(), parts_->sweeps);
     this->look_after(*parts_->packed);
+    this->nature_.description =
+        fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
+    this->nature_.reach = potentials_.range;
 }
 
 template <int Dim>
@@ -256,7 +259,7 @@ std::string DensityPotentialTerm<Dim>::complaint() const {
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as
 /// it is.
 template <int Dim>
-std::vector<double> DensityPotentialTerm<Dim>::density(std::span<const double> y) const {
+std::vector<double> DensityPotentialTerm<Dim>::summed_density(std::span<const double> y) const {
     auto own = parts_->packed->for_observer();
     std::vector<double> rho(this->particles().size(), std::numeric_limits<double>::quiet_NaN());
     if (!own.follow(rho.size(), fields(this->particles(), this->state_of(y)))) return rho;
@@ -267,7 +270,7 @@ std::vector<double> DensityPotentialTerm<Dim>::density(std::span<const double> y
 }
 
 template <int Dim>
-double DensityPotentialTerm<Dim>::energy(std::span<const double> y) const {
+double DensityPotentialTerm<Dim>::phi(std::span<const double> y) const {
     auto own = parts_->packed->for_observer();
     const std::size_t n = this->particles().size();
     if (!own.follow(n, fields(this->particles(), this->state_of(y))))
@@ -287,22 +290,20 @@ double DensityPotentialTerm<Dim>::energy(std::span<const double> y) const {
 }
 
 template <int Dim>
-double DensityPotentialTerm<Dim>::neighbour_forces(std::span<const double> y) const {
-    double sum = std::abs(energy(y));
+auto DensityPotentialTerm<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::energy) return {phi(y)};
+    if (what == Ask::density) return {0.0, summed_density(y)};
+    if (what != Ask::neighbour_forces) return {};
+    double sum = std::abs(phi(y));
     if (potentials_.state) {
-        const auto rho = density(y);
+        const auto rho = summed_density(y);
         std::vector<double> P(rho.size());
         potentials_.state->pressures(rho, rho, P);
         sum += exact_sum(P.size(), [&](std::size_t i) {
             return this->particles().mass[i] * std::abs(P[i]) / rho[i];
         });
     }
-    return sum / this->particles().spacing;
-}
-
-template <int Dim>
-std::string DensityPotentialTerm<Dim>::describe() const {
-    return fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
+    return {sum / this->particles().spacing};
 }
 
 template class DensityPotentialTerm<1>;

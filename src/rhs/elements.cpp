@@ -37,11 +37,11 @@ void validate(const Elements::Material& material) {
 Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners,
                    std::vector<Material> materials, std::vector<std::int32_t> material)
     : Term<2>(nodes),
-      corners_(std::move(corners)),
       materials_(std::move(materials)),
       material_(std::move(material)) {
     require_one_part("a mesh of elements");
-    if (corners_.empty()) throw InputError("elements: there are none; leave the term out");
+    nature_.elements = std::move(corners);
+    if (nature_.elements.empty()) throw InputError("elements: there are none; leave the term out");
     if (box().periodic() || box().has_images())
         throw InputError("elements: they cannot reach across the borders of a box; use free space");
     for (const Material& one : materials_) {
@@ -51,7 +51,7 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
         stiffness_.push_back(0.25 * one.hourglass.stiffness * one.density * c * c);
         elastic_hourglass_ = elastic_hourglass_ || one.hourglass.stiffness > 0.0;
     }
-    const std::size_t n = corners_.size();
+    const std::size_t n = nature_.elements.size();
     if (!material_.empty() && material_.size() != n)
         throw InputError(fmt::format("elements: {} numbers of materials are given for {} elements",
                                      material_.size(), n));
@@ -60,7 +60,7 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
         if (number < 0 || static_cast<std::size_t>(number) >= materials_.size())
             throw InputError(fmt::format("elements: element {} has the material {} of {}", k,
                                          number, materials_.size()));
-        for (const std::uint32_t i : corners_[k])
+        for (const std::uint32_t i : nature_.elements[k])
             if (i < among().first() || i >= among().first() + among().count())
                 throw InputError(fmt::format(
                     "elements: element {} has a corner {}, which is none of the particles "
@@ -75,19 +75,20 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
         damping_ = std::max(damping_, 16.0 * viscosity_[static_cast<std::size_t>(number)] *
                                           std::sqrt(area) / mass_.back());
         for (const Vec<2>& diagonal : {x[2] - x[0], x[3] - x[1]})
-            reach_ = std::max(reach_, std::sqrt(dot(diagonal, diagonal)));
+            nature_.reach = std::max(nature_.reach, std::sqrt(dot(diagonal, diagonal)));
     }
     start_.assign(particles().size() + 1, 0);
-    for (const Quadrilateral& one : corners_)
+    for (const Quadrilateral& one : nature_.elements)
         for (const std::uint32_t i : one) ++start_[i - among().first() + 1];
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     at_.resize(4 * n);
     std::vector<std::size_t> next = start_;
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t c = 0; c < 4; ++c)
-            at_[next[corners_[k][c] - among().first()]++] = 4 * k + c;
+            at_[next[nature_.elements[k][c] - among().first()]++] = 4 * k + c;
+    set_nature();
     if (materials_.size() > 1)
-        for (const Field field : element_fields())
+        for (const Field field : nature_.element_fields)
             if (field != Field::stress && field != Field::energy) of_some_.push_back(field);
     returned_.resize(3 * n);
     grad_v_.resize(n);
@@ -97,11 +98,33 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     inverted_.resize(n);
 }
 
+void Elements::set_nature() {
+    auto& fields = nature_.element_fields;
+    fields = {Field::stress, Field::energy};
+    if (elastic_hourglass_) fields.emplace_back(field_kind::hourglass_force);
+    for (const Material& one : materials_)
+        for (const Field field : one.law.history())
+            if (std::find(fields.begin(), fields.end(), field) == fields.end())
+                fields.push_back(field);
+    nature_.no_images = "elements do not meet the images of their nodes; use rigid sides";
+    nature_.smooth = std::none_of(materials_.begin(), materials_.end(),
+                                  [](const Material& material) { return material.law.returns(); });
+    std::string words = fmt::format("{} one-point elements", nature_.elements.size());
+    for (const Material& one : materials_) {
+        words += fmt::format(", {} of density {:.6g}", one.law.describe(), one.density);
+        if (one.hourglass.viscosity > 0.0)
+            words += fmt::format(", hourglass viscosity {:g}", one.hourglass.viscosity);
+        if (one.hourglass.stiffness > 0.0)
+            words += fmt::format(", hourglass stiffness {:g}", one.hourglass.stiffness);
+    }
+    nature_.description = words;
+}
+
 template <class View>
 Elements::Corners Elements::corners_of(const View& nodes, std::size_t element) const {
     Corners corners;
     for (std::size_t c = 0; c < 4; ++c) {
-        const auto i = static_cast<Eigen::Index>(corners_[element][c] - among().first());
+        const auto i = static_cast<Eigen::Index>(nature_.elements[element][c] - among().first());
         corners[c] = {{nodes(0, i), nodes(1, i)}};
     }
     return corners;
@@ -115,16 +138,6 @@ void Elements::for_each_material(std::size_t first, std::size_t count, const F& 
         f(material_of(k), k, end - k);
         k = end;
     }
-}
-
-std::vector<Field> Elements::element_fields() const {
-    std::vector<Field> fields{Field::stress, Field::energy};
-    if (elastic_hourglass_) fields.emplace_back(field_kind::hourglass_force);
-    for (const Material& one : materials_)
-        for (const Field field : one.law.history())
-            if (std::find(fields.begin(), fields.end(), field) == fields.end())
-                fields.push_back(field);
-    return fields;
 }
 
 /// Of the right-hand side at work: nodes, and where fields of the elements begin (null for those not there).
@@ -188,7 +201,7 @@ std::string Elements::rates(const Now& now) {
     const State<2> rate = now.rate.elements();
     const Held held(now);
     for (const Field field : of_some_) rate.field(field).setZero();
-    parallel_blocks(corners_.size(), [&](std::size_t begin, std::size_t size) {
+    parallel_blocks(nature_.elements.size(), [&](std::size_t begin, std::size_t size) {
         for_each_material(
             begin, size, [&](const Material& m, std::size_t first, std::size_t count) {
                 m.law.return_stress(now.t, first, count, state, returned_.data());
@@ -204,13 +217,17 @@ std::string Elements::rates(const Now& now) {
     return {};
 }
 
-double Elements::energy(std::span<const double> y) const {
+Elements::Answer Elements::answer(Ask what, std::span<const double> y) const {
+    if (what == Ask::damping) return {damping_};
+    if (what == Ask::neighbour_forces) return {neighbour_forces_in(y)};
+    if (what != Ask::energy) return {};
     const auto e = ConstState<2>(layout(), y).elements().energy();
-    return exact_sum(mass_.size(),
-                     [&](std::size_t k) { return mass_[k] * e(0, static_cast<Eigen::Index>(k)); });
+    return {exact_sum(mass_.size(), [&](std::size_t k) {
+        return mass_[k] * e(0, static_cast<Eigen::Index>(k));
+    })};
 }
 
-double Elements::neighbour_forces(std::span<const double> y) const {
+double Elements::neighbour_forces_in(std::span<const double> y) const {
     const ConstState<2> state(layout(), y), elements = state.elements();
     const double sum = exact_sum(mass_.size(), [&](std::size_t k) {
         const auto column = static_cast<Eigen::Index>(k);
@@ -233,31 +250,19 @@ std::size_t elements_broken(const Model<2>& model, std::span<const double> y) {
 bool Elements::settle(double t, const State<2>& nodes) {
     const State<2> state = nodes.elements();
     bool changed = false;
-    for_each_material(0, corners_.size(),
+    for_each_material(0, nature_.elements.size(),
                       [&](const Material& m, std::size_t first, std::size_t count) {
                           changed = m.law.settle(t, first, count, state) || changed;
                       });
     const double* const broken = state.find(field_kind::broken);
     if (broken == nullptr) return changed;
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
+    for (std::size_t k = 0; k < nature_.elements.size(); ++k) {
         if (broken[k] == 0.0) continue;
         state.stress().col(static_cast<Eigen::Index>(k)).setZero();
         if (elastic_hourglass_)
             state.field(field_kind::hourglass_force).col(static_cast<Eigen::Index>(k)).setZero();
     }
     return changed;
-}
-
-std::string Elements::describe() const {
-    std::string words = fmt::format("{} one-point elements", corners_.size());
-    for (const Material& one : materials_) {
-        words += fmt::format(", {} of density {:.6g}", one.law.describe(), one.density);
-        if (one.hourglass.viscosity > 0.0)
-            words += fmt::format(", hourglass viscosity {:g}", one.hourglass.viscosity);
-        if (one.hourglass.stiffness > 0.0)
-            words += fmt::format(", hourglass stiffness {:g}", one.hourglass.stiffness);
-    }
-    return words;
 }
 
 }  // namespace spam

@@ -116,6 +116,7 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     if (scheme.bond_yield > 0.0) p.misfit_limit = scheme.bond_yield * material.yield_strain();
     p.brittle = std::min(scheme.stretch_limit, scheme.stress_limit) < HUGE_VAL;
     for (std::size_t k = 0; k < n; ++k) p.volume.push_back(all.mass[k] / scheme.density);
+    set_nature();
 }
 
 /// P, which stands where G will be, and what follows from it. `whole`: as it was, or false. Returns false
@@ -212,18 +213,8 @@ std::string MaterialVectors<Dim>::complaint(const ConstState<Dim>& state) const 
 }
 
 template <int Dim>
-bool MaterialVectors<Dim>::settles_seldom() const {
-    return !material_.flows() && !parts_->brittle;
-}
-
-template <int Dim>
-std::size_t MaterialVectors<Dim>::pairs() const {
-    return parts_->table.bonds() / 2;
-}
-
-template <int Dim>
-std::size_t MaterialVectors<Dim>::list_builds() const {
-    return parts_->table.updates();
+auto MaterialVectors<Dim>::counts() const -> Counts {
+    return {parts_->table.bonds() / 2, parts_->table.updates()};
 }
 
 template <int Dim>
@@ -238,7 +229,15 @@ void MaterialVectors<Dim>::remember(Memory<Dim>& memory) {
 }
 
 template <int Dim>
-std::string MaterialVectors<Dim>::describe() const {
+void MaterialVectors<Dim>::set_nature() {
+    auto& nature = this->nature_;
+    nature.reach = scheme_.range;
+    nature.settles = true;
+    // Neighbours come and go with no weight: unless the law flows or bonds break.
+    nature.settles_seldom = !material_.flows() && !parts_->brittle;
+    // A return to the yield surface makes the order of a fixed step less than the method's.
+    nature.smooth = !material_.flows();
+    nature.no_images = "particles have no bonds with their images behind a wall; use rigid sides";
     std::string words = fmt::format(
         "material vectors, {}, density {:.6g}, range {}, penalty kappa = {}, stable up to a tension "
         "of {:.3g}",
@@ -249,7 +248,7 @@ std::string MaterialVectors<Dim>::describe() const {
         words += fmt::format(", bonds break at {:g} times their length", scheme_.stretch_limit);
     if (scheme_.stress_limit < HUGE_VAL)
         words += fmt::format(", bonds break at stress {:g}", scheme_.stress_limit);
-    return words;
+    nature.description = words;
 }
 
 template class MaterialVectors<2>;

@@ -50,12 +50,23 @@ std::vector<double> MaterialVectors<Dim>::energies(const ConstState<Dim>& state)
 }
 
 template <int Dim>
-double MaterialVectors<Dim>::energy(std::span<const double> y) const {
-    const auto stored = energies(this->state_of(y));
-    const auto [energy, heat] = exact_sums(stored.size(), [&](std::size_t k) {
-        return std::array<double, 2>{stored[k], parts_->heat[k]};
-    });
-    return energy + heat;
+auto MaterialVectors<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::energy) {
+        const auto stored = energies(this->state_of(y));
+        const auto [energy, heat] = exact_sums(stored.size(), [&](std::size_t k) {
+            return std::array<double, 2>{stored[k], parts_->heat[k]};
+        });
+        return {energy + heat};
+    }
+    Answer found = Term<Dim>::answer(what, y);
+    if (what != Ask::density && what != Ask::deformation) return found;
+    found.deformation.resize(parts_->numbers.size());
+    parts_->each_fit(this->state_of(y).position().data(),
+                     [&](std::size_t k, const Fit& fit) { found.deformation[k] = fit.F; });
+    if (what == Ask::density)
+        for (const Mat<Dim>& F : found.deformation)
+            found.density.push_back(scheme_.density / determinant(F));
+    return found;
 }
 
 template <int Dim>
@@ -145,22 +156,6 @@ void MaterialVectors<Dim>::take_over(const Term<Dim>& before, const ConstState<D
 }
 
 template <int Dim>
-std::vector<Mat<Dim>> MaterialVectors<Dim>::deformation_gradients(std::span<const double> y) const {
-    std::vector<Mat<Dim>> F(parts_->numbers.size());
-    parts_->each_fit(this->state_of(y).position().data(),
-                     [&](std::size_t k, const Fit& fit) { F[k] = fit.F; });
-    return F;
-}
-
-template <int Dim>
-std::vector<double> MaterialVectors<Dim>::density(std::span<const double> y) const {
-    std::vector<double> rho;
-    for (const Mat<Dim>& F : deformation_gradients(y))
-        rho.push_back(scheme_.density / determinant(F));
-    return rho;
-}
-
-template <int Dim>
 auto MaterialVectors<Dim>::bonds(std::span<const double> y, std::size_t k) const
     -> std::vector<Bond> {
     return bonds_at(this->state_of(y).position().data(), k);
@@ -185,16 +180,14 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template double MaterialVectors<D>::energy_of(const Fit&, std::size_t, const ConstState<D>&) \
         const;                                                                                   \
     template std::vector<double> MaterialVectors<D>::energies(const ConstState<D>&) const;       \
-    template double MaterialVectors<D>::energy(std::span<const double>) const;                   \
+    template MaterialVectors<D>::Answer MaterialVectors<D>::answer(Ask, std::span<const double>) \
+        const;                                                                                   \
     template double MaterialVectors<D>::heat() const;                                            \
     template const std::vector<double>& MaterialVectors<D>::heat_of_particles() const;           \
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
     template void MaterialVectors<D>::take_over(const Term<D>&, const ConstState<D>&,            \
                                                 const Change<D>&, const ConstState<D>&);         \
-    template std::vector<Mat<D>> MaterialVectors<D>::deformation_gradients(                      \
-        std::span<const double>) const;                                                          \
-    template std::vector<double> MaterialVectors<D>::density(std::span<const double>) const;     \
     template std::vector<MaterialVectors<D>::Bond> MaterialVectors<D>::bonds(                    \
         std::span<const double>, std::size_t) const;                                             \
     template std::vector<MaterialVectors<D>::Bond> MaterialVectors<D>::bonds_at(                 \

@@ -96,6 +96,10 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
         GeneralWeight<Dim>(scheme.kernel, this->particles().spacing), ListUse::again_and_again,
         this->box(), *sweeps_);
     this->look_after(*packed_);
+    this->nature_.description = fmt::format("fluid of smooth particles, {}: density integrated, {}",
+                                            fluid_.describe(), scheme_.describe());
+    this->nature_.fields = {Field::density, Field::energy};
+    this->nature_.potential = false;
 }
 
 template <int Dim>
@@ -119,7 +123,7 @@ double OwnRanges<Dim>::most_range() const {
     return most;
 }
 
-/// range_ and reach_. Returns why they make no sense.
+/// range_ and this->nature_.reach. Returns why they make no sense.
 template <int Dim>
 std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
     const auto rho = state.density();
@@ -134,20 +138,23 @@ std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
         range_[i] = range_of(i, r);
         if (range_[i] > range_[widest]) widest = i;
     }
-    reach_ = Parts::here().most(range_[widest]);
-    if (reach_ < most_range()) return {};
+    this->nature_.reach = Parts::here().most(range_[widest]);
+    if (this->nature_.reach < most_range()) return {};
     return fmt::format(
         "range {:g} of particle {} has grown to half of the periodic box or to the distance of two "
         "walls",
-        reach_, this->particles().id[widest]);
+        this->nature_.reach, this->particles().id[widest]);
 }
 
 /// A list that reaches as far as the longest range, and some way further as long as ranges grow.
 template <int Dim>
 void OwnRanges<Dim>::make_room() {
     const double listed = packed_->range();
-    if (packed_->list().builds() > 0 && reach_ <= listed && reach_ > 0.7 * listed) return;
-    packed_->set_range(std::min(1.1 * reach_, 0.5 * (reach_ + most_range())));
+    if (packed_->list().builds() > 0 && this->nature_.reach <= listed &&
+        this->nature_.reach > 0.7 * listed)
+        return;
+    packed_->set_range(
+        std::min(1.1 * this->nature_.reach, 0.5 * (this->nature_.reach + most_range())));
 }
 
 template <int Dim>
@@ -279,19 +286,12 @@ std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
 }
 
 template <int Dim>
-double OwnRanges<Dim>::energy(std::span<const double> y) const {
-    return carried_energy(this->particles(), this->state_of(y));
-}
-
-template <int Dim>
-double OwnRanges<Dim>::neighbour_forces(std::span<const double> y) const {
-    return carried_energies(this->particles(), this->state_of(y)) / this->particles().spacing;
-}
-
-template <int Dim>
-std::string OwnRanges<Dim>::describe() const {
-    return fmt::format("fluid of smooth particles, {}: density integrated, {}", fluid_.describe(),
-                       scheme_.describe());
+auto OwnRanges<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    const ConstState<Dim> state = this->state_of(y);
+    if (what == Ask::energy) return {carried_energy(this->particles(), state)};
+    if (what == Ask::neighbour_forces)
+        return {carried_energies(this->particles(), state) / this->particles().spacing};
+    return {};
 }
 
 template class OwnRanges<1>;

@@ -45,6 +45,8 @@ PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
                                                      ListUse::again_and_again, this->box(),
                                                      law_.sweeps)) {
     this->look_after(*packed_);
+    this->nature_.description = law_.description;
+    this->nature_.reach = law_.range;
 }
 
 template <int Dim>
@@ -92,7 +94,7 @@ std::string PairTerm<Dim>::rates(const Now& now) {
 
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as it is.
 template <int Dim>
-double PairTerm<Dim>::energy(std::span<const double> y) const {
+double PairTerm<Dim>::pair_energy(std::span<const double> y) const {
     auto own = packed_->for_observer();
     std::vector<double> half(this->particles().size());
     if (!follow(own, this->state_of(y))) return std::numeric_limits<double>::quiet_NaN();
@@ -103,11 +105,14 @@ double PairTerm<Dim>::energy(std::span<const double> y) const {
 }
 
 template <int Dim>
-std::vector<double> PairTerm<Dim>::density(std::span<const double> y) const {
-    if (law_.sweeps.density == nullptr) return {};
-    return packed_->for_observer().summed_density(
-        law_.sweeps.density, this->particles().size(),
-        {this->state_of(y).position().data(), nullptr, this->particles().mass.data()});
+auto PairTerm<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::energy) return {pair_energy(y)};
+    if (what == Ask::density && law_.sweeps.density != nullptr)
+        return {0.0,
+                packed_->for_observer().summed_density(
+                    law_.sweeps.density, this->particles().size(),
+                    {this->state_of(y).position().data(), nullptr, this->particles().mass.data()})};
+    return Term<Dim>::answer(what, y);
 }
 
 template class PairTerm<1>;

@@ -41,10 +41,21 @@ void ParticleModel<Dim>::refuse_beyond_walls() const {
 /// Images have to mean something to the law; a rigid wall stops what moves with its own velocity.
 template <int Dim>
 void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
+    const auto& nature = term.nature();
+    const auto no_images = [&](const Wall<Dim>& wall) -> std::string {
+        if (!nature.no_images.empty()) return nature.no_images;
+        if (nature.potential && wall.passes_energy())
+            return "forces from a potential feel neither the velocity nor the temperature of a wall; use a "
+                   "mirror";
+        if (wall.temperature && !nature.conducts)
+            return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "
+                   "out";
+        return {};
+    };
     std::string reason, first, others;  // the same of other sides
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
-        const std::string why = wall.has_images() ? term.no_images(wall)
-                                : !term.moves_with_velocity()
+        const std::string why = wall.has_images() ? no_images(wall)
+                                : !nature.moves_with_velocity
                                     ? "a rigid wall turns the velocity of a particle back, and "
                                       "particles that move with another velocity go on through "
                                       "it; use a mirror, or --transport plain"
@@ -68,33 +79,34 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
     if (!Parts::here().alone() && !term->among().whole())
         throw InputError(fmt::format(
             "parts: '{}' acts among some of the particles, and cannot be parted; run it in one part",
-            term->describe()));
+            term->nature().description));
     for (const auto& other : terms_) {
-        if (!other->quadrilaterals().empty() && !term->quadrilaterals().empty())
+        if (!other->nature().elements.empty() && !term->nature().elements.empty())
             throw InputError(fmt::format(
                 "model: '{}' and '{}' both have elements; make one term of them, with a list of materials",
-                other->describe(), term->describe()));
+                other->nature().description, term->nature().description));
         if (!other->among().overlaps(term->among())) continue;
-        for (const Field field : term->fields())
-            for (const Field taken : other->fields())
+        for (const Field field : term->nature().fields)
+            for (const Field taken : other->nature().fields)
                 if (field == taken)
                     throw InputError(fmt::format(
                         "model: '{}' and '{}' both integrate the {} of a particle; leave "
                         "one of the two out",
-                        other->describe(), term->describe(), field.name()));
-        const Term<Dim>& averaged = term->moves_with_velocity() ? *other : *term;
-        const Term<Dim>& fixed = term->moves_with_velocity() ? *term : *other;
-        if (!averaged.moves_with_velocity() && fixed.potential())
+                        other->nature().description, term->nature().description, field.name()));
+        const Term<Dim>& averaged = term->nature().moves_with_velocity ? *other : *term;
+        const Term<Dim>& fixed = term->nature().moves_with_velocity ? *term : *other;
+        if (!averaged.nature().moves_with_velocity && fixed.nature().potential)
             throw InputError(fmt::format(
                 "transport: particles that move with an averaged velocity gain energy without limit "
                 "from a potential of their positions ({}), whose forces push what the average does "
                 "not move; use --transport plain, or leave the potential out",
-                fixed.describe()));
+                fixed.nature().description));
     }
-    for (const Field field : term->fields()) this->layout().add(field);
-    if (!term->quadrilaterals().empty()) {
-        this->layout().set_elements(term->quadrilaterals().size());
-        for (const Field field : term->element_fields()) this->layout().add(field, Holder::element);
+    for (const Field field : term->nature().fields) this->layout().add(field);
+    if (!term->nature().elements.empty()) {
+        this->layout().set_elements(term->nature().elements.size());
+        for (const Field field : term->nature().element_fields)
+            this->layout().add(field, Holder::element);
     }
     whole_ = whole_ && term->among().whole();
     terms_.push_back(std::move(term));
@@ -110,7 +122,7 @@ void ParticleModel<Dim>::add(std::unique_ptr<External<Dim>> external) {
 template <int Dim>
 bool ParticleModel<Dim>::moves_with_velocity() const {
     return std::all_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return term->moves_with_velocity(); });
+                       [](const auto& term) { return term->nature().moves_with_velocity; });
 }
 
 /// In their order. The first finds its v_dot in place, where it finds all of it; what the others find is
@@ -139,7 +151,7 @@ bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::sp
             double* const sum = v_dot + Dim * among.first();
             parallel_for(Dim * among.count(), [=](std::size_t k) { sum[k] += found[k]; });
         }
-        moved = moved || term->moves();
+        moved = moved || term->nature().moves;
     }
     if (!moved) rate.position() = state.velocity();
     return true;
@@ -187,7 +199,7 @@ double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
 template <int Dim>
 std::span<const Quadrilateral> ParticleModel<Dim>::quadrilaterals() const {
     for (const auto& term : terms_)
-        if (!term->quadrilaterals().empty()) return term->quadrilaterals();
+        if (!term->nature().elements.empty()) return term->nature().elements;
     return {};
 }
 
@@ -215,7 +227,8 @@ template <int Dim>
 std::vector<Event> ParticleModel<Dim>::events() const {
     std::vector<Event> events;
     for (const auto& term : terms_)
-        for (Event& event : term->events()) events.push_back(std::move(event));
+        if (term->nature().events)
+            for (Event& event : term->nature().events()) events.push_back(std::move(event));
     if (events.empty()) return events;
     if (!Parts::here().alone())
         throw InputError(
@@ -242,7 +255,7 @@ Promises ParticleModel<Dim>::promises() const {
         promise = std::max(promise, of_term);
     };
     for (const auto& term : terms_) {
-        const Promises p = term->promises();
+        const Promises p = term->nature().promises;
         weaken(weakest.mass, p.mass);
         weaken(weakest.momentum, p.momentum);
         weaken(weakest.angular_momentum, p.angular_momentum);
@@ -254,7 +267,8 @@ Promises ParticleModel<Dim>::promises() const {
 template <int Dim>
 std::string ParticleModel<Dim>::describe() const {
     std::string words;
-    for (const auto& term : terms_) words += (words.empty() ? "" : "; ") + term->describe();
+    for (const auto& term : terms_)
+        words += (words.empty() ? "" : "; ") + term->nature().description;
     for (const auto& external : externals_)
         words += (words.empty() ? "" : "; ") + external->describe();
     if (walled_) words += (words.empty() ? "" : "; ") + this->box().describe_walls();
@@ -272,14 +286,15 @@ template <int Dim>
 bool ParticleModel<Dim>::settles() const {
     return walled_ || Model<Dim>::settles() ||
            std::any_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return term->settles(); });
+                       [](const auto& term) { return term->nature().settles; });
 }
 
 template <int Dim>
 bool ParticleModel<Dim>::settles_seldom() const {
     return !walled_ && !Model<Dim>::settles() &&
-           std::all_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return !term->settles() || term->settles_seldom(); });
+           std::all_of(terms_.begin(), terms_.end(), [](const auto& term) {
+               return !term->nature().settles || term->nature().settles_seldom;
+           });
 }
 
 template <int Dim>
@@ -301,7 +316,7 @@ double ParticleModel<Dim>::neighbour_forces(std::span<const double> y) const {
 template <int Dim>
 bool ParticleModel<Dim>::smooth() const {
     return std::all_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return term->smooth(); });
+                       [](const auto& term) { return term->nature().smooth; });
 }
 
 template <int Dim>
@@ -309,23 +324,23 @@ std::size_t ParticleModel<Dim>::pairs() const {
     std::size_t of_all = 0, of_parts = 0;  // terms of the same particles have the same neighbours
     for (const auto& term : terms_)
         if (term->among().whole())
-            of_all = std::max(of_all, term->pairs());
+            of_all = std::max(of_all, term->counts().pairs);
         else
-            of_parts += term->pairs();
+            of_parts += term->counts().pairs;
     return of_all + of_parts;
 }
 
 template <int Dim>
 double ParticleModel<Dim>::reach() const {
     double reach = 0.0;
-    for (const auto& term : terms_) reach = std::max(reach, term->reach());
+    for (const auto& term : terms_) reach = std::max(reach, term->nature().reach);
     return reach;
 }
 
 template <int Dim>
 std::size_t ParticleModel<Dim>::list_builds() const {
     std::size_t builds = 0;
-    for (const auto& term : terms_) builds += term->list_builds();
+    for (const auto& term : terms_) builds += term->counts().list_builds;
     return builds;
 }
 

@@ -39,7 +39,7 @@ void SmoothParticles<Dim>::prepare_damping() {
 /// at the rate (2/D) (alpha c l/rho) sum m |w'|/r in the mean over directions, by half of the pairs: those
 /// that approach.
 template <int Dim>
-double SmoothParticles<Dim>::fastest_damping(std::span<const double> y) const {
+double SmoothParticles<Dim>::fastest_damping_in(std::span<const double> y) const {
     if (!rest_) return 0.0;
     const GeneralWeight<Dim> weight(scheme_.kernel, scheme_.range);
     const std::size_t n = this->particles().size();
@@ -96,7 +96,7 @@ double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, const R
 
 #define SPAM_INSTANTIATE(D)                                                                    \
     template void SmoothParticles<D>::prepare_damping();                                       \
-    template double SmoothParticles<D>::fastest_damping(std::span<const double>) const;        \
+    template double SmoothParticles<D>::fastest_damping_in(std::span<const double>) const;     \
     template double FluidConstitution<D>::fastest_sound(                                       \
         const RestingBody&, std::span<const double>, std::span<const double>) const;           \
     template double FluidConstitution<D>::damping(const GeneralWeight<D>&, const RestingBody&, \

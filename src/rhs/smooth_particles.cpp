@@ -82,13 +82,43 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
     }
     prepare_damping();
     set_bodies();
+    set_nature();
 }
 
 template <int Dim>
-std::vector<Field> SmoothParticles<Dim>::fields() const {
-    std::vector<Field> fields = constitution_->fields();
-    if (scheme_.density != Density::summed) fields.push_back(Field::density);
-    return fields;
+void SmoothParticles<Dim>::set_nature() {
+    auto& nature = this->nature_;
+    nature.description = fmt::format("{}: {}", constitution_->describe(), scheme_.describe());
+    nature.fields = constitution_->fields();
+    if (scheme_.density != Density::summed) nature.fields.push_back(Field::density);
+    nature.moves = true;
+    nature.moves_with_velocity = scheme_.transport == Transport::plain;
+    nature.potential = false;
+    nature.conducts = constitution_->conducts();
+    // Torques of particles jump where one changes its sign; Gauss' principle sets in and out.
+    nature.smooth = scheme_.angular_momentum != AngularMomentum::torque_particle &&
+                    scheme_.angular_momentum != AngularMomentum::gauss && constitution_->smooth();
+    // In space a fluid's pressures act along r_ij; everything else does not, unless it is balanced.
+    nature.promises = scheme_.promises(Dim);
+    if (constitution_->central(scheme_))
+        nature.promises.angular_momentum = Promise::integrator_error;
+    nature.reach = scheme_.range;
+    // Torques are balanced among particles, and reflections are of pairs of them, without images.
+    if (scheme_.angular_momentum != AngularMomentum::free)
+        nature.no_images =
+            "walls give angular momentum, which the scheme would take back; use "
+            "--angular-momentum free";
+    else if (scheme_.closest_approach > 0.0)
+        nature.no_images =
+            "the closest approach is of pairs of particles and lets them come nearer to a "
+            "wall; leave --closest-approach out";
+    if (scheme_.closest_approach > 0.0)
+        nature.events = [this] {
+            return std::vector<Event>{closest_approach_event<Dim>(
+                {this->particles().mass, this->box(), scheme_.closest_approach,
+                 scheme_.transport == Transport::plain},
+                this->layout(), this->among().first())};
+        };
 }
 
 template <int Dim>
@@ -181,12 +211,6 @@ PackedFields SmoothParticles<Dim>::fields_of(const ConstState<Dim>& state) const
             state.find(Field::density), constitution_->stress(state), scheme_.mean_density};
 }
 
-template <int Dim>
-bool SmoothParticles<Dim>::smooth() const {
-    return scheme_.angular_momentum != AngularMomentum::torque_particle &&
-           scheme_.angular_momentum != AngularMomentum::gauss && constitution_->smooth();
-}
-
 /// List and records for this state. Returns why it has no meaning.
 template <int Dim>
 std::string SmoothParticles<Dim>::load(const Now& now) {
@@ -262,8 +286,24 @@ bool SmoothParticles<Dim>::settle(double t, const State<Dim>& state) {
 }
 
 template <int Dim>
-double SmoothParticles<Dim>::energy(std::span<const double> y) const {
-    return carried_energy(this->particles(), this->state_of(y));
+auto SmoothParticles<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    const ConstState<Dim> state = this->state_of(y);
+    switch (what) {
+        case Ask::energy:
+            return {carried_energy(this->particles(), state)};
+        case Ask::density:
+            if (sweeps_->density == nullptr) return {};
+            return {0.0, summed_density(fields_of(state))};
+        case Ask::neighbour_forces:
+            return {(carried_energies(this->particles(), state) +
+                     constitution_->stress_forces(state, this->densities(y))) /
+                    this->particles().spacing};
+        case Ask::damping:
+            return {fastest_damping_in(y)};
+        case Ask::deformation:
+            break;
+    }
+    return {};
 }
 
 /// For observers: its own list, so that the one of the right-hand side stays as it is.
@@ -271,57 +311,6 @@ template <int Dim>
 std::vector<double> SmoothParticles<Dim>::summed_density(const PackedFields& fields) const {
     return packed_->for_observer().summed_density(sweeps_->density, this->particles().size(),
                                                   fields);
-}
-
-template <int Dim>
-std::vector<double> SmoothParticles<Dim>::density(std::span<const double> y) const {
-    if (sweeps_->density == nullptr) return {};
-    return summed_density(fields_of(this->state_of(y)));
-}
-
-template <int Dim>
-double SmoothParticles<Dim>::neighbour_forces(std::span<const double> y) const {
-    const ConstState<Dim> state = this->state_of(y);
-    return (carried_energies(this->particles(), state) +
-            constitution_->stress_forces(state, this->densities(y))) /
-           this->particles().spacing;
-}
-
-/// In space a fluid's pressures act along r_ij; everything else does not, unless it is balanced.
-template <int Dim>
-Promises SmoothParticles<Dim>::promises() const {
-    Promises promises = scheme_.promises(Dim);
-    if (constitution_->central(scheme_)) promises.angular_momentum = Promise::integrator_error;
-    return promises;
-}
-
-template <int Dim>
-std::vector<Event> SmoothParticles<Dim>::events() const {
-    if (scheme_.closest_approach == 0.0) return {};
-    return {closest_approach_event<Dim>(
-        {this->particles().mass, this->box(), scheme_.closest_approach, moves_with_velocity()},
-        this->layout(), this->among().first())};
-}
-
-template <int Dim>
-bool SmoothParticles<Dim>::conducts() const {
-    return constitution_->conducts();
-}
-
-template <int Dim>
-std::string SmoothParticles<Dim>::no_images(const Wall<Dim>& wall) const {
-    if (scheme_.angular_momentum != AngularMomentum::free)
-        return "walls give angular momentum, which the scheme would take back; use "
-               "--angular-momentum free";
-    if (scheme_.closest_approach > 0.0)
-        return "the closest approach is of pairs of particles and lets them come nearer to a "
-               "wall; leave --closest-approach out";
-    return Term<Dim>::no_images(wall);
-}
-
-template <int Dim>
-std::string SmoothParticles<Dim>::describe() const {
-    return fmt::format("{}: {}", constitution_->describe(), scheme_.describe());
 }
 
 template class SmoothParticles<1>;

@@ -37,6 +37,11 @@ Springs<Dim>::Springs(const Selection<Dim>& among, const HarmonicSpring& spring)
                     "direction there; move it off, from a mirror by half a spacing",
                     this->particles().id[near_.list().particle(slot)]));
         });
+    this->nature_.description = fmt::format(
+        "molecular dynamics, {} harmonic springs kappa = {:g}, rest length {:g}, between initial "
+        "neighbours",
+        this->counts().pairs, spring_.kappa, spring_.rest_length);
+    this->nature_.reach = near_.range();
 }
 
 template <int Dim>
@@ -101,13 +106,11 @@ double Springs<Dim>::half_of_bonds(std::span<const double> y, const OfBond& of_b
 }
 
 template <int Dim>
-double Springs<Dim>::energy(std::span<const double> y) const {
-    return half_of_bonds(y, [&](double r) { return spring_.energy(r); });
-}
-
-template <int Dim>
-double Springs<Dim>::neighbour_forces(std::span<const double> y) const {
-    return 2.0 * half_of_bonds(y, [&](double r) { return std::abs(spring_.force(r)); });
+auto Springs<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::energy) return {half_of_bonds(y, [&](double r) { return spring_.energy(r); })};
+    if (what == Ask::neighbour_forces)
+        return {2.0 * half_of_bonds(y, [&](double r) { return std::abs(spring_.force(r)); })};
+    return {};
 }
 
 template <int Dim>
@@ -135,14 +138,6 @@ void Springs<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>&
                 "population: all springs have one length, and those of particle {} would have others "
                 "once it is split or merged; it can be removed only",
                 change.id[change.parts[k].front().particle]));
-}
-
-template <int Dim>
-std::string Springs<Dim>::describe() const {
-    return fmt::format(
-        "molecular dynamics, {} harmonic springs kappa = {:g}, rest length {:g}, between initial "
-        "neighbours",
-        this->pairs(), spring_.kappa, spring_.rest_length);
 }
 
 template class Springs<1>;

@@ -8,20 +8,15 @@
 
 namespace spam {
 
-template <int Dim>
-std::size_t Term<Dim>::pairs() const {
-    std::size_t pairs = 0;
-    for (const auto* near : neighbourhoods_) pairs += near->list().pairs();
-    return pairs;
-}
-
 /// Lists for good are part of the law.
 template <int Dim>
-std::size_t Term<Dim>::list_builds() const {
-    std::size_t builds = 0;
-    for (const auto* near : neighbourhoods_)
-        if (!near->for_good()) builds += near->list().builds();
-    return builds;
+auto Term<Dim>::counts() const -> Counts {
+    Counts counts;
+    for (const auto* near : neighbourhoods_) {
+        counts.pairs += near->list().pairs();
+        if (!near->for_good()) counts.list_builds += near->list().builds();
+    }
+    return counts;
 }
 
 template <int Dim>

@@ -123,6 +123,15 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
     near_.build(this->particles().reference_position);
     pack_reference();
     find_corrections();
+    auto& nature = this->nature_;
+    nature.description = fmt::format(
+        "total Lagrangian, {}, density {:.6g}, lucy weight of range {} between reference "
+        "positions, penalty kappa = {}",
+        material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+    nature.fields = material_.history();
+    if (!material_.keeps_energy()) nature.promises.energy = Promise::not_kept;
+    nature.smooth = material_.history().empty() || material_.has_rates();
+    nature.reach = scheme_.range;
 }
 
 template <int Dim>
@@ -274,7 +283,7 @@ Neighbourhood<Dim> TotalLagrangian<Dim>::deformed(std::span<const double> y) con
 }
 
 template <int Dim>
-std::vector<Mat<Dim>> TotalLagrangian<Dim>::deformation_gradients(std::span<const double> y) const {
+std::vector<Mat<Dim>> TotalLagrangian<Dim>::gradients(std::span<const double> y) const {
     const Neighbourhood<Dim> own = deformed(y);
     std::vector<Mat<Dim>> F(own.list().size());
     for (std::size_t slot = 0; slot < F.size(); ++slot)
@@ -283,15 +292,7 @@ std::vector<Mat<Dim>> TotalLagrangian<Dim>::deformation_gradients(std::span<cons
 }
 
 template <int Dim>
-std::vector<double> TotalLagrangian<Dim>::density(std::span<const double> y) const {
-    std::vector<double> rho;
-    for (const Mat<Dim>& F : deformation_gradients(y))
-        rho.push_back(scheme_.density / Eigen::Map<const Tensor<Dim>>(F.c.data()).determinant());
-    return rho;
-}
-
-template <int Dim>
-double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
+double TotalLagrangian<Dim>::potential_energy(std::span<const double> y) const {
     const ConstState<Dim> state = this->state_of(y);
     Neighbourhood<Dim> own = deformed(y);
     std::vector<double> penalty(own.list().size(), 0.0);
@@ -312,11 +313,16 @@ double TotalLagrangian<Dim>::energy(std::span<const double> y) const {
 }
 
 template <int Dim>
-std::string TotalLagrangian<Dim>::describe() const {
-    return fmt::format(
-        "total Lagrangian, {}, density {:.6g}, lucy weight of range {} between reference "
-        "positions, penalty kappa = {}",
-        material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+auto TotalLagrangian<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::energy) return {potential_energy(y)};
+    Answer found = Term<Dim>::answer(what, y);
+    if (what != Ask::density && what != Ask::deformation) return found;
+    found.deformation = gradients(y);
+    if (what == Ask::density)
+        for (const Mat<Dim>& F : found.deformation)
+            found.density.push_back(scheme_.density /
+                                    Eigen::Map<const Tensor<Dim>>(F.c.data()).determinant());
+    return found;
 }
 
 template class TotalLagrangian<1>;

@@ -2,9 +2,9 @@
 // Laws of matter, further terms, choices of scheme and externals, and what becomes of any combination of them.
 #pragma once
 
+#include "support/own_part.hpp"
 #include <spam/core/dimensions.hpp>
 #include <spam/core/error.hpp>
-#include <spam/core/parts.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/external/distributed_load.hpp>
@@ -53,24 +53,6 @@ struct Sample {
           model(own_part(make_particles<2>(triangular_block(8, box.periodic() ? 6 : 5, in.length),
                                            in.mass, in.length, box)),
                 box) {}
-    /// Those that this part of a run has (core/parts.hpp).
-    static Particles<2> own_part(Particles<2> all) {
-        if (Parts::here().alone()) return all;
-        Particles<2> own = all;
-        const auto numbers = Parts::here().numbers();
-        own.reference_position.resize(2, static_cast<Eigen::Index>(numbers.size()));
-        own.mass.clear();
-        own.id.clear();
-        own.body.clear();
-        for (const std::uint32_t i : numbers) {
-            own.reference_position.col(static_cast<Eigen::Index>(own.mass.size())) =
-                all.reference_position.col(i);
-            own.mass.push_back(all.mass[i]);
-            own.id.push_back(all.id[i]);
-            own.body.push_back(all.body[i]);
-        }
-        return own;
-    }
     Units units;
     ParticleModel<2> model;
     std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};

@@ -191,6 +191,16 @@ BOOST_AUTO_TEST_CASE(lists_and_images_belong_to_neighbors) {
     BOOST_TEST(!is_of_neighbors("    const ClusterList<Dim>& list = this->list();"));
 }
 
+// What else a law is, it says as data (Term::Nature).
+BOOST_AUTO_TEST_CASE(a_law_has_at_most_eight_functions) {
+    static const std::regex function("^\\s*virtual (?!~)");
+    int functions = 0;
+    for (const auto& line : lines_of(fs::path(SPAM_SOURCE) / "include/spam/rhs/term.hpp"))
+        functions += std::regex_search(line, function) ? 1 : 0;
+    BOOST_TEST(functions >= 2);
+    BOOST_TEST(functions <= 8);
+}
+
 BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
     for (const auto& path : sources({"include", "src", "problems", "tests"})) {
         const auto lines = lines_of(path);

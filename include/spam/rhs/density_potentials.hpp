@@ -39,21 +39,19 @@ class DensityPotentialTerm final : public Term<Dim> {
     ~DensityPotentialTerm() override;
 
     using typename Term<Dim>::Now;
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
     std::string rates(const Now& now) override;
-    /// Phi
-    double energy(std::span<const double> y) const override;
-    /// sum_j m_j w_ij, self included
-    std::vector<double> density(std::span<const double> y) const override;
-    std::string describe() const override;
-
-    double neighbour_forces(std::span<const double> y) const override;
-    double reach() const override { return potentials_.range; }
+    /// Its energy is Phi, its density sum_j m_j w_ij, self included.
+    Answer answer(Ask what, std::span<const double> y) const override;
 
     const DensityPotentials& potentials() const { return potentials_; }
 
   private:
     struct Parts;
     std::string complaint() const;
+    double phi(std::span<const double> y) const;
+    std::vector<double> summed_density(std::span<const double> y) const;
 
     DensityPotentials potentials_;
     std::unique_ptr<Parts> parts_;  ///< sweeps, records and fields

@@ -48,24 +48,10 @@ class Elements final : public Term<2> {
     Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners,
              std::vector<Material> materials, std::vector<std::int32_t> material = {});
 
-    std::span<const Quadrilateral> quadrilaterals() const override { return corners_; }
-    std::vector<Field> element_fields() const override;
     std::string rates(const Now& now) override;
-    double energy(std::span<const double> y) const override;
-    double neighbour_forces(std::span<const double> y) const override;
+    Answer answer(Ask what, std::span<const double> y) const override;
     bool settle(double t, const State<2>& state) override;
-    std::string no_images(const Wall<2>&) const override {
-        return "elements do not meet the images of their nodes; use rigid sides";
-    }
-    std::string describe() const override;
-    double fastest_damping(std::span<const double>) const override { return damping_; }
-    /// Not of solids that begin to yield.
-    bool smooth() const override {
-        return std::none_of(materials_.begin(), materials_.end(),
-                            [](const Material& material) { return material.law.returns(); });
-    }
-    std::size_t pairs() const override { return 4 * corners_.size(); }
-    double reach() const override { return reach_; }
+    Counts counts() const override { return {4 * nature_.elements.size(), 0}; }
 
     /// Density times area at the start.
     const std::vector<double>& mass() const { return mass_; }
@@ -83,8 +69,9 @@ class Elements final : public Term<2> {
     void for_each_material(std::size_t first, std::size_t count, const F& f) const;
     void load(const Held& held, std::size_t element);
     void gather(const Now& now) const;
+    void set_nature();
+    double neighbour_forces_in(std::span<const double> y) const;
 
-    std::vector<Quadrilateral> corners_;
     std::vector<Material> materials_;
     std::vector<std::int32_t> material_;  ///< of each element; empty: all of the first
     std::vector<double> mass_;            ///< of each element
@@ -94,7 +81,7 @@ class Elements final : public Term<2> {
     std::vector<std::size_t> at_;     ///< 4 element + corner, ascending, of each node
     std::vector<Field>
         of_some_;  ///< what one material finds the rates of, and another may know nothing of
-    double damping_ = 0.0, reach_ = 0.0;
+    double damping_ = 0.0;
     bool elastic_hourglass_ = false;
 
     // Of the right-hand side at work, M each.

@@ -92,24 +92,15 @@ class MaterialVectors final : public Term<Dim> {
     ~MaterialVectors() override;
 
     using typename Term<Dim>::Now;
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
+    using typename Term<Dim>::Counts;
     std::string rates(const Now& now) override;
     bool settle(double t, const State<Dim>& state) override;
-    bool settles() const override { return true; }
-    /// A return to the yield surface makes the order of a fixed step less than the method's.
-    bool smooth() const override { return !material_.flows(); }
-    /// Neighbours come and go with no weight: unless the law flows or bonds break.
-    bool settles_seldom() const override;
-    /// Of all particles, with heat().
-    double energy(std::span<const double> y) const override;
-    /// rho_0/det F; negative where a particle is turned inside out.
-    std::vector<double> density(std::span<const double> y) const override;
-    std::string no_images(const Wall<Dim>&) const override {
-        return "particles have no bonds with their images behind a wall; use rigid sides";
-    }
-    std::string describe() const override;
-    std::size_t pairs() const override;
-    double reach() const override { return scheme_.range; }
-    std::size_t list_builds() const override;
+    /// Its energy is that of all particles, with heat(); its density rho_0/det F, negative where a particle is turned
+    /// inside out.
+    Answer answer(Ask what, std::span<const double> y) const override;
+    Counts counts() const override;
     void remember(Memory<Dim>& memory) override;
     /// Of particles whose bonds are others now, what they store less is heat; where it were more, F stays.
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
@@ -131,8 +122,6 @@ class MaterialVectors final : public Term<Dim> {
     /// The same of each particle, N numbers.
     const std::vector<double>& heat_of_particles() const;
     const BondBreaks& breaks() const;
-    /// F of all particles, in their order; F_ab = d x_a / d X_b.
-    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const override;
 
     /// A particle's neighbour now, for observers and tests.
     struct Bond {
@@ -149,6 +138,7 @@ class MaterialVectors final : public Term<Dim> {
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;
     std::vector<double> energies(const ConstState<Dim>& state) const;
+    void set_nature();
     bool close(const BondView<Dim>& view, std::size_t first, std::size_t count,
                const ConstState<Dim>& state, double* records, bool& whole);
     bool flow(const ConstState<Dim>& state);

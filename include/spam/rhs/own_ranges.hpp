@@ -38,16 +38,11 @@ class OwnRanges final : public Term<Dim> {
     ~OwnRanges() override;
 
     using typename Term<Dim>::Now;
-    std::vector<Field> fields() const override { return {Field::density, Field::energy}; }
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
     /// A range that has grown to half of a periodic length ends the run.
     std::string rates(const Now& now) override;
-    bool potential() const override { return false; }
-    double energy(std::span<const double> y) const override;
-    double neighbour_forces(std::span<const double> y) const override;
-    std::string describe() const override;
-
-    /// The largest range of the latest rates().
-    double reach() const override { return reach_; }
+    Answer answer(Ask what, std::span<const double> y) const override;
 
     const Fluid& fluid() const { return fluid_; }
     const VariableRangeScheme& scheme() const { return scheme_; }
@@ -73,7 +68,6 @@ class OwnRanges final : public Term<Dim> {
     GeneralWeight<Dim> unit_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
-    double reach_ = 0.0;
     std::vector<double> range_, pressure_, pull_, rho_dot_;
 };
 

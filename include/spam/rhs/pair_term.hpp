@@ -37,13 +37,13 @@ class PairTerm : public Term<Dim> {
     ~PairTerm() override;
 
     using typename Term<Dim>::Now;
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
     std::string rates(const Now& now) override;
-    double energy(std::span<const double> y) const override;
-    std::vector<double> density(std::span<const double> y) const override;
-    std::string describe() const override { return law_.description; }
-    double reach() const override { return law_.range; }
+    Answer answer(Ask what, std::span<const double> y) const override;
 
   private:
+    double pair_energy(std::span<const double> y) const;
     std::vector<NumberKind> record_kinds() const;
     bool follow(PackedParticles<Dim>& packed, const ConstState<Dim>& state) const;
     SweepInput<Dim> input(const PackedParticles<Dim>& packed) const;

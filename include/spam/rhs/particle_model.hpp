@@ -30,7 +30,7 @@ class ParticleModel : public Model<Dim> {
     /// One more term, Law(*this, arguments...). y grows by its fields: add terms and externals before a
     /// state is made. Throws InputError where it does not go with those that are there: two that find the
     /// rate of the same field of y, a potential of positions beside particles that move with an averaged
-    /// velocity, or what a wall of the box means nothing to (Term::no_images).
+    /// velocity, or what a wall of the box means nothing to (Term::Nature).
     template <class Law, class... Arguments>
     Law& add_term(Arguments&&... arguments) {
         auto term = std::make_unique<Law>(*this, std::forward<Arguments>(arguments)...);

@@ -56,26 +56,10 @@ class SmoothParticles final : public Term<Dim> {
         : SmoothParticles(among, std::vector<Fluid>{fluid}, scheme) {}
     ~SmoothParticles() override;
 
-    std::vector<Field> fields() const override;
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
     std::string rates(const Now& now) override;
-    bool moves() const override { return true; }
-    bool moves_with_velocity() const override { return scheme_.transport == Transport::plain; }
-    bool potential() const override { return false; }
-    double energy(std::span<const double> y) const override;
-    std::vector<double> density(std::span<const double> y) const override;
-    double neighbour_forces(std::span<const double> y) const override;
-    /// Torques are balanced among particles, and reflections are of pairs of them, without images.
-    std::string no_images(const Wall<Dim>& wall) const override;
-    bool conducts() const override;
-    /// The restriction of the distance of closest approach, where the scheme has one.
-    std::vector<Event> events() const override;
-    Promises promises() const override;
-    std::string describe() const override;
-    double fastest_damping(std::span<const double> y) const override;
-    /// Not with particle torques, which jump where one changes its sign, nor with Gauss' principle, which
-    /// sets in and out, nor of solids that begin to yield.
-    bool smooth() const override;
-    double reach() const override { return scheme_.range; }
+    Answer answer(Ask what, std::span<const double> y) const override;
     /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
     /// denominator (physics/gauss_constraint.hpp).
     std::vector<Remark> watch(double t, std::span<const double> y) override;
@@ -108,6 +92,8 @@ class SmoothParticles final : public Term<Dim> {
     PackedFields fields_of(const ConstState<Dim>& state) const;
     std::vector<double> summed_density(const PackedFields& fields) const;
     void load_transport(const Now& now);
+    void set_nature();
+    double fastest_damping_in(std::span<const double> y) const;
     void prepare_damping();
     Groups groups() const;
 

@@ -19,9 +19,11 @@ class Springs final : public Term<Dim> {
     /// the images behind a mirror as well. Throws InputError where two of these are at one place.
     Springs(const Selection<Dim>& among, const HarmonicSpring& spring);
 
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
     std::string rates(const Now& now) override;
-    double energy(std::span<const double> y) const override;
-    std::string describe() const override;
+    /// Its neighbour forces are those of all bonds, from both ends.
+    Answer answer(Ask what, std::span<const double> y) const override;
     /// Throws InputError where particles are split or merged: all springs have one length.
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
                    const ConstState<Dim>& now) override;
@@ -29,9 +31,6 @@ class Springs final : public Term<Dim> {
     /// Stress of every particle from its own bonds (virial), tension-positive:
     /// sigma_i = -1/(2 V) sum_j r_ij (x) F_ij, V the volume of a particle.
     std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const;
-    /// Of all bonds, from both ends.
-    double neighbour_forces(std::span<const double> y) const override;
-    double reach() const override { return near_.range(); }
 
   private:
     void load(Neighbourhood<Dim>& near, const double* x) const;

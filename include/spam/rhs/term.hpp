@@ -3,6 +3,8 @@
 
 #include <spam/rhs/selection.hpp>
 
+#include <cmath>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,76 +34,82 @@ class Term {
     Term(const Term&) = delete;
     Term& operator=(const Term&) = delete;
 
-    /// The fields of y, besides position and velocity, whose rates the term finds or which it keeps
-    /// (history). No two terms of a model may find the rate of the same one.
-    virtual std::vector<Field> fields() const { return {}; }
-
-    /// Elements between particles of the model, by their numbers there; no two terms of a model may have some.
-    virtual std::span<const Quadrilateral> quadrilaterals() const { return {}; }
-    /// Fields of the elements, as fields() are those of the particles.
-    virtual std::vector<Field> element_fields() const { return {}; }
-
-    /// v_dot, and the rates of fields(). Pure, no allocation after warm-up except for new lists.
+    /// v_dot, and the rates of nature().fields. Pure, no allocation after warm-up except for new lists.
     /// Returns why the state has no meaning; empty where it has one.
     virtual std::string rates(const Now& now) = 0;
 
-    /// Whether rates() sets x_dot as well; else it is v.
-    virtual bool moves() const { return false; }
-    /// Whether x_dot = v.
-    virtual bool moves_with_velocity() const { return true; }
-    /// Whether energy() is a function of positions alone: its forces keep the total energy only where
-    /// particles move with their own velocity.
-    virtual bool potential() const { return true; }
-
-    /// The energy that is not kinetic.
-    virtual double energy(std::span<const double> y) const = 0;
-    /// N, empty where the term has no density of its own (then what is in y counts).
-    virtual std::vector<double> density(std::span<const double>) const { return {}; }
-    /// Model::neighbour_forces()
-    virtual double neighbour_forces(std::span<const double> y) const {
-        return std::abs(energy(y)) / particles().spacing;
-    }
-
-    /// Why the images behind a wall mean nothing to the term, and what would; empty where it takes them.
-    virtual std::string no_images(const Wall<Dim>& wall) const {
-        if (potential() && wall.passes_energy())
-            return "forces from a potential feel neither the velocity nor the temperature of a wall; use a "
-                   "mirror";
-        if (wall.temperature && !conducts())
-            return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "
-                   "out";
+    /// What observers may ask for; a law may know it or not.
+    enum class Ask {
+        energy,   ///< that is not kinetic
+        density,  ///< N, where the term has densities of its own (else what is in y counts)
+        neighbour_forces,  ///< Model::neighbour_forces(); else |energy|/spacing
+        damping,           ///< Model::fastest_damping()
+        deformation        ///< F, N; where the term remembers places in the material
+    };
+    struct Answer {
+        double number = 0.0;
+        std::vector<double> density{};
+        std::vector<Mat<Dim>> deformation{};
+    };
+    /// Of any state, which need not be the one that rates() met last, and leaves no trace.
+    virtual Answer answer(Ask what, std::span<const double> y) const {
+        if (what == Ask::neighbour_forces) return {std::abs(energy(y)) / particles().spacing};
         return {};
     }
-    /// Whether heat passes from particle to particle, and from what is behind a wall.
-    virtual bool conducts() const { return false; }
+    double energy(std::span<const double> y) const { return answer(Ask::energy, y).number; }
+    std::vector<double> density(std::span<const double> y) const {
+        return answer(Ask::density, y).density;
+    }
+    double neighbour_forces(std::span<const double> y) const {
+        return answer(Ask::neighbour_forces, y).number;
+    }
+    double fastest_damping(std::span<const double> y) const {
+        return answer(Ask::damping, y).number;
+    }
+    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const {
+        return answer(Ask::deformation, y).deformation;
+    }
+
+    /// What a law is beside what it finds. Constant, but for the reach of ranges that follow the state.
+    struct Nature {
+        std::string description{};  ///< one line, for the banner of a run
+        /// Of y besides position and velocity, whose rates the term finds or which it keeps (history). No two terms
+        /// of a model may find the rate of the same one.
+        std::vector<Field> fields{};
+        /// Between particles of the model, by their numbers there; no two terms of a model may have some.
+        std::vector<Quadrilateral> elements{};
+        std::vector<Field> element_fields{};  ///< likewise, of these
+        bool moves = false;                   ///< rates() sets x_dot as well; else it is v
+        bool moves_with_velocity = true;      ///< x_dot = v
+        /// energy() is a function of positions alone: its forces keep the total energy only where particles move
+        /// with their own velocity.
+        bool potential = true;
+        bool conducts =
+            false;  ///< heat passes from particle to particle, and from what is behind a wall
+        bool smooth = true;    ///< rates are continuous
+        bool settles = false;  ///< settle() may do anything although y holds no history of the term
+        bool settles_seldom = false;  ///< and leaves the rates as they are but now and then
+        Promises promises{.angular_momentum = Promise::integrator_error};  ///< in open space
+        double reach = 0.0;       ///< no two particles farther apart act on each other
+        std::string no_images{};  ///< why images behind a wall mean nothing to it
+        std::function<std::vector<Event>()> events{};  ///< Model::events()
+    };
+    const Nature& nature() const { return nature_; }
 
     /// Those that the term sweeps (look_after): the model looks there for what walls give, and has them forgotten
     /// where a run is read back.
     std::span<Neighbourhood<Dim>* const> neighbourhoods() const { return neighbourhoods_; }
 
-    virtual std::vector<Event> events() const { return {}; }
-    /// In open space.
-    virtual Promises promises() const {
-        Promises p;
-        p.angular_momentum = Promise::integrator_error;
-        return p;
-    }
-    virtual std::string describe() const = 0;
-    virtual double fastest_damping(std::span<const double> /*y*/) const { return 0.0; }
-    virtual bool smooth() const { return true; }
-    /// Of its neighbourhoods, here and below.
-    virtual std::size_t pairs() const;
-    virtual double reach() const = 0;
-    virtual std::size_t list_builds() const;
+    /// Pairs and lists of its neighbourhoods, or what it counts itself.
+    struct Counts {
+        std::size_t pairs = 0, list_builds = 0;
+    };
+    virtual Counts counts() const;
 
     /// As the model's functions of these names.
     virtual std::vector<Remark> watch(double, std::span<const double>) { return {}; }
     virtual void set_bodies() {}
     virtual void remember(Memory<Dim>&) {}
-    /// F of the particles of the term; empty where it remembers no places in the material.
-    virtual std::vector<Mat<Dim>> deformation_gradients(std::span<const double>) const {
-        return {};
-    }
     /// Model::take_over(); `before` is the same law, was and now are states of the particles of either.
     virtual void take_over(const Term& /*before*/, const ConstState<Dim>& /*was*/,
                            const Change<Dim>& /*change*/, const ConstState<Dim>& /*now*/) {}
@@ -115,12 +123,10 @@ class Term {
     /// After an accepted step, and before anybody looks at it: the term may change its history fields,
     /// and the stress that goes with them, or what it remembers beyond y. Returns whether rates changed.
     virtual bool settle(double, const State<Dim>&) { return false; }
-    /// Whether settle() may do anything although y holds no history of the term.
-    virtual bool settles() const { return false; }
-    /// Whether what it does leaves the rates as they are but now and then (Model::settles_seldom).
-    virtual bool settles_seldom() const { return false; }
 
   protected:
+    /// To be set when the term is made.
+    Nature nature_{};
     /// To be called once for each, when it is made; it stays where it is.
     void look_after(Neighbourhood<Dim>& near) { neighbourhoods_.push_back(&near); }
     /// For laws whose neighbours are not those of a Neighbourhood. Throws InputError where a run is in several parts.

@@ -39,29 +39,16 @@ class TotalLagrangian final : public Term<Dim> {
     ~TotalLagrangian() override;
 
     using typename Term<Dim>::Now;
-    /// What the material remembers.
-    std::vector<Field> fields() const override { return material_.history(); }
+    using typename Term<Dim>::Ask;
+    using typename Term<Dim>::Answer;
     std::string rates(const Now& now) override;
     bool settle(double t, const State<Dim>& state) override;
-    /// The potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair. Of a material with a
-    /// memory with what it has spent on plastic flow: that is kept as well, across steps and settling.
-    double energy(std::span<const double> y) const override;
-    /// rho_0/det F; negative where a particle is turned inside out.
-    std::vector<double> density(std::span<const double> y) const override;
-    std::string describe() const override;
-    Promises promises() const override {
-        Promises p = Term<Dim>::promises();
-        if (!material_.keeps_energy()) p.energy = Promise::not_kept;
-        return p;
-    }
-    /// Not of solids that begin to yield.
-    bool smooth() const override { return material_.history().empty() || material_.has_rates(); }
-
-    double reach() const override { return scheme_.range; }
+    /// Its energy is the potential of the forces: sum V energy(F), and k_ij |d_ij|^2/2 of every pair. Of a material
+    /// with a memory with what it has spent on plastic flow: that is kept as well, across steps and settling. Its
+    /// density is rho_0/det F, negative where a particle is turned inside out.
+    Answer answer(Ask what, std::span<const double> y) const override;
 
     const TotalLagrangianScheme& scheme() const { return scheme_; }
-    /// F of all particles, in their order; F_ab = d x_a / d X_b.
-    std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const override;
 
   private:
     struct Stresses;
@@ -70,6 +57,8 @@ class TotalLagrangian final : public Term<Dim> {
     void find_corrections();
     void load(const ConstState<Dim>& state, Neighbourhood<Dim>& near) const;
     void memory_rates(const Now& now);
+    std::vector<Mat<Dim>> gradients(std::span<const double> y) const;
+    double potential_energy(std::span<const double> y) const;
     Neighbourhood<Dim> deformed(std::span<const double> y) const;
     std::string complaint() const;
 
