@@ -60,7 +60,7 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
         hexagon.title = fmt::format("total Lagrangian, κ = {}", p.kappa());
         hexagon.model = std::make_unique<TotalLagrangianModel<2>>(
             std::move(particles), StVenantKirchhoff::like(solid),
-            TotalLagrangianScheme{triangular_density, scheme.range, p.kappa()});
+            TotalLagrangianScheme{triangular_density, scheme.range, p.kappa(), scheme.kernel});
     } else if (p.material_vectors()) {
         hexagon.title = fmt::format("material vectors, κ = {}", p.kappa());
         hexagon.model = std::make_unique<MaterialVectorModel<2>>(
@@ -110,9 +110,9 @@ void add_rules(Options& options, const Parameters& p) {
                       smooth,
                       "has no meaning for --model md (springs between initial neighbours); leave "
                       "it out");
-    options.only_when(with({"torques", "kernel"}), by, not_lagrangian,
+    options.only_when(with({"torques"}), by, not_lagrangian,
                       "has no meaning for --formulation total_lagrangian (no choice of that kind, "
-                      "no pair torques, always Lucy's weight); leave it out");
+                      "no pair torques); leave it out");
     options.only_when(with({"torques", "kernel"}), by, no_vectors,
                       "has no meaning for --formulation material_vectors (no choice of that kind, "
                       "no pair torques, a weight of its own); leave it out");

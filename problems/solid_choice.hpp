@@ -55,7 +55,7 @@ struct SolidChoice {
         if (lagrangian())
             model.add_term_among<TotalLagrangian<2>>(
                 first, count, StVenantKirchhoff::like(solid),
-                TotalLagrangianScheme{density, range, kappa()});
+                TotalLagrangianScheme{density, range, kappa(), updated.kernel});
         else if (vectors())
             model.add_term_among<MaterialVectors<2>>(first, count, PolynomialSolid::like(solid),
                                                      MaterialVectorScheme{density, range, kappa()});

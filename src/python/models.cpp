@@ -127,6 +127,7 @@ struct MakeRemembering {
     ElasticSolid elastic;
     HarmonicSpring spring;
     double density, range, penalty;
+    Kernel kernel;
 
     template <int Dim>
     py::object make() const {
@@ -139,7 +140,7 @@ struct MakeRemembering {
         else if (kind == "total_lagrangian")
             model = std::make_shared<TotalLagrangianModel<Dim>>(
                 std::move(particles), StVenantKirchhoff::like(elastic),
-                TotalLagrangianScheme{density, range, penalty}, box);
+                TotalLagrangianScheme{density, range, penalty, kernel}, box);
         else if constexpr (Dim > 1)
             model = std::make_shared<MaterialVectorModel<Dim>>(
                 std::move(particles), PolynomialSolid::like(elastic),
@@ -268,7 +269,8 @@ void bind_models(py::module_& module) {
         "remembering",
         [](py::object x, const std::string& kind, const Solid& solid, double kappa,
            double rest_length, py::object mass, double density, double range, double penalty,
-           double spacing, std::vector<double> box, std::vector<ExternalChoice> externals) {
+           const std::string& kernel, double spacing, std::vector<double> box,
+           std::vector<ExternalChoice> externals) {
             return by_dimensions(
                 MakeRemembering{{x, mass, spacing, std::move(box), std::move(externals)},
                                 kind,
@@ -276,10 +278,11 @@ void bind_models(py::module_& module) {
                                 {kappa, rest_length},
                                 checked_density(density),
                                 range,
-                                penalty});
+                                penalty,
+                                value_of<Kernel>(kernel, all_kernels(), "kernel")});
         },
         "x"_a, "kind"_a, "material"_a, "kappa"_a, "rest_length"_a, "mass"_a, "density"_a, "range"_a,
-        "penalty"_a, "spacing"_a, "box"_a, "externals"_a);
+        "penalty"_a, "kernel"_a, "spacing"_a, "box"_a, "externals"_a);
 }
 
 }  // namespace spam::python

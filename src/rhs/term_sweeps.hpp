@@ -55,7 +55,7 @@ Sweeps<Dim> contact_sweeps();
 
 /// A total-Lagrangian solid, of StressedRecord.
 template <int Dim, InstructionSet Level>
-Sweeps<Dim> lagrangian_sweeps();
+Sweeps<Dim> lagrangian_sweeps(Kernel kernel);
 
 /// choose(level) for the processor's own instruction set.
 template <class Choose>

@@ -108,8 +108,9 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
     : Term<Dim>(among),
       material_(material),
       scheme_(validated(scheme, this->particles(), material.stiffness())),
+      weight_(scheme.kernel, scheme.range),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
-          best_sweeps([](auto level) { return lagrangian_sweeps<Dim, level>(); }))),
+          best_sweeps([&](auto level) { return lagrangian_sweeps<Dim, level>(scheme.kernel); }))),
       near_(scheme.range, ListUse::for_good, this->box(), sweeps_->width, sweeps_->numbers,
             StressedRecord<Dim>::kinds) {
     if (material_.flows())
@@ -125,9 +126,10 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
     find_corrections();
     auto& nature = this->nature_;
     nature.description = fmt::format(
-        "total Lagrangian, {}, density {:.6g}, lucy weight of range {} between reference "
+        "total Lagrangian, {}, density {:.6g}, {} weight of range {} between reference "
         "positions, penalty kappa = {}",
-        material_.describe(), scheme_.density, scheme_.range, scheme_.penalty);
+        material_.describe(), scheme_.density, to_string(scheme_.kernel), scheme_.range,
+        scheme_.penalty);
     nature.fields = material_.history();
     if (!material_.keeps_energy()) nature.promises.energy = Promise::not_kept;
     nature.smooth = material_.history().empty() || material_.has_rates();
@@ -136,7 +138,7 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
 
 template <int Dim>
 SweepInput<Dim> TotalLagrangian<Dim>::input(const Neighbourhood<Dim>& near) const {
-    SweepInput<Dim> in{near.list().view(), near.records(), scheme_.range};
+    SweepInput<Dim> in{near.list().view(), near.records(), scheme_.range, &weight_};
     in.constants.inverse_density = 1.0 / scheme_.density;
     in.constants.penalty = scheme_.penalty * material_.stiffness();
     return in;

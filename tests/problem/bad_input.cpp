@@ -101,7 +101,6 @@ BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
 BOOST_AUTO_TEST_CASE(values_out_of_range) {
     check_all({
         {{"--model", "md", "--torques"}, {"torques", "md"}},
-        {{"--formulation", "total_lagrangian", "--kernel", "w5"}, {"kernel", "total_lagrangian"}},
         {{"--viscosity", "-1"}, {"viscosity", "-1"}},
         {{"--viscosity", "nan"}, {"viscosity", "nan"}},
         {{"--balance", "global"}, {"balance", "free", "torque_pair"}},

@@ -25,7 +25,7 @@ void bodies_with_neighbours_for_good() {
         return std::make_unique<BondedModel<Dim>>(std::move(particles), HarmonicSpring{}, box);
     };
     for (const auto* build : {&solid, &springs})
-        for (const int steps : {0, 50}) BOOST_TEST_CONTEXT(Dim << "D, " << steps << " steps")
+        for (const int steps : {0, 20}) BOOST_TEST_CONTEXT(Dim << "D, " << steps << " steps")
     BOOST_TEST(against_symmetric_whole<Dim>(*build, steps) < 1e-12);
 }
 

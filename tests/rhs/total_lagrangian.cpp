@@ -48,11 +48,13 @@ std::vector<double> deformed_state(const Model<Dim>& model, unsigned seed) {
 // ---- against the oracle ----
 
 template <int Dim>
-void check_against_oracle(const Particles<Dim>& particles, double penalty,
-                          const Box<Dim>& box = {}) {
-    BOOST_TEST_CONTEXT(Dim << " dimensions, penalty " << penalty) {
-        TotalLagrangianModel<Dim> model(particles, solid, scheme(penalty), box);
-        LagrangianOracle<Dim> oracle(particles, solid, scheme(penalty), box);
+void check_against_oracle(const Particles<Dim>& particles, double penalty, const Box<Dim>& box = {},
+                          Kernel kernel = Kernel::lucy) {
+    BOOST_TEST_CONTEXT(Dim << " dimensions, penalty " << penalty << ", " << to_string(kernel)) {
+        TotalLagrangianScheme used = scheme(penalty);
+        used.kernel = kernel;
+        TotalLagrangianModel<Dim> model(particles, solid, used, box);
+        LagrangianOracle<Dim> oracle(particles, solid, used, box);
         const auto y = deformed_state(model, 92);
         BOOST_TEST(relative_difference(rates_of(model, y), rates_of(oracle, y)) < 1e-12);
         const double energy = oracle.internal_energy(y);
@@ -77,6 +79,8 @@ void check_all_against_oracle() {
         auto particles = jittered_particles<Dim>(Dim == 2 ? 8 : 6, 93, 0.15, box);
         particles.reference_position.array() += 3.1;  // some lie outside the box
         check_against_oracle<Dim>(particles, penalty, box);
+        for (const Kernel kernel : {Kernel::monaghan, Kernel::w4})
+            check_against_oracle<Dim>(particles, penalty, box, kernel);
     }
 }
 

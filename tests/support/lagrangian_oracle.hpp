@@ -2,12 +2,14 @@
 #pragma once
 
 #include <spam/core/exact_sum.hpp>
+#include <spam/kernel/any_weight.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
 #include <Eigen/Dense>
 
 #include <numbers>
+#include <optional>
 
 namespace spam::test {
 
@@ -21,8 +23,8 @@ enum class LagrangianMutation {
     small_strain      ///< E = (F + F^t)/2 - 1, which sees rotations as strain
 };
 
-/// The total-Lagrangian equations as loops over all pairs, with Eigen, sharing no sum, list, law or
-/// weight function with the library. Slow, simple, and the judge of TotalLagrangianModel. With
+/// The total-Lagrangian equations as loops over all pairs, with Eigen, sharing no sum, list, law or,
+/// of Lucy's, weight function with the library. Slow, simple, and the judge of TotalLagrangianModel. With
 /// X_ij = X_i - X_j, W_ij = w(|X_ij|), V the reference volume, kappa the penalty:
 ///     A_i = sum_j V_j (x_j - x_i) (x) grad_i W_ij,  K_i = A_i^-1 at the reference,  F_i = A_i K_i
 ///     E_i = (F^t F - 1)/2,   P_i = F_i (lambda tr(E_i) 1 + 2 eta E_i)
@@ -42,6 +44,9 @@ class LagrangianOracle final : public Model<Dim> {
           law_(law),
           scheme_(scheme),
           mutation_(mutation),
+          other_(scheme.kernel == Kernel::lucy
+                     ? std::nullopt
+                     : std::optional(weight_function<Dim>(to_string(scheme.kernel), scheme.range))),
           n_(static_cast<int>(this->particles().size())) {
         for (int i = 0; i < n_; ++i) {
             M A = M::Zero();
@@ -127,6 +132,7 @@ class LagrangianOracle final : public Model<Dim> {
     double weight(double r) const {
         const double h = scheme_.range, pi = std::numbers::pi;
         if (r >= h) return 0.0;
+        if (other_) return other_->value(r);
         const double C = Dim == 1   ? 5.0 / (4.0 * h)
                          : Dim == 2 ? 5.0 / (pi * h * h)
                                     : 105.0 / (16.0 * pi * h * h * h);
@@ -135,6 +141,7 @@ class LagrangianOracle final : public Model<Dim> {
     V gradient(int i, int j) const {
         const double h = scheme_.range, r = X(i, j).norm();
         if (r >= h || i == j) return V::Zero();
+        if (other_) return -other_->minus_slope_over_r(r) * X(i, j);
         // From w itself: w' = w (3/(h + 3r) - 3/(h - r)).
         return weight(r) * (3.0 / (h + 3.0 * r) - 3.0 / (h - r)) / r * X(i, j);
     }
@@ -162,6 +169,7 @@ class LagrangianOracle final : public Model<Dim> {
     StVenantKirchhoff law_;
     TotalLagrangianScheme scheme_;
     LagrangianMutation mutation_;
+    std::optional<AnyWeight<Dim>> other_;  ///< than Lucy's
     int n_;
     std::vector<M> K_;
 };

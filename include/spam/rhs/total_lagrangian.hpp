@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/kernel/general_weight.hpp>
 #include <spam/material/hyperelastic_material.hpp>
 #include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/particle_model.hpp>
@@ -18,8 +19,9 @@ struct Sweeps;
 struct TotalLagrangianScheme {
     double
         density;  ///< rho_0 of the reference configuration; sqrt(4/3) m in the triangular lattice
-    double range = 3.0;    ///< of Lucy's weight function
-    double penalty = 0.1;  ///< kappa, against zero-energy modes; 0 leaves them free
+    double range = 3.0;            ///< of the weight function
+    double penalty = 0.1;          ///< kappa, against zero-energy modes; 0 leaves them free
+    Kernel kernel = Kernel::lucy;  ///< the weight function
 };
 
 /// An elastic solid of smooth particles that remembers its reference configuration X: y =
@@ -64,6 +66,7 @@ class TotalLagrangian final : public Term<Dim> {
 
     HyperelasticMaterial<Dim> material_;
     TotalLagrangianScheme scheme_;
+    GeneralWeight<Dim> weight_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     Neighbourhood<Dim> near_;  ///< of the reference positions, StressedRecord
     std::unique_ptr<Neighbourhood<Dim>>

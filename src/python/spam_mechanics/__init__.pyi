@@ -184,8 +184,8 @@ def SmoothParticles(x: ArrayLike, *, material: Union[None, _Solid, Fluid] = None
                     externals: Sequence[_External] = ()) -> _Model: ...
 def TotalLagrangian(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
                     density: Optional[float] = None, range: Optional[float] = None, penalty: float = 0.1,
-                    mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
-                    externals: Sequence[_External] = ()) -> _Model: ...
+                    kernel: str = "lucy", mass: ArrayLike = 1.0, spacing: float = 1.0,
+                    box: Optional[Sequence[float]] = None, externals: Sequence[_External] = ()) -> _Model: ...
 def MaterialVectors(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
                     density: Optional[float] = None, range: Optional[float] = None, penalty: float = 2.0,
                     mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
