@@ -30,7 +30,7 @@ void Neighbourhood<Dim>::forget() {
     share_ = first_share;
     served_ = 0;
     list_ = std::make_shared<ClusterList<Dim>>(range_, skin(), box_, width_, numbers_);
-    records_ = {};
+    records_ = std::vector<double>();  // {} would keep its room
     walls_.clear();
     for (int a = 0; a < Dim; ++a)
         for (const bool upper : {false, true})
