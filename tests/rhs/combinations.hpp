@@ -143,7 +143,7 @@ inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
     for (std::uint32_t k = 0; k < stored.size(); ++k)
         stored[static_cast<std::size_t>(particles.id[k])] = k;
     std::vector<Quadrilateral> mesh;
-    for (std::size_t i = 0; i + 8 < stored.size(); ++i)
+    for (std::size_t i = 0; i + 9 < stored.size(); ++i)
         if (i % 8 != 7) mesh.push_back({stored[i], stored[i + 1], stored[i + 9], stored[i + 8]});
     return mesh;
 }

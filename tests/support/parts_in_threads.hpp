@@ -65,10 +65,13 @@ class PartsInThreads {
       private:
         std::vector<Bytes> transport(std::vector<Bytes> to, Content content) override {
             if (wrong_ == Wrong::images && content == Content::images) {
-                if (before_.size() == to.size())
-                    std::swap(before_, to);
-                else
-                    before_ = to;
+                before_.resize(count());
+                for (std::size_t p = 0; p < count(); ++p) {
+                    const Bytes now =
+                        to[p];  // as long as before, where no list has been built since
+                    if (before_[p].size() == now.size()) to[p] = before_[p];
+                    before_[p] = now;
+                }
             }
             for (std::size_t p = 0; p < count(); ++p) {
                 if (wrong_ == Wrong::sums && content == Content::sums) round(to[p]);
