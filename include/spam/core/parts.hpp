@@ -20,10 +20,10 @@ struct PartGaveUp : std::runtime_error {
 /// The parts into which the particles of one run are cut. Each is a model of its own particles, in a thread or a
 /// process of its own, which makes the same calls in the same order as the others. Sums over particles (exact_sum.hpp),
 /// decisions that all must share, and the neighbours that belong to other parts (neighbors/ghosts.hpp) are found by
-/// exchanges; laws know nothing of them. Nothing of what a part finds depends on how particles are parted, to the last
-/// bit (tests/rhs/parts.cpp).
+/// exchanges; laws have a line for it only where they find a count or a largest value of their own particles. Nothing
+/// of what a part finds depends on how particles are parted, to the last bit (tests/rhs/parts.cpp).
 ///
-/// Every function but count(), own() and numbers() is a call that all parts must make together.
+/// exchange() and what is made of it (agree, any, most, total, gather) are calls that all parts must make together.
 class Parts {
   public:
     /// Those that this thread works for: one that is alone and exchanges nothing, unless there is a Here.

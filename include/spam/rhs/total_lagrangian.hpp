@@ -33,7 +33,8 @@ template <int Dim>
 class TotalLagrangian final : public Term<Dim> {
   public:
     /// `material`: any hyperelastic law (hyperelastic_law.hpp), with a memory or without. In a periodic box the lattice closes on
-    /// itself as in the reference configuration; a mirror is a plane of symmetry for those that have neighbours behind it there. Throws InputError for a density, range or penalty
+    /// itself as in the reference configuration; a mirror is a plane of symmetry for particles that have neighbours
+    /// behind it there, and turns back any particle that reaches it. Throws InputError for a density, range or penalty
     /// that makes no sense, a periodic box narrower than a fifth of the range, and a particle whose
     /// neighbours do not span space.
     TotalLagrangian(const Selection<Dim>& among, const HyperelasticMaterial<Dim>& material,
@@ -69,8 +70,8 @@ class TotalLagrangian final : public Term<Dim> {
     GeneralWeight<Dim> weight_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     Neighbourhood<Dim> near_;  ///< of the reference positions, StressedRecord
-    std::unique_ptr<Neighbourhood<Dim>>
-        moving_;  ///< of velocities, where the material's memory has rates
+    /// Of velocities, where the material's memory has rates.
+    std::unique_ptr<Neighbourhood<Dim>> moving_;
 };
 
 extern template class TotalLagrangian<1>;
