@@ -13,7 +13,7 @@
 namespace spam {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_in_step = 10'000, most_at_once = 100;
 constexpr double long_window = 64.0;  // steps
 constexpr std::size_t most_in_long_window = 3200;
@@ -45,7 +45,7 @@ void EventWatch::begin(double t, std::span<const double> y) {
 
 /// Of the nearest event, in units of its tolerance.
 double EventWatch::distance(double t, std::span<const double> y) const {
-    double least = infinity;
+    double least = never;
     for (const Event& event : events_)
         least = std::min(least, event.distance(t, y) / event.tolerance);
     return least;
@@ -57,7 +57,7 @@ EventWatch::Piece EventWatch::first_piece(double h, std::span<const double> z,
     if (events_.empty()) return {h, false};
     double at_h = distance(t_ + h, z);
     if (at_h > 0.0) return {h, false};
-    while (at_h == -infinity) {
+    while (at_h == -never) {
         h *= 0.5;
         if (h < smallest_piece * whole_)
             throw GuardStop(fmt::format(

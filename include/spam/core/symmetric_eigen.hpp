@@ -14,8 +14,6 @@ struct SymmetricEigen {
     Mat<Dim> vectors;
 };
 
-namespace detail {
-
 /// Turns the plane (p, q) so that A_pq vanishes. Returns whether it had not.
 template <int Dim>
 inline bool jacobi_rotation(SymTensor<Dim>& A, Mat<Dim>& V, int p, int q) {
@@ -40,8 +38,6 @@ inline bool jacobi_rotation(SymTensor<Dim>& A, Mat<Dim>& V, int p, int q) {
     return true;
 }
 
-}  // namespace detail
-
 /// By Jacobi's rotations: to rounding error, equal eigenvalues included, and in a fixed order of operations.
 /// NaN where A has one.
 template <int Dim>
@@ -53,7 +49,7 @@ inline SymmetricEigen<Dim> symmetric_eigen(SymTensor<Dim> A) {
         turned = false;
         for (int p = 0; p < Dim; ++p)
             for (int q = p + 1; q < Dim; ++q)
-                turned = detail::jacobi_rotation(A, e.vectors, p, q) || turned;
+                turned = jacobi_rotation(A, e.vectors, p, q) || turned;
     }
     for (int a = 0; a < Dim; ++a) e.value[a] = A(a, a);
     return e;
