@@ -13,12 +13,12 @@
 namespace spam {
 namespace {
 
-constexpr int smallest = 2, largest = 8;  // of the family w_n
+constexpr int least_power = 2, greatest_power = 8;  // of the family w_n
 
 template <int Dim, int... K>
 AnyWeight<Dim> member_of_family(int n, double range, std::integer_sequence<int, K...>) {
-    AnyWeight<Dim> weight = Wn<Dim, smallest>(range);
-    ((n == smallest + K ? void(weight = Wn<Dim, smallest + K>(range)) : void()), ...);
+    AnyWeight<Dim> weight = Wn<Dim, least_power>(range);
+    ((n == least_power + K ? void(weight = Wn<Dim, least_power + K>(range)) : void()), ...);
     return weight;
 }
 
@@ -31,12 +31,14 @@ AnyWeight<Dim> weight_function(std::string_view name, double range) {
             fmt::format("range: {:g} is no range of a weight function; it must be above 0", range));
     if (name == "lucy") return Lucy<Dim>(range);
     if (name == "monaghan") return MonaghanCubic<Dim>(range);
-    if (name.size() == 2 && name[0] == 'w' && name[1] >= '0' + smallest && name[1] <= '0' + largest)
-        return member_of_family<Dim>(name[1] - '0', range,
-                                     std::make_integer_sequence<int, largest - smallest + 1>{});
+    if (name.size() == 2 && name[0] == 'w' && name[1] >= '0' + least_power &&
+        name[1] <= '0' + greatest_power)
+        return member_of_family<Dim>(
+            name[1] - '0', range,
+            std::make_integer_sequence<int, greatest_power - least_power + 1>{});
     throw InputError(fmt::format(
         "kernel: '{}' is no weight function; choose lucy, monaghan or one of w{} to w{}", name,
-        smallest, largest));
+        least_power, greatest_power));
 }
 
 template AnyWeight<1> weight_function<1>(std::string_view, double);
