@@ -39,7 +39,7 @@ bool ElasticReflection<Dim>::operator()(double m_i, double m_j, const Point<Dim>
                                         Eigen::Ref<Point<Dim>> v_j) const {
     const double approach = (v_i - v_j).dot(r_ij);
     if (!(approach < -4.0 * eps * (v_i.norm() + v_j.norm()) * r_ij.norm())) return false;
-    const double mu = m_i * m_j / (m_i + m_j);
+    const double mu = std::isinf(m_i) ? m_j : std::isinf(m_j) ? m_i : m_i * m_j / (m_i + m_j);
     const Point<Dim> impulse = (-2.0 * mu * approach / r_ij.squaredNorm()) * r_ij;
     v_i += impulse / m_i;
     v_j -= impulse / m_j;
@@ -62,6 +62,12 @@ template <int Dim>
 std::unique_ptr<ClusterList<Dim>> ClosestApproach<Dim>::new_list() const {
     return std::make_unique<ClusterList<Dim>>(1.001 * R_, skin(first_share, R_, box_),
                                               box_.of_images(), 1);
+}
+
+template <int Dim>
+void ClosestApproach<Dim>::hold(const std::vector<bool>& held) {
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (held[i]) mass_[i] = infinity;
 }
 
 template <int Dim>
@@ -98,7 +104,8 @@ void ClosestApproach<Dim>::build_list() {
     const auto order = list_->order();
     for (std::size_t slot = 0; slot < list_->clusters(); ++slot)
         for (const std::uint32_t other : list_->entries(slot))
-            if (order[slot] < list_->particle(other))
+            if (order[slot] < list_->particle(other) &&
+                !(holds(order[slot]) && holds(list_->particle(other))))
                 near_.push_back({order[slot], list_->particle(other)});
     served_ = 0;
 }
@@ -206,8 +213,11 @@ std::size_t ClosestApproach<Dim>::reflect(const Points_& x, Eigen::Ref<Points<Di
 
 template <int Dim>
 Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
-                             std::size_t first) {
+                             const std::vector<bool>& held, std::size_t first) {
     const std::size_t count = approach.particles();
+    if (!held.empty())
+        approach.hold({held.begin() + static_cast<std::ptrdiff_t>(first),
+                       held.begin() + static_cast<std::ptrdiff_t>(first + count)});
     const auto shared = std::make_shared<ClosestApproach<Dim>>(std::move(approach));
     const auto of = [&layout, first, count](std::span<const double> y) {
         return ConstState<Dim>(layout, y).part(first, count);
@@ -229,10 +239,11 @@ Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Di
     return event;
 }
 
-#define SPAM_INSTANTIATE(D)               \
-    template struct ElasticReflection<D>; \
-    template class ClosestApproach<D>;    \
-    template Event closest_approach_event(ClosestApproach<D>, const FieldLayout<D>&, std::size_t);
+#define SPAM_INSTANTIATE(D)                                                          \
+    template struct ElasticReflection<D>;                                            \
+    template class ClosestApproach<D>;                                               \
+    template Event closest_approach_event(ClosestApproach<D>, const FieldLayout<D>&, \
+                                          const std::vector<bool>&, std::size_t);
 SPAM_INSTANTIATE(1)
 SPAM_INSTANTIATE(2)
 SPAM_INSTANTIATE(3)

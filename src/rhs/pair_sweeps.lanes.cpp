@@ -4,10 +4,33 @@
 #include <spam/physics/contact_potential.hpp>
 #include <spam/physics/density_passes.hpp>
 #include <spam/physics/density_sum.hpp>
+#include <spam/physics/mean_density.hpp>
 #include <spam/physics/pair_potential.hpp>
+#include <spam/physics/viscosity.hpp>
 #include <spam/rhs/run_sweep.hpp>
 
 namespace spam {
+namespace {
+
+/// The only pass of its sweep.
+template <int Dim>
+struct ViscousForceAlone : ViscousForce<Dim, ArithmeticMean> {
+    static ViscousForceAlone with(const PassConstants& c) {
+        return {ViscousForce<Dim, ArithmeticMean>::with(c)};
+    }
+    template <class To, class T>
+    static void store(const To& to, const ForceSums<Dim, T>& sums) {
+        sums.store(to);
+    }
+};
+
+}  // namespace
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> viscous_sweeps() {
+    using R = typename MotionRecord<Dim>::template And<column::Density>;
+    return pair_sweeps<Level, GeneralSweep, Dim, R, ViscousForceAlone<Dim>>();
+}
 
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> core_sweeps() {
@@ -37,6 +60,9 @@ Sweeps<Dim> lucy_potential_sweeps() {
     return sweeps;
 }
 
+template Sweeps<1> viscous_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> viscous_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> viscous_sweeps<3, InstructionSet::SPAM_LEVEL>();
 template Sweeps<1> core_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> core_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> core_sweeps<3, InstructionSet::SPAM_LEVEL>();

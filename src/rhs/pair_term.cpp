@@ -16,14 +16,15 @@ namespace {
 
 template <int Dim>
 PairLaw<Dim> validated(PairLaw<Dim> law, std::size_t particles) {
+    const int own = static_cast<int>(law.sweeps.pack.kinds.size());
     if (!(law.range > 0.0) || !std::isfinite(law.range))
         throw InputError(fmt::format("range: {:g} of '{}' must be a positive length", law.range,
                                      law.description));
-    if (law.sweeps.numbers < PointRecord<Dim>::numbers + static_cast<int>(law.columns.size()))
-        throw InputError(fmt::format(
-            "columns: '{}' has room for {} numbers behind those of a point, "
-            "and {} are given",
-            law.description, law.sweeps.numbers - PointRecord<Dim>::numbers, law.columns.size()));
+    if (law.sweeps.numbers < own + static_cast<int>(law.columns.size()))
+        throw InputError(
+            fmt::format("columns: '{}' has room for {} numbers behind those of a point, "
+                        "and {} are given",
+                        law.description, law.sweeps.numbers - own, law.columns.size()));
     for (const auto& column : law.columns)
         if (column.size() != particles)
             throw InputError(fmt::format("columns: '{}' is given {} numbers for {} particles",
@@ -41,12 +42,17 @@ PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
     : Term<Dim>(among),
       law_(validated(std::move(law), among.particles().size())),
       kinds_(record_kinds()),
-      packed_(std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(Kernel::lucy, law_.range),
+      packed_(std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(law_.kernel, law_.range),
                                                      ListUse::again_and_again, this->box(),
                                                      law_.sweeps)) {
     this->look_after(*packed_);
     this->nature_.description = law_.description;
     this->nature_.reach = law_.range;
+    this->nature_.potential = law_.sweeps.energy != nullptr;
+    if (law_.heat) {
+        this->nature_.fields = {*law_.heat};
+        this->nature_.own_heat = true;
+    }
 }
 
 template <int Dim>
@@ -55,7 +61,8 @@ PairTerm<Dim>::~PairTerm() = default;
 template <int Dim>
 std::vector<NumberKind> PairTerm<Dim>::record_kinds() const {
     std::vector<NumberKind> kinds(static_cast<std::size_t>(law_.sweeps.numbers));
-    std::copy(law_.kinds.begin(), law_.kinds.end(), kinds.begin() + PointRecord<Dim>::numbers);
+    std::copy(law_.kinds.begin(), law_.kinds.end(),
+              kinds.begin() + static_cast<std::ptrdiff_t>(own_columns()));
     return kinds;
 }
 
@@ -69,12 +76,12 @@ SweepInput<Dim> PairTerm<Dim>::input(const PackedParticles<Dim>& packed) const {
 /// List and records for this state. False where a position is not finite.
 template <int Dim>
 bool PairTerm<Dim>::follow(PackedParticles<Dim>& packed, const ConstState<Dim>& state) const {
-    if (!packed.follow(this->particles().size(),
-                       {state.position().data(), nullptr, this->particles().mass.data()}))
+    if (!packed.follow(this->particles().size(), {state.position().data(), state.velocity().data(),
+                                                  this->particles().mass.data()}))
         return false;
     if (law_.columns.empty()) return true;
     packed.write(
-        PointRecord<Dim>::numbers, static_cast<int>(law_.columns.size()),
+        static_cast<int>(own_columns()), static_cast<int>(law_.columns.size()),
         [&](std::size_t i, double* number) {
             for (const auto& column : law_.columns) *number++ = column[i];
         },
@@ -87,6 +94,7 @@ std::string PairTerm<Dim>::rates(const Now& now) {
     if (!follow(*packed_, now.state)) return "a position is not finite";
     SweepOutput<Dim> out;
     out.v_dot = now.v_dot;
+    if (law_.heat) out.e_dot = now.rate.find(*law_.heat);
     law_.sweeps.force(input(*packed_), out);
     sweep_walls(*packed_, input(*packed_), law_.sweeps.force);
     return {};
@@ -95,18 +103,26 @@ std::string PairTerm<Dim>::rates(const Now& now) {
 /// For observers, here and below: a list of its own, so that the one of the right-hand side stays as it is.
 template <int Dim>
 double PairTerm<Dim>::pair_energy(std::span<const double> y) const {
-    auto own = packed_->for_observer();
-    std::vector<double> half(this->particles().size());
-    if (!follow(own, this->state_of(y))) return std::numeric_limits<double>::quiet_NaN();
-    SweepOutput<Dim> out;
-    out.energy = half.data();
-    law_.sweeps.energy(input(own), out);
-    return exact_sum(half.size(), [&](std::size_t i) { return half[i]; });
+    const ConstState<Dim> state = this->state_of(y);
+    std::vector<double> energy(this->particles().size());
+    if (law_.sweeps.energy != nullptr) {
+        auto own = packed_->for_observer();
+        if (!follow(own, state)) return std::numeric_limits<double>::quiet_NaN();
+        SweepOutput<Dim> out;
+        out.energy = energy.data();
+        law_.sweeps.energy(input(own), out);
+    }
+    if (law_.heat)
+        for (std::size_t i = 0; i < energy.size(); ++i)
+            energy[i] += this->particles().mass[i] * state.find(*law_.heat)[i];
+    return exact_sum(energy.size(), [&](std::size_t i) { return energy[i]; });
 }
 
 template <int Dim>
 auto PairTerm<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
     if (what == Ask::energy) return {pair_energy(y)};
+    if (what == Ask::damping) return {law_.damping};
+    if (what == Ask::neighbour_forces && law_.sweeps.energy == nullptr) return {};
     if (what == Ask::density && law_.sweeps.density != nullptr)
         return {0.0,
                 packed_->for_observer().summed_density(

@@ -134,6 +134,24 @@ void ParticleModel<Dim>::book(const External<Dim>& external, Given given,
     rate.field(Field::heat)(0, 0) += given.heat();
 }
 
+/// What all particles have gained in an event while some are held came from what holds these.
+template <int Dim>
+void ParticleModel<Dim>::book_change(const Points<Dim>& velocity_before,
+                                     const State<Dim>& state) const {
+    const auto x = state.position(), v = state.velocity();
+    Given sum = Given::to_all(this->particles().size(), [&](std::size_t k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        Given given;
+        given.force() = this->particles().mass[k] * (v.col(i) - velocity_before.col(i));
+        given.torque() = moment<Dim>(x.col(i), given.force());
+        given.power() = 0.5 * given.force().dot(v.col(i) + velocity_before.col(i));
+        return given;
+    });
+    state.field(Field::impulse) += sum.force();
+    if constexpr (Dim > 1) state.field(Field::angular_impulse) += sum.torque();
+    state.field(Field::work)(0, 0) += sum.power();
+}
+
 template <int Dim>
 bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
     const State<Dim> state(this->layout(), y);
@@ -240,6 +258,7 @@ auto ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
     template void ParticleModel<D>::book_walls(const External<D>::Now&);                          \
     template void ParticleModel<D>::book_wall(const External<D>::Now&, int, bool, const Wall<D>&) \
         const;                                                                                    \
+    template void ParticleModel<D>::book_change(const Points<D>&, const State<D>&) const;         \
     template bool ParticleModel<D>::settle(double, std::span<double>);                            \
     template bool ParticleModel<D>::reflect(const State<D>&);                                     \
     template bool ParticleModel<D>::neighbours_for_good() const;                                  \

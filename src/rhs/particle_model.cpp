@@ -176,25 +176,37 @@ std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const
 
 template <int Dim>
 std::vector<Event> ParticleModel<Dim>::events() const {
+    std::vector<bool> held(this->particles().size());
+    bool guided = false;
+    for (std::size_t i = 0; i < held.size(); ++i)
+        for (const auto& external : externals_) {
+            const int axes = external->prescribed_axes(i);
+            held[i] = held[i] || axes == Dim;
+            guided = guided || (axes > 0 && axes < Dim);
+        }
     std::vector<Event> events;
     for (const auto& term : terms_)
         if (term->nature().events)
-            for (Event& event : term->nature().events()) events.push_back(std::move(event));
-    if (events.empty()) return events;
+            for (Event& event : term->nature().events(held)) events.push_back(std::move(event));
+    // What does not move never meets.
+    if (events.empty() || std::find(held.begin(), held.end(), false) == held.end()) return {};
+    if (guided)
+        throw InputError(
+            "closest-approach: a reflection would change the velocity that is prescribed along one "
+            "axis; hold those particles altogether, or leave the closest approach out");
     if (!Parts::here().alone())
         throw InputError(
             "closest-approach: pairs of particles in different parts are not watched; run it in one "
             "part, or leave it out");
-    const std::size_t n = this->particles().size();
-    std::size_t held = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        held += std::any_of(externals_.begin(), externals_.end(),
-                            [i](const auto& external) { return external->holds(i); });
-    if (held == n) return {};  // what does not move never meets
-    if (held > 0)
-        throw InputError(
-            "closest-approach: a reflection would move particles that are held or driven; leave one "
-            "of the two out");
+    if (std::find(held.begin(), held.end(), true) == held.end()) return events;
+    for (Event& event : events)
+        event.apply = [this, apply = std::move(event.apply)](double t, std::span<double> y) {
+            const State<Dim> state(this->layout(), y);
+            const Points<Dim> before = state.velocity();
+            const std::size_t changes = apply(t, y);
+            book_change(before, state);
+            return changes;
+        };
     return events;
 }
 

@@ -113,11 +113,11 @@ void SmoothParticles<Dim>::set_nature() {
             "the closest approach is of pairs of particles and lets them come nearer to a "
             "wall; leave --closest-approach out";
     if (scheme_.closest_approach > 0.0)
-        nature.events = [this] {
+        nature.events = [this](const std::vector<bool>& held) {
             return std::vector<Event>{closest_approach_event<Dim>(
                 {this->particles().mass, this->box(), scheme_.closest_approach,
                  scheme_.transport == Transport::plain},
-                this->layout(), this->among().first())};
+                this->layout(), held, this->among().first())};
         };
 }
 

@@ -42,6 +42,10 @@ Sweeps<Dim> density_potential_sweeps(bool shape);
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> lucy_potential_sweeps();
 
+/// Artificial viscosity as a term of its own, of MotionRecord and the density.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> viscous_sweeps();
+
 /// A core, of PointRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> core_sweeps();

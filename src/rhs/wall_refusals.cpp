@@ -30,6 +30,10 @@ void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
         if (nature.potential && wall.passes_energy())
             return "forces from a potential feel neither the velocity nor the temperature of a wall; use a "
                    "mirror";
+        if (nature.own_heat && wall.passes_energy())
+            return fmt::format(
+                "the heat of '{}' is no energy of particles, which a wall could take; use a mirror",
+                nature.description);
         if (wall.temperature && !nature.conducts)
             return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "
                    "out";

@@ -283,16 +283,3 @@ BOOST_AUTO_TEST_CASE(accounts_have_no_say_in_steps) {
     const auto with = static_cast<double>(steps(true)), without = static_cast<double>(steps(false));
     BOOST_TEST(std::abs(with - without) <= 2.0);  // N in the norm is larger by five
 }
-
-BOOST_AUTO_TEST_CASE(what_is_held_is_not_reflected) {
-    Scheme scheme;
-    scheme.closest_approach = 0.5;
-    const auto with = [&](const Group& group) {
-        auto model =
-            std::make_unique<SmoothParticleModel<2>>(strip(), ElasticSolid{0.43, 0.43}, scheme);
-        model->add(std::make_unique<Clamp<2>>(group.empty() ? group : end_of(*model)));
-        return model;
-    };
-    BOOST_TEST(with({})->events().empty());  // nothing moves
-    BOOST_CHECK_THROW(with(Group(1))->events(), InputError);
-}

@@ -84,14 +84,14 @@ BOOST_AUTO_TEST_CASE(every_law_with_every_further_term_and_every_external) {
                         BOOST_TEST(row.refused.empty(), row.refused);
                         ++ran;
                     }
-    BOOST_TEST(ran == 14 * 6 * 9);
+    BOOST_TEST(ran == 14 * 8 * 9);
 }
 
 /// What the text forbids, by name.
 BOOST_AUTO_TEST_CASE(potentials_of_positions_need_plain_velocities) {
     const Scheme averaged{.transport = Transport::monaghan};
     for (const auto& [more, add] : further) {
-        if (more.empty()) continue;
+        if (more.empty() || more == "ArtificialViscosity" || more == "ReflectedPairs") continue;
         const Row row =
             combine(with_scheme.at("SmoothParticles, solid"), add, averaged, externals.at(""));
         BOOST_TEST(row.refused.find("averaged velocity") != std::string::npos, more);

@@ -23,12 +23,14 @@
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
+#include <spam/rhs/artificial_viscosity.hpp>
 #include <spam/rhs/contact.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/elements.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
+#include <spam/rhs/reflected_pairs.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
@@ -208,6 +210,15 @@ inline const std::map<std::string, std::function<void(Sample&)>> further{
          s.model.add_term<Contact<2>>(ContactScheme{s.energy(0.2), s.length(1.0), s.length(1.2)});
      }},
     {"Springs", [](Sample& s) { add_springs(s); }},
+    {"ArtificialViscosity",
+     [](Sample& s) {
+         s.model.add_term<ArtificialViscosity<2>>(
+             ArtificialViscosity<2>::Constants{.range = s.length(3.0),
+                                               .density = s.density(),
+                                               .sound_speed = s.velocity(1.2),
+                                               .kernel = Kernel::w4});
+     }},
+    {"ReflectedPairs", [](Sample& s) { s.model.add_term<ReflectedPairs<2>>(s.length(0.5)); }},
     {"LucyPairPotential", [](Sample& s) { add_lucy(s, 2.5); }},
     {"DensityPotentialTerm", [](Sample& s) {
          s.model.add_term<DensityPotentialTerm<2>>(

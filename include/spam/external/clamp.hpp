@@ -3,6 +3,7 @@
 
 #include <spam/external/external.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace spam {
@@ -45,7 +46,11 @@ class Clamp final : public External<Dim> {
                         v_dot(a, i) = V_dot_[a];
                     }
     }
-    bool holds(std::size_t i) const override { return is_in(group_, static_cast<Eigen::Index>(i)); }
+    int prescribed_axes(std::size_t i) const override {
+        return is_in(group_, static_cast<Eigen::Index>(i))
+                   ? static_cast<int>(std::count(along_.begin(), along_.end(), true))
+                   : 0;
+    }
     std::string describe() const override {
         for (std::size_t a = 0; a < Dim; ++a)
             if (!along_[a])

@@ -70,8 +70,8 @@ class External {
     virtual double damping() const { return 0.0; }
     /// Why velocities and positions cannot be advanced in turn; empty where only positions matter.
     virtual std::string inseparable() const { return {}; }
-    /// Whether particles keep their places, so that events of their motion never come.
-    virtual bool holds(std::size_t /*particle*/) const { return false; }
+    /// Along how many axes the motion of a particle is prescribed, whatever acts on it.
+    virtual int prescribed_axes(std::size_t /*particle*/) const { return 0; }
 
     /// "friction gamma = 0.1 of all motion"
     virtual std::string describe() const = 0;

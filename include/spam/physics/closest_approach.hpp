@@ -5,6 +5,7 @@
 #include <spam/core/state.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -15,7 +16,8 @@ namespace spam {
 /// The radial relative velocity of two approaching particles turned round, exactly elastically and
 /// along r_ij, so that momentum, angular momentum and kinetic energy stay:
 ///     v_i -= (2 mu/m_i) (v_ij . r_ij/r^2) r_ij,  v_j += (2 mu/m_j) (...),  1/mu = 1/m_i + 1/m_j.
-/// [HHM04] IV. Returns whether they were approaching by more than rounding.
+/// [HHM04] IV. An infinite mass is that of a particle that is held or driven, whose velocity stays. Returns whether
+/// they were approaching by more than rounding.
 template <int Dim>
 struct ElasticReflection {
     bool operator()(double m_i, double m_j, const Point<Dim>& r_ij, Eigen::Ref<Point<Dim>> v_i,
@@ -46,6 +48,8 @@ class ClosestApproach {
     /// Of the nearest pair from the surface, (r^2 - R^2)/2R, the least since arm(); infinite where
     /// there are no pairs, -infinity where something has moved too far for the list of pairs.
     double distance(double t, const Points_& x, const Points_& v);
+    /// The particles with these numbers are held or driven: they reflect others as infinitely heavy ones do.
+    void hold(const std::vector<bool>& held);
     /// Reflects every approaching pair at the surface, again and again where some touch more than one
     /// other. Returns how many reflections that were.
     std::size_t reflect(const Points_& x, Eigen::Ref<Points<Dim>> v);
@@ -71,6 +75,7 @@ class ClosestApproach {
     void arm_pairs();
     bool watches(const Points_& x);
     void choose_skin();
+    bool holds(std::size_t i) const { return std::isinf(mass_[i]); }
     std::vector<Numbers> touching(const Points_& x) const;
     Point<Dim> separation(const Points_& x, const Numbers& pair) const;
 
@@ -92,10 +97,10 @@ class ClosestApproach {
 };
 
 /// The event of a model whose y holds x and v, for particles first, first + 1, ... of it. `layout` must
-/// outlive it.
+/// outlive it. `held`: those of the model that are held or driven; the caller books what they give to others.
 template <int Dim>
 Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
-                             std::size_t first = 0);
+                             const std::vector<bool>& held = {}, std::size_t first = 0);
 
 extern template struct ElasticReflection<1>;
 extern template struct ElasticReflection<2>;

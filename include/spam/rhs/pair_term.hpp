@@ -5,6 +5,7 @@
 #include <spam/rhs/term.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace spam {
 
@@ -14,8 +15,8 @@ class PackedParticles;
 /// A law of pairs, as registered_sweeps() or a *.lanes.cpp gives it.
 template <int Dim>
 struct PairLaw {
-    /// `force` and `energy` (half of each pair's); `density` where the law has one. Their records begin
-    /// with PointRecord's columns; behind these come `columns`.
+    /// `force` and `energy` (half of each pair's); `density` where the law has one. Null: no potential. Their records
+    /// begin with the columns of PointRecord, or of MotionRecord where velocities matter; behind these come `columns`.
     Sweeps<Dim> sweeps;
     double range;             ///< no pair farther apart acts on each other
     std::string description;  ///< for the banner of a run
@@ -25,9 +26,15 @@ struct PairLaw {
     /// What each column is, in images of a particle and across the border of a periodic box; empty: plain
     /// numbers, which all images share. Those of a position are moved by the periods of the particle.
     std::vector<NumberKind> kinds{};
+    Kernel kernel = Kernel::lucy;  ///< the weight function of passes that take one
+    /// Of a force that takes energy from the motion, whose sweep sets e_dot as well: the field of y, by mass, that
+    /// integrates it. It is part of the energy of the term; the material is not heated by it.
+    std::optional<Field> heat{};
+    double damping =
+        0.0;  ///< by it: how fast neighbours at rest lose their relative velocity, 1/time
 };
 
-/// Forces between pairs by a potential of their distance.
+/// Forces between pairs: by a potential of their distance, or friction.
 template <int Dim>
 class PairTerm : public Term<Dim> {
   public:
@@ -43,6 +50,7 @@ class PairTerm : public Term<Dim> {
     Answer answer(Ask what, std::span<const double> y) const override;
 
   private:
+    std::size_t own_columns() const { return law_.sweeps.pack.kinds.size(); }
     double pair_energy(std::span<const double> y) const;
     std::vector<NumberKind> record_kinds() const;
     bool follow(PackedParticles<Dim>& packed, const ConstState<Dim>& state) const;

@@ -49,6 +49,8 @@ class ParticleModel : public Model<Dim> {
         take(std::move(term));
         return law;
     }
+    /// Whether x_dot = v, by every term.
+    bool moves_with_velocity() const;
     /// In the order in which they are called.
     const Terms& terms() const { return terms_; }
     /// The first term that is a Law; null where there is none.
@@ -148,6 +150,7 @@ class ParticleModel : public Model<Dim> {
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
     void book(const External<Dim>& external, Given given, const State<Dim>& rate) const;
     void add_accounts();
+    void book_change(const Points<Dim>& velocity_before, const State<Dim>& state) const;
     void book_walls(const typename External<Dim>::Now& now);
     void book_wall(const typename External<Dim>::Now& now, int a, bool upper,
                    const Wall<Dim>& wall) const;
@@ -157,7 +160,6 @@ class ParticleModel : public Model<Dim> {
     double gained(std::size_t i, const Point<Dim>& from, const Point<Dim>& to) const;
     Given fold_back(const State<Dim>& state, Eigen::Index i, int a, bool upper) const;
 
-    bool moves_with_velocity() const;
     /// Where x_dot is not v a potential changes at another rate than its forces do work: the work is booked
     /// instead.
     bool has_energy(const External<Dim>& external) const {

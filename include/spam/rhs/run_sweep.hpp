@@ -185,14 +185,16 @@ void run_sweep(const SweepInput<Dim>& in, const SweepOutput<Dim>& out) {
     });
 }
 
-/// The sweeps of a law of pairs (pair_term.hpp): passes `Force`, which stores v_dot, and `Energy`, which
-/// stores half of each pair's energy. R: PointRecord, and what the law needs behind it.
-template <InstructionSet Level, class Kind, int Dim, class R, class Force, class Energy>
+/// The sweeps of a law of pairs (pair_term.hpp): passes `Force`, which stores v_dot (and e_dot of friction), and
+/// `Energy`, which stores half of each pair's energy; without where there is none. R: PointRecord or, for what depends
+/// on velocities, MotionRecord, and what the law needs behind it.
+template <InstructionSet Level, class Kind, int Dim, class R, class Force, class... Energy>
 Sweeps<Dim> pair_sweeps() {
     constexpr int W = native_lanes(Level);
     Sweeps<Dim> sweeps{W, R::numbers, pack<Dim, PointRecord<Dim>>};
+    if constexpr (R::template has<column::Velocity>) sweeps.pack = pack<Dim, MotionRecord<Dim>>;
     sweeps.force = run_sweep<Kind, W, Dim, R, Force>;
-    sweeps.energy = run_sweep<Kind, W, Dim, R, Energy>;
+    ((sweeps.energy = run_sweep<Kind, W, Dim, R, Energy>), ...);
     return sweeps;
 }
 

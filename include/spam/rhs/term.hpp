@@ -84,6 +84,7 @@ class Term {
         /// energy() is a function of positions alone: its forces keep the total energy only where particles move
         /// with their own velocity.
         bool potential = true;
+        bool own_heat = false;  ///< keeps heat in a field of its own, not in Field::energy
         bool conducts =
             false;  ///< heat passes from particle to particle, and from what is behind a wall
         bool smooth = true;    ///< rates are continuous
@@ -92,7 +93,8 @@ class Term {
         Promises promises{.angular_momentum = Promise::integrator_error};  ///< in open space
         double reach = 0.0;       ///< no two particles farther apart act on each other
         std::string no_images{};  ///< why images behind a wall mean nothing to it
-        std::function<std::vector<Event>()> events{};  ///< Model::events()
+        /// Model::events(); of the particles of the model that are held or driven.
+        std::function<std::vector<Event>(const std::vector<bool>&)> events{};
     };
     const Nature& nature() const { return nature_; }
 
