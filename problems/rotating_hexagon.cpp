@@ -24,10 +24,7 @@
 // Without scheme options it compares MD, plain SPAM, <v>_Monaghan, and that with balanced torques.
 // With --figure 4, 5, 6 or 7 it draws that figure of the paper (rotating_hexagon/figures.cpp).
 #include "rotating_hexagon/hexagon.hpp"
-#include <spam/material/polynomial_solid.hpp>
-#include <spam/material/st_venant_kirchhoff.hpp>
-#include <spam/rhs/material_vectors.hpp>
-#include <spam/rhs/total_lagrangian.hpp>
+#include "solid_choice.hpp"
 
 namespace rotating_hexagon {
 namespace {
@@ -54,6 +51,7 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
     auto particles = make_particles<2>(triangular_hexagon(p.size), 1.0);
     // material and scheme
     const auto solid = ElasticSolid::triangular_lattice();
+    const std::size_t n = particles.size();
     if (kind == ModelKind::md) {
         hexagon.model = std::make_unique<BondedModel<2>>(std::move(particles), HarmonicSpring{});
     } else if (p.lagrangian()) {
@@ -70,6 +68,9 @@ Hexagon make_hexagon(const Parameters& p, ModelKind kind, const Scheme& scheme,
         hexagon.model =
             std::make_unique<SmoothParticleModel<2>>(std::move(particles), solid, scheme);
     }
+    if (kind == ModelKind::spam && p.remembers())
+        add_pair_laws(dynamic_cast<ParticleModel<2>&>(*hexagon.model), 0, n, solid,
+                      triangular_density, scheme);
     hexagon.y0 = lattice_state(*hexagon.model, rigid_rotation(p.omega()));
     return hexagon;
 }
@@ -106,14 +107,21 @@ void add_rules(Options& options, const Parameters& p) {
     const auto not_lagrangian = [&p] { return !p.lagrangian(); };
     const auto no_vectors = [&p] { return !p.material_vectors(); };
     const auto smooth = [&p] { return !p.md(); };
+    const auto of_smooth_particles = [&](const std::vector<std::string>& others) {
+        auto names = with(others);
+        std::erase_if(names, [](const std::string& name) {
+            return name == "viscosity" || name == "closest-approach";  // of any solid
+        });
+        return names;
+    };
     options.only_when(with({"kernel", "range", "formulation", "penalty", "torques"}), {"model"},
                       smooth,
                       "has no meaning for --model md (springs between initial neighbours); leave "
                       "it out");
-    options.only_when(with({"torques"}), by, not_lagrangian,
+    options.only_when(of_smooth_particles({"torques"}), by, not_lagrangian,
                       "has no meaning for --formulation total_lagrangian (no choice of that kind, "
                       "no pair torques); leave it out");
-    options.only_when(with({"torques", "kernel"}), by, no_vectors,
+    options.only_when(of_smooth_particles({"torques", "kernel"}), by, no_vectors,
                       "has no meaning for --formulation material_vectors (no choice of that kind, "
                       "no pair torques, a weight of its own); leave it out");
     options.only_when({"penalty"}, by, remembers,

@@ -5,16 +5,30 @@
 #include "common.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/artificial_viscosity.hpp>
 #include <spam/rhs/material_vectors.hpp>
+#include <spam/rhs/reflected_pairs.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
 namespace spam {
+
+/// What a scheme says of pairs, for solids that remember: the artificial viscosity and the closest approach.
+inline void add_pair_laws(ParticleModel<2>& model, std::size_t first, std::size_t count,
+                          const ElasticSolid& solid, double density, const Scheme& scheme) {
+    if (scheme.viscosity > 0.0)
+        model.add_term_among<ArtificialViscosity<2>>(
+            first, count,
+            ArtificialViscosity<2>::Constants{scheme.viscosity, scheme.range, density,
+                                              solid.sound_speed(density), scheme.kernel});
+    if (scheme.closest_approach > 0.0)
+        model.add_term_among<ReflectedPairs<2>>(first, count, scheme.closest_approach);
+}
 
 /// --formulation, --penalty and --viscosity.
 struct SolidChoice {
     Formulation formulation = Formulation::total_lagrangian;
     std::optional<double> penalty{};  ///< kappa of the solids that remember
-    double viscosity = 0.0;           ///< alpha of the updated one
+    double viscosity = 0.0;           ///< alpha
 
     bool lagrangian() const { return formulation == Formulation::total_lagrangian; }
     bool vectors() const { return formulation == Formulation::material_vectors; }
@@ -39,12 +53,8 @@ struct SolidChoice {
             .only_when(
                 {"formulation"}, [this] { return remembers(); },
                 "has no meaning for --formulation updated; leave it out");
-        options
-            .number("viscosity", viscosity, "alpha of von Neumann's artificial viscosity",
-                    between(0.0, 100.0))
-            .only_when(
-                {"formulation"}, [this] { return !remembers(); },
-                "has no meaning for {by}; leave it out");
+        options.number("viscosity", viscosity, "alpha of von Neumann's artificial viscosity",
+                       between(0.0, 100.0));
     }
 
     /// Among `count` particles from number `first` on. `updated`: of smooth particles, but for range and viscosity.
@@ -61,6 +71,7 @@ struct SolidChoice {
                                                      MaterialVectorScheme{density, range, kappa()});
         else
             model.add_term_among<SmoothParticles<2>>(first, count, solid, updated);
+        if (remembers()) add_pair_laws(model, first, count, solid, density, updated);
     }
 };
 

@@ -78,6 +78,7 @@ template <int Dim>
 struct TotalLagrangian<Dim>::Stresses {
     const HyperelasticMaterial<Dim>& material;
     double* records;
+    double t;
     const ConstState<Dim>& state;
     mutable std::atomic<bool> finite = true;
 
@@ -87,7 +88,7 @@ struct TotalLagrangian<Dim>::Stresses {
         double* const record = self.records + block.first_slot * stride<Dim>;
         double* const B = record + B_at<Dim>;
         if (!self.material.stresses({block.particle, count}, stride<Dim>, record + F_at<Dim>, B,
-                                    self.state))
+                                    self.state, self.t))
             self.finite = false;
         for (std::size_t k = 0; k < count * stride<Dim>; k += stride<Dim>) {
             SymTensor<Dim> K;
@@ -132,7 +133,7 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
         scheme_.penalty);
     nature.fields = material_.history();
     if (!material_.keeps_energy()) nature.promises.energy = Promise::not_kept;
-    nature.smooth = material_.history().empty() || material_.has_rates();
+    nature.smooth = !material_.settles();
     nature.reach = scheme_.range;
 }
 
@@ -201,7 +202,7 @@ std::string TotalLagrangian<Dim>::rates(const Now& now) {
     SweepOutput<Dim> out;
     out.records = near_.record(0);
     out.v_dot = now.v_dot;
-    const Stresses stresses{material_, near_.record(0), now.state};
+    const Stresses stresses{material_, near_.record(0), now.t, now.state};
     out.close = Stresses::call;
     out.context = &stresses;
     sweeps_->gradient(in, out);
@@ -237,24 +238,25 @@ void TotalLagrangian<Dim>::memory_rates(const Now& now) {
     sweeps_->gradient(input(*moving_), out);
     const auto order = near_.list().order();
     for (const Field field : material_.history()) now.rate.field(field).setZero();
-    parallel_for(order.size(), [&](std::size_t slot) {
+    // Without slots that only fill up a cluster: they have a particle's number, and no deformation.
+    parallel_for(near_.list().size(), [&](std::size_t slot) {
         const Mat<Dim> F = tensor_at<Dim>(near_.record(slot) + F_at<Dim>);
-        material_.rates(order[slot], F, tensor_at<Dim>(moving_->record(slot) + F_at<Dim>),
+        material_.rates(now.t, order[slot], F, tensor_at<Dim>(moving_->record(slot) + F_at<Dim>),
                         now.state, now.rate);
     });
 }
 
 /// By the deformation gradients of the state that has been accepted.
 template <int Dim>
-bool TotalLagrangian<Dim>::settle(double, const State<Dim>& state) {
-    if (material_.history().empty() || material_.has_rates()) return false;
+bool TotalLagrangian<Dim>::settle(double t, const State<Dim>& state) {
+    if (!material_.settles()) return false;
     load(ConstState<Dim>(state), near_);
     SweepOutput<Dim> out;
     out.records = near_.record(0);
     sweeps_->gradient(input(near_), out);
     return parallel_count(near_.list().size(), [&](std::size_t slot) -> std::size_t {
                const Mat<Dim> F = tensor_at<Dim>(near_.record(slot) + F_at<Dim>);
-               return material_.settle(near_.list().order()[slot], F, state) ? 1 : 0;
+               return material_.settle(t, near_.list().order()[slot], F, state) ? 1 : 0;
            }) > 0;
 }
 

@@ -80,10 +80,8 @@ BOOST_AUTO_TEST_CASE(contacts_without_meaning_are_refused) {
         {{"--inner-radius", "15.9"}, {"inner-radius", "no ring"}},
         {{"--inner-radius", "17"}, {"inner-radius", "no ring"}},
         {{"--range", "1"}, {"range: '1'"}},
-        {{"--viscosity", "1"}, {"viscosity", "total_lagrangian"}},
         {{"--penalty", "1", "--formulation", "updated"}, {"penalty", "updated"}},
-        {{"--viscosity", "1", "--formulation", "material_vectors"},
-         {"viscosity", "material_vectors"}},
+        {{"--viscosity", "-1"}, {"viscosity", "between"}},
     };
     check_refused("colliding_rings", all);
 }

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(every_law_with_every_further_term_and_every_external) {
                         BOOST_TEST(row.refused.empty(), row.refused);
                         ++ran;
                     }
-    BOOST_TEST(ran == 14 * 8 * 9);
+    BOOST_TEST(ran == 15 * 8 * 9);
 }
 
 /// What the text forbids, by name.

@@ -7,9 +7,12 @@
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/diagnostics/total_energy.hpp>
 #include <spam/material/hencky_solid.hpp>
+#include <spam/material/johnson_cook.hpp>
 #include <spam/material/perzyna.hpp>
 #include <spam/material/smooth_hencky_solid.hpp>
 #include <spam/material/smooth_yield.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/material/stress_in_reference.hpp>
 #include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/smooth_particles.hpp>
@@ -124,6 +127,12 @@ struct PlasticWorkTwice {
     }
 };
 
+/// As a law of F, in solids that keep their reference.
+template <int Dim = 2, class Law>
+auto by_rates(const Law& law, double density = site_density) {
+    return StressInReference<Law, Dim>(law, density, eta);
+}
+
 template <class Model, class Law, class... Arguments>
 double energy_change(double dt, const Law& law, const Arguments&... arguments) {
     auto [model, y0] = block<Model>(20, 11, law, arguments...);
@@ -150,6 +159,14 @@ BOOST_AUTO_TEST_CASE(settling_changes_no_rate_and_no_energy) {
     check_settling(lagrangian<2>(HenckySolid<PlaneVonMises>({lambda, eta}, hardening)));
     check_settling(lagrangian<2>(HenckySolid<PlaneStrainVonMises>({lambda, eta}, hardening)));
     check_settling(lagrangian<3>(HenckySolid<SpaceVonMises>({lambda, eta}, hardening)));
+    check_settling(
+        lagrangian<2>(by_rates(YieldingSolid<PlaneStrainVonMises>({lambda, eta}, hardening))));
+    check_settling(
+        lagrangian<2>(by_rates(YieldingSolid<PlaneStressVonMises>({lambda, eta}, hardening))));
+    check_settling(
+        lagrangian<3>(by_rates<3>(YieldingSolid<SpaceVonMises>({lambda, eta}, hardening))));
+    check_settling(lagrangian<2>(
+        by_rates(YieldingSolid<PlaneVonMises, Perzyna>({lambda, eta}, {hardening, 0.2}))));
 }
 
 /// P is the derivative of the energy with what flow takes, in every stage.
@@ -169,6 +186,9 @@ BOOST_AUTO_TEST_CASE(plastic_work_is_in_the_energy_once) {
     const Scheme monaghan{.transport = Transport::monaghan};
     BOOST_TEST(energy_change<SmoothParticleModel<2>>(0.25, plane, monaghan) < 2e-6);
     BOOST_TEST(energy_change<SmoothParticleModel<2>>(0.25, PlasticWorkTwice{}, monaghan) > 1e-2);
+    BOOST_TEST(energy_change<TotalLagrangianModel<2>>(0.25, by_rates(plane), reference) < 2e-6);
+    BOOST_TEST(energy_change<TotalLagrangianModel<2>>(0.25, by_rates(PlasticWorkTwice{}),
+                                                      reference) > 1e-2);
     using Smooth = SmoothHenckySolid<PlaneVonMises>;
     BOOST_TEST(energy_change<TotalLagrangianModel<2>>(
                    1.0 / 16.0, Smooth({lambda, eta}, LinearHardening{Y}), reference) < 2e-6);
@@ -189,6 +209,71 @@ BOOST_AUTO_TEST_CASE(a_solid_that_never_yields_is_the_elastic_one) {
     const PlaneStressVonMises thin{lambda, eta};
     BOOST_TEST((end(thin.elastic()) == end(YieldingSolid<PlaneStressVonMises>(thin, never))));
     BOOST_TEST((end(elastic) != end(plane)));
+}
+
+/// A law by the rate of strain gives the stress of Saint Venant's and Kirchhoff's law up to squares of the strain,
+/// turned with the body: the difference falls fourfold where the strain is halved.
+BOOST_AUTO_TEST_CASE(small_strains_of_a_turning_body_have_one_stress) {
+    const auto apart = [](double strain) {
+        const auto accelerations = [&](const HyperelasticMaterial<2>& law, bool integrates) {
+            auto [model, y] = block<TotalLagrangianModel<2>>(12, 8, law, reference);
+            const State<2> state(model->layout(), y);
+            // x = Q(t) (1 + t E) X from t = 0 to 1: sigma in y is what the law makes of that.
+            const Points<2> X = model->particles().reference_position;
+            Mat<2> F;
+            const auto at = [&](double t) {
+                const double c = std::cos(2.0 * t), s = std::sin(2.0 * t), e = strain * t;
+                return Mat<2>{{c * (1.0 + e) - s * 0.3 * e, c * 0.3 * e - s * (1.0 - 0.5 * e),
+                               s * (1.0 + e) + c * 0.3 * e, s * 0.3 * e + c * (1.0 - 0.5 * e)}};
+            };
+            const auto put = [&](double t) {
+                F = at(t);
+                for (Eigen::Index i = 0; i < X.cols(); ++i)
+                    for (int a = 0; a < 2; ++a)
+                        state.position()(a, i) = F(a, 0) * X(0, i) + F(a, 1) * X(1, i);
+            };
+            const int steps = 400;
+            for (int k = 0; integrates && k < steps; ++k) {
+                const double t = (k + 0.5) / steps, h = 1.0 / steps;
+                put(t);
+                const Mat<2> before = at(t - 0.5 * h), after = at(t + 0.5 * h);
+                for (Eigen::Index i = 0; i < X.cols(); ++i)
+                    for (int a = 0; a < 2; ++a)
+                        state.velocity()(a, i) = ((after(a, 0) - before(a, 0)) * X(0, i) +
+                                                  (after(a, 1) - before(a, 1)) * X(1, i)) /
+                                                 h;
+                const auto rates = rates_of(*model, y);
+                const ConstState<2> rate(model->layout(), rates);
+                state.stress() += h * rate.stress();
+            }
+            put(1.0);
+            const auto rates = rates_of(*model, y);
+            return Eigen::MatrixXd(ConstState<2>(model->layout(), rates).velocity());
+        };
+        const ElasticSolid elastic{lambda, eta};
+        const auto by_F = accelerations(StVenantKirchhoff::like(elastic), false);
+        const auto by_rate = accelerations(by_rates(elastic), true);
+        return (by_F - by_rate).cwiseAbs().maxCoeff() / by_F.cwiseAbs().maxCoeff();
+    };
+    const double coarse = apart(0.02), fine = apart(0.01);
+    BOOST_TEST(coarse < 0.1);
+    BOOST_TEST(fine < 0.6 * coarse);  // relative: the strain itself is halved too
+}
+
+/// Its heat is in e, by which it yields earlier.
+BOOST_AUTO_TEST_CASE(heat_softens_a_solid_that_keeps_its_reference) {
+    const auto strain = [](double heat_capacity) {
+        const JohnsonCook flow{
+            .A = Y, .B = 0.05, .n = 0.5, .heat_capacity = heat_capacity, .density = site_density};
+        const YieldingSolid<PlaneVonMises, JohnsonCook> law({lambda, eta}, flow);
+        auto [model, y0] = block<TotalLagrangianModel<2>>(20, 11, by_rates(law), reference);
+        const double before = total_energy(*model, y0);
+        Motion<2> motion(*model, y0, rk4(0.1));
+        motion.advance_to(20.0);
+        BOOST_TEST(std::abs(total_energy(*model, motion.y()) / before - 1.0) < 2e-4);
+        return motion.state().field(field_kind::plastic_strain).maxCoeff();
+    };
+    BOOST_TEST(strain(0.05) > 1.02 * strain(1e6));
 }
 
 BOOST_AUTO_TEST_CASE(any_number_of_threads_gives_the_same_bits) {

@@ -56,6 +56,20 @@ concept HyperelasticLawWithRates = HyperelasticLawWithMemory<Law, Dim> &&
     law.rates(state, rate)(i, F, F);
 };
 
+/// One whose memory has rates and is settled too, by the time as well: in_state(t, state), rates(t, state, rate) and
+/// settle(t, i, F, state) are otherwise as above.
+template <class Law, int Dim>
+concept HyperelasticLawInTime = requires(const Law law, double t, std::size_t i, Mat<Dim> F,
+                                         const ConstState<Dim>& state, const State<Dim>& rate) {
+    { law.in_state(t, state).stress(i, F) } -> std::same_as<Mat<Dim>>;
+    { law.in_state(t, state).energy(i, F) } -> std::same_as<double>;
+    law.rates(t, state, rate)(i, F, F);
+    { law.settle(t, i, F, rate) } -> std::same_as<bool>;
+    { law.history() } -> std::convertible_to<std::vector<Field>>;
+    { law.stiffness() } -> std::convertible_to<double>;
+    { law.describe() } -> std::convertible_to<std::string>;
+};
+
 /// One that flows where neighbours remember the material (physics/material_vectors.hpp): flow(F) is the G by
 /// which F is returned, F <- F G, where the stress is beyond what the law bears; nothing where it is not. `energy`
 /// holds what such a return would spend, and `stress` is its derivative: the return changes neither the

@@ -19,17 +19,17 @@ template <int Dim>
 class HyperelasticMaterial {
   public:
     template <class Law>
-    requires HyperelasticLaw<Law, Dim> || HyperelasticLawWithMemory<Law, Dim> HyperelasticMaterial(
-        const Law& law)
-        : loop_(std::make_shared<LoopOver<Law>>(law)) {
+    requires HyperelasticLaw<Law, Dim> || HyperelasticLawWithMemory<Law, Dim> ||
+        HyperelasticLawInTime<Law, Dim>
+        HyperelasticMaterial(const Law& law) : loop_(std::make_shared<LoopOver<Law>>(law)) {
         if constexpr (requires { law.validate(); }) law.validate();
     }
 
     /// P of the particles with these numbers, rows of Dim x Dim numbers, `stride` numbers from one particle
     /// to the next, F given in the same way. False where one of them is not finite.
     bool stresses(std::span<const std::uint32_t> particles, std::size_t stride, const double* F,
-                  double* P, const ConstState<Dim>& state) const {
-        return loop_->stresses(particles, stride, F, P, state);
+                  double* P, const ConstState<Dim>& state, double t = 0.0) const {
+        return loop_->stresses(t, particles, stride, F, P, state);
     }
     /// Of particle i, per reference volume.
     double energy(std::size_t i, const Mat<Dim>& F, const ConstState<Dim>& state) const {
@@ -40,13 +40,15 @@ class HyperelasticMaterial {
     /// Whether the memory of the law has rates.
     bool has_rates() const { return loop_->has_rates(); }
     /// Sets them for particle i.
-    void rates(std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot,
+    void rates(double t, std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot,
                const ConstState<Dim>& state, const State<Dim>& rate) const {
-        loop_->rates(i, F, F_dot, state, rate);
+        loop_->rates(t, i, F, F_dot, state, rate);
     }
+    /// Whether settle() may change anything.
+    bool settles() const { return loop_->settles(); }
     /// After an accepted step: whether the law has changed the history of particle i.
-    bool settle(std::size_t i, const Mat<Dim>& F, const State<Dim>& state) const {
-        return loop_->settle(i, F, state);
+    bool settle(double t, std::size_t i, const Mat<Dim>& F, const State<Dim>& state) const {
+        return loop_->settle(t, i, F, state);
     }
     /// False where the law's energy is not that of its stress (it says so by a keeps_energy of its own).
     bool keeps_energy() const { return loop_->keeps_energy(); }
@@ -61,14 +63,15 @@ class HyperelasticMaterial {
   private:
     struct Loop {
         virtual ~Loop() = default;
-        virtual bool stresses(std::span<const std::uint32_t>, std::size_t, const double*, double*,
-                              const ConstState<Dim>&) const = 0;
+        virtual bool stresses(double, std::span<const std::uint32_t>, std::size_t, const double*,
+                              double*, const ConstState<Dim>&) const = 0;
         virtual double energy(std::size_t, const Mat<Dim>&, const ConstState<Dim>&) const = 0;
         virtual std::vector<Field> history() const = 0;
         virtual bool has_rates() const = 0;
-        virtual void rates(std::size_t, const Mat<Dim>&, const Mat<Dim>&, const ConstState<Dim>&,
-                           const State<Dim>&) const = 0;
-        virtual bool settle(std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
+        virtual void rates(double, std::size_t, const Mat<Dim>&, const Mat<Dim>&,
+                           const ConstState<Dim>&, const State<Dim>&) const = 0;
+        virtual bool settles() const = 0;
+        virtual bool settle(double, std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
         virtual bool keeps_energy() const = 0;
         virtual bool flows() const = 0;
         virtual std::optional<Mat<Dim>> flow(const Mat<Dim>&) const = 0;
@@ -79,13 +82,15 @@ class HyperelasticMaterial {
 
     template <class Law>
     struct LoopOver final : Loop {
-        static constexpr bool remembers = HyperelasticLawWithMemory<Law, Dim>;
+        static constexpr bool in_time = HyperelasticLawInTime<Law, Dim>;
+        static constexpr bool remembers = HyperelasticLawWithMemory<Law, Dim> || in_time;
         explicit LoopOver(const Law& l) : law(l) {}
 
         // flatten: a law is a small function, a call would cost as much as it does
         [[gnu::flatten]] bool stresses(
-            std::span<const std::uint32_t> particles, std::size_t stride, const double* F,
-            double* P, [[maybe_unused]] const ConstState<Dim>& state) const override {
+            [[maybe_unused]] double t, std::span<const std::uint32_t> particles, std::size_t stride,
+            const double* F, double* P,
+            [[maybe_unused]] const ConstState<Dim>& state) const override {
             const Law own = law;  // a copy that the stores below cannot be suspected to change
             double zero = 0.0;    // or NaN
             const auto each = [&](const auto& stress_of) {
@@ -99,7 +104,11 @@ class HyperelasticMaterial {
                     }
                 }
             };
-            if constexpr (remembers)
+            if constexpr (in_time)
+                each([now = own.in_state(t, state)](std::size_t i, const Mat<Dim>& gradient) {
+                    return now.stress(i, gradient);
+                });
+            else if constexpr (remembers)
                 each([now = own.in_state(state)](std::size_t i, const Mat<Dim>& gradient) {
                     return now.stress(i, gradient);
                 });
@@ -109,7 +118,9 @@ class HyperelasticMaterial {
         }
         double energy([[maybe_unused]] std::size_t i, const Mat<Dim>& F,
                       [[maybe_unused]] const ConstState<Dim>& state) const override {
-            if constexpr (remembers)
+            if constexpr (in_time)
+                return law.in_state(0.0, state).energy(i, F);
+            else if constexpr (remembers)
                 return law.in_state(state).energy(i, F);
             else
                 return law.energy(F);
@@ -118,16 +129,24 @@ class HyperelasticMaterial {
             if constexpr (remembers) return law.history();
             return {};
         }
-        bool has_rates() const override { return HyperelasticLawWithRates<Law, Dim>; }
-        void rates([[maybe_unused]] std::size_t i, [[maybe_unused]] const Mat<Dim>& F,
-                   [[maybe_unused]] const Mat<Dim>& F_dot,
+        bool has_rates() const override { return HyperelasticLawWithRates<Law, Dim> || in_time; }
+        void rates([[maybe_unused]] double t, [[maybe_unused]] std::size_t i,
+                   [[maybe_unused]] const Mat<Dim>& F, [[maybe_unused]] const Mat<Dim>& F_dot,
                    [[maybe_unused]] const ConstState<Dim>& state,
                    [[maybe_unused]] const State<Dim>& rate) const override {
-            if constexpr (HyperelasticLawWithRates<Law, Dim>) law.rates(state, rate)(i, F, F_dot);
+            if constexpr (in_time)
+                law.rates(t, state, rate)(i, F, F_dot);
+            else if constexpr (HyperelasticLawWithRates<Law, Dim>)
+                law.rates(state, rate)(i, F, F_dot);
         }
-        bool settle([[maybe_unused]] std::size_t i, [[maybe_unused]] const Mat<Dim>& F,
+        bool settles() const override { return in_time || (remembers && !has_rates()); }
+        bool settle([[maybe_unused]] double t, [[maybe_unused]] std::size_t i,
+                    [[maybe_unused]] const Mat<Dim>& F,
                     [[maybe_unused]] const State<Dim>& state) const override {
-            if constexpr (remembers) return law.settle(i, F, state);
+            if constexpr (in_time)
+                return law.settle(t, i, F, state);
+            else if constexpr (remembers)
+                return law.settle(i, F, state);
             return false;
         }
         bool keeps_energy() const override {
