@@ -152,8 +152,10 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         refuse_impossible(p);
         session.smoke_default("cells", p.cells, 10);
+        // The tension of the standard drop is 0.1; a stronger one makes waves that are as much faster.
         session.prefer_step(
-            0.1 * relative_step({p.core, p.core_range}, {usual_core, Parameters{}.core_range}));
+            0.1 * std::min(1.0, std::sqrt(1.0 / p.surface_tension.value_or(1.0))) *
+            relative_step({p.core, p.core_range}, {usual_core, Parameters{}.core_range}));
         auto drops = one_or_both(p.surface_tension, tension_of_figure, "tension",
                                  [&](double tension) { return make_drop(p, tension); });
         const auto runs = relax(session, drops, 400.0, m4_column());

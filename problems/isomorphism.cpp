@@ -214,6 +214,8 @@ int main(int argc, char** argv) {
                 "cells: a box of {} must be wider than twice the range {:g}; give at least {} "
                 "cells, or a shorter --range",
                 p.cells, p.range, static_cast<int>(2.0 * p.range) + 1);
+        // Short ranges have steep slopes.
+        session.prefer_step(0.05 * std::min(1.0, p.range / 2.0));
         std::vector<Experiment> experiments;
         for (const Law law : {Law::lucy, Law::embedded_atom})
             if (p.law == law || p.law == Law::both) experiments.push_back(prepare(p, law));

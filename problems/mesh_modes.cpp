@@ -136,6 +136,8 @@ void draw(Session& session, const Parameters& p, const std::vector<Moving>& all,
 }
 
 void compute(Session& session, const Parameters& p) {
+    // What resists the hourglass vibrates with the root of its stiffness.
+    session.prefer_step(0.05 / std::max(1.0, 1.5 * std::sqrt(p.control.stiffness)));
     auto all = make_moving(p);
     const auto runs = run_all(session, all, [&](const Moving&) {
         return Plan<2>{.t_end = session.common().smoke ? 10.0 : 40.0};

@@ -146,11 +146,11 @@ double measured_period(const History& history, const char* name) {
     return 2.0 * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
 }
 
-/// L against what as much motion could have, sqrt(2 K sum m r^2).
+/// L against what as much motion could have, sqrt(2 K sum m r^2); 0 where nothing has moved yet.
 double relative_angular_momentum(const History& history, const Model<2>& model) {
     const double I = model.particles().reference_position.squaredNorm();
-    return history.largest_change("angular_momentum") /
-           std::sqrt(2.0 * history.largest("kinetic") * I);
+    const double most = std::sqrt(2.0 * history.largest("kinetic") * I);
+    return most > 1e-150 ? history.largest_change("angular_momentum") / most : 0.0;
 }
 
 // ---- what is claimed ----

@@ -128,7 +128,7 @@ void run_sizes(Session& session, const Parameters& p) {
         return tubes.back().model->box().wall(0, upper).kind == WallKind::rigid;
     };
     session.prefer_step(p.step(tubes.back().cells) *
-                        (is_rigid(false) || is_rigid(true) ? 0.5 : 1.0));
+                        (is_rigid(false) || is_rigid(true) ? 0.25 : 1.0));
     const auto runs = run_all(session, tubes, [&](const Tube&) {
         return Plan<1>{.t_end = session.end(p.setting.t_end, p.setting.t_end / 10.0)};
     });

@@ -177,7 +177,8 @@ double step_of(const Parameters& p) {
     const double core = p.core.value_or(core_energy);
     const double cores =
         core > 0.0 ? p.core_range / standard.core_range * std::sqrt(core_energy / core) : 1.0;
-    return 0.1 * std::min({1.0, waves, cores});
+    // Sound at the density of the particles: c^2 = e''(rho) rho^2 = 1/rho0^3.
+    return 0.1 * std::min({1.0, waves, cores, std::pow(p.rho0, 1.5)});
 }
 
 }  // namespace
@@ -193,8 +194,7 @@ int main(int argc, char** argv) {
                     between(2, 1000000));
     options.number("side", p.side, "side of the periodic box", between(1e-3, 1e9));
     options.integer("seed", p.seed, "seed of the random places", between(0, 1000000000));
-    options.number("rho0", p.rho0, "density at which the fluid has no pressure",
-                   between(1e-3, 1e3));
+    options.number("rho0", p.rho0, "density at which the fluid has no pressure", between(0.1, 1e3));
     options.number(
         "core", p.core,
         "energy of the core that keeps two particles apart; 0 for none (default: both 0 and 0.1)",

@@ -52,8 +52,10 @@ struct Stops {
 
 bool DueTimes::reached(double t, double slack) {
     if (t < next() - slack) return false;
-    k_ = std::max(k_ + 1, static_cast<std::size_t>(std::min(1e18, (t - t0_ + slack) / every_)));
-    while (t >= next() - slack) ++k_;
+    // Beyond the last count there are no more times, whatever t is.
+    constexpr double last = 1e18;
+    k_ = std::max(k_ + 1, static_cast<std::size_t>(std::min(last, (t - t0_ + slack) / every_)));
+    while (k_ < static_cast<std::size_t>(last) && t >= next() - slack) ++k_;
     return true;
 }
 

@@ -103,6 +103,8 @@ void begin_file(const std::filesystem::path& path) {
 
 void separate_file(const std::filesystem::path& path) {
     std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        throw OutputError(fmt::format("cannot write '{}': it is a folder", path.string()));
     if (std::filesystem::hard_link_count(path, error) < 2 || error) return;
     const std::string text = contents_of_file(path);
     replace_file(path, {std::as_bytes(std::span(text))});

@@ -175,13 +175,14 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     memory.case_toml = file.text("/case");
     memory.command = file.text("/command");
     const auto plans = file.numbers("/plans");
-    // Times that are no intervals would never come to their end.
-    if (file.columns("/plans") != 4 || !std::all_of(plans.begin(), plans.end(), [](double time) {
-            return time > 0.0 && std::isfinite(time);
-        }))
-        refuse_contents("/plans");
-    for (std::size_t k = 0; k + 3 < plans.size(); k += 4)
+    // Times that are no intervals, or have a million million in a run, would never come to their end.
+    if (file.columns("/plans") != 4) refuse_contents("/plans");
+    for (std::size_t k = 0; k + 3 < plans.size(); k += 4) {
+        for (std::size_t m = k; m < k + 4; ++m)
+            if (!(plans[m] >= 1e-12 * plans[k]) || !(plans[m] > 0.0) || !std::isfinite(plans[m]))
+                refuse_contents("/plans");
         memory.plans.push_back({plans[k], plans[k + 1], plans[k + 2], plans[k + 3]});
+    }
     const auto counts = file.integers("/counts");
     if (counts.size() != 3 || counts[0] < 0) refuse_contents("/counts");
     memory.smoke = counts[1] != 0;

@@ -2,6 +2,7 @@
 #include "checkpoint.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
+#include <spam/core/text.hpp>
 #include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>
@@ -134,7 +135,7 @@ void Session::describe_environment() {
         if (then != now)
             terminal_.warn(fmt::format(
                 "{}: the checkpoint was written by {} {}, this is {}: last digits may differ",
-                problem_.name_, what, then, now));
+                problem_.name_, what, one_line(then), one_line(now)));
     };
     warn("version", earlier->version, memory_->version);
     warn("instruction set", earlier->instruction_set, memory_->instruction_set);

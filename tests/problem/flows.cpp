@@ -9,16 +9,21 @@
 
 using namespace spam::test;
 
+// Plates hold what the flow drags along: eta V/H; half of the force that drives it.
 BOOST_AUTO_TEST_CASE(couette_flow_is_linear) {
     const Results found("couette", {}, "profile_error");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("profile_error") < 0.005);
     BOOST_TEST(found.value.at("largest_profile_error") < 0.03);
+    for (const char* plate : {"stress_bottom", "stress_top"})
+        BOOST_TEST(std::abs(found.value.at(plate) - 1.0) < 0.01);
 }
 BOOST_AUTO_TEST_CASE(poiseuille_flow_is_a_parabola) {
     const Results found("poiseuille", {}, "profile_error");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("mean_velocity") > 0.66);
+    for (const char* plate : {"stress_bottom", "stress_top"})
+        BOOST_TEST(std::abs(found.value.at(plate) - 1.0) < 0.01);
 }
 
 // What pairs are for: by gradients particles lose their order, and nothing is claimed.
@@ -71,11 +76,9 @@ BOOST_AUTO_TEST_CASE(a_blast_runs_like_sedovs) {
     const Results found("blast", effort(Words{"--single"}, Words{"--smoke"}), "front");
     BOOST_TEST(found.value.at("least_energy_ratio") > 0.9);
     if (effort(true, false)) BOOST_TEST(found.claims == 1U);
-    for (const char* gamma : {"1.2", "1.67"}) {
-        if (!effort(true, false)) break;
-        const Results other("blast", {"--gamma", gamma, "--single", "--cells", "32"}, "front");
-        BOOST_TEST(std::abs(other.value.at("front") / 0.8 - 1.0) < 0.06);
-    }
+    if (!effort(true, false)) return;
+    const Results other("blast", {"--gamma", "1.2", "--single", "--cells", "32"}, "front");
+    BOOST_TEST(std::abs(other.value.at("front") / 0.8 - 1.0) < 0.06);
 }
 
 BOOST_AUTO_TEST_CASE(mirrors_act_like_periods_on_an_expanding_gas) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints with a valid seal whose contents are not what a run writes: each is refused in one line, or the run
 // goes on from what it says and ends by itself. Damage without a seal is tests/io/checkpoint_damage.
+#include "problem/result_files.hpp"
 #include "support/hunt.hpp"
 #include "support/process.hpp"
 #include <spam/io/checkpoint_pair.hpp>
@@ -238,7 +239,10 @@ std::vector<Begun> begin(const Scratch& folder) {
 }
 
 void check_ended(const Outcome& outcome) {
-    const auto lines = std::count(outcome.err.begin(), outcome.err.end(), '\n');
+    // One, but for what says that another version or processor has written it.
+    auto lines = std::ptrdiff_t{0};
+    for (const auto& line : split(outcome.err, '\n'))
+        lines += !line.empty() && !line.ends_with("last digits may differ");
     BOOST_TEST(outcome.signal == 0, outcome.err);
     // 1: checks of a run from another state fail. 3: such a state may have no meaning.
     BOOST_TEST((outcome.status >= 0 && outcome.status <= 3), outcome.status << outcome.err);

@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(vortices_decay_as_they_should_where_particles_are_shifted) 
 
 BOOST_AUTO_TEST_CASE(disorder_at_the_start_does_no_harm) {
     if (!effort(true, false)) return;  // the same law once more
-    const Results found("taylor_green", {"--disorder", "0.2", "--t-end", "250"},
+    const Results found("taylor_green", {"--disorder", "0.2", "--t-end", "125"},
                         "shifting_velocity_error");
     BOOST_TEST(found.claims == 0U);
     BOOST_TEST(found.value.at("shifting_velocity_error") < 0.03);
