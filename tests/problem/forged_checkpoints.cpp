@@ -252,7 +252,9 @@ void check_ended(const Outcome& outcome) {
 
 Outcome go_on(const Scratch& folder, const Source& source, const std::string& file) {
     return Child(problem(source.problem, {"--restart", file, "--t-end", source.end, "--out", "on",
-                                          "--no-plots", "--quiet", "--threads", "1"}),
+                                          "--no-plots", "--quiet", "--threads", "1",
+                                          // Adaptive steps from such a state may be very short.
+                                          "--max-steps", "20000"}),
                  {.folder = folder.path(), .before_exec = limit_memory})
         .finish(Child::Seconds(SPAM_SANITIZED ? 600 : 60));
 }
