@@ -7,7 +7,9 @@
 #include <spam/diagnostics/shape.hpp>
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/artificial_viscosity.hpp>
 #include <spam/rhs/material_vectors.hpp>
+#include <spam/rhs/reflected_pairs.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
@@ -128,6 +130,7 @@ struct MakeRemembering {
     HarmonicSpring spring;
     double density, range, penalty;
     Kernel kernel;
+    double viscosity, closest_approach;
 
     template <int Dim>
     py::object make() const {
@@ -148,6 +151,15 @@ struct MakeRemembering {
         else
             throw InputError(
                 "x: material vectors have two or three dimensions; give (n, 2) or (n, 3)");
+        if (!std::isfinite(viscosity) || viscosity < 0.0)
+            throw InputError(fmt::format(
+                "viscosity: {} is not allowed; use 0 for none, or a positive number", viscosity));
+        if (viscosity > 0.0)
+            model->template add_term<ArtificialViscosity<Dim>>(
+                typename ArtificialViscosity<Dim>::Constants{viscosity, range, density,
+                                                             elastic.sound_speed(density), kernel});
+        if (closest_approach != 0.0)
+            model->template add_term<ReflectedPairs<Dim>>(closest_approach);
         return py::cast(
             held_solid<Dim>(std::move(model), common, std::move(pending), density, elastic.eta));
     }
@@ -269,8 +281,8 @@ void bind_models(py::module_& module) {
         "remembering",
         [](py::object x, const std::string& kind, const Solid& solid, double kappa,
            double rest_length, py::object mass, double density, double range, double penalty,
-           const std::string& kernel, double spacing, std::vector<double> box,
-           std::vector<ExternalChoice> externals) {
+           const std::string& kernel, double viscosity, double closest_approach, double spacing,
+           std::vector<double> box, std::vector<ExternalChoice> externals) {
             return by_dimensions(
                 MakeRemembering{{x, mass, spacing, std::move(box), std::move(externals)},
                                 kind,
@@ -279,10 +291,13 @@ void bind_models(py::module_& module) {
                                 checked_density(density),
                                 range,
                                 penalty,
-                                value_of<Kernel>(kernel, all_kernels(), "kernel")});
+                                value_of<Kernel>(kernel, all_kernels(), "kernel"),
+                                viscosity,
+                                closest_approach});
         },
         "x"_a, "kind"_a, "material"_a, "kappa"_a, "rest_length"_a, "mass"_a, "density"_a, "range"_a,
-        "penalty"_a, "kernel"_a, "spacing"_a, "box"_a, "externals"_a);
+        "penalty"_a, "kernel"_a, "viscosity"_a, "closest_approach"_a, "spacing"_a, "box"_a,
+        "externals"_a);
 }
 
 }  // namespace spam::python

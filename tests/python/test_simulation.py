@@ -244,6 +244,21 @@ class Kinds(unittest.TestCase):
             self.assertTrue(run.drifts["angular momentum"].kept)
             self.assertLess(run["e"][-1], 0.03)
 
+    def test_viscosity_and_reflections_beside_solids_that_remember(self):
+        x, v = rotation(3)
+        v = v + 0.2 * np.sin(3.0 * x[:, ::-1])
+        for make in (spam.TotalLagrangian, spam.MaterialVectors):
+            sim = spam.Simulation(make(x, viscosity=1.0, closest_approach=0.8), velocity=v, dt=0.05)
+            run = sim.run(5.0)
+            self.assertTrue(all(drift.kept for drift in run.drifts.values()), run.drifts)
+            self.assertGreater(sim.state.viscous_heat.max(), 0.0)
+            self.assertGreaterEqual(spam.closest_pair(sim.model, sim.state), 0.8 - 1e-9)
+        for wrong in (-1.0, float("nan"), float("inf")):
+            with self.assertRaises(spam.InputError):
+                spam.TotalLagrangian(x, viscosity=wrong)
+            with self.assertRaises(spam.InputError):
+                spam.Springs(x, closest_approach=wrong)
+
     def test_yielding(self):
         x, v = rotation(3, speed=1.0)
         solid = spam.VonMisesSolid(0.433, 0.433, yield_stress=0.01)

@@ -184,14 +184,15 @@ def SmoothParticles(x: ArrayLike, *, material: Union[None, _Solid, Fluid] = None
                     externals: Sequence[_External] = ()) -> _Model: ...
 def TotalLagrangian(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
                     density: Optional[float] = None, range: Optional[float] = None, penalty: float = 0.1,
-                    kernel: str = "lucy", mass: ArrayLike = 1.0, spacing: float = 1.0,
+                    kernel: str = "lucy", viscosity: float = 0.0, closest_approach: float = 0.0,
+                    mass: ArrayLike = 1.0, spacing: float = 1.0,
                     box: Optional[Sequence[float]] = None, externals: Sequence[_External] = ()) -> _Model: ...
 def MaterialVectors(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
                     density: Optional[float] = None, range: Optional[float] = None, penalty: float = 2.0,
-                    mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
+                    viscosity: float = 0.0, closest_approach: float = 0.0, mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
                     externals: Sequence[_External] = ()) -> _Model: ...
-def Springs(x: ArrayLike, *, kappa: float = 1.0, rest_length: Optional[float] = None, mass: ArrayLike = 1.0,
-            spacing: float = 1.0, box: Optional[Sequence[float]] = None,
+def Springs(x: ArrayLike, *, kappa: float = 1.0, rest_length: Optional[float] = None,
+            closest_approach: float = 0.0, mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
             externals: Sequence[_External] = ()) -> _Model: ...
 def shape_error(model: _Model, state: State) -> float: ...
 def closest_pair(model: _Model, state: State) -> float: ...

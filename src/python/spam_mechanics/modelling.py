@@ -29,36 +29,42 @@ def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, sp
                             _density(density, mass, spacing, x, box), spacing, list(box or ()), list(externals))
 
 
-def TotalLagrangian(x, *, material=None, density=None, range=None, penalty=0.1, kernel="lucy", mass=1.0,
-                    spacing=1.0, box=None, externals=()):
+def TotalLagrangian(x, *, material=None, density=None, range=None, penalty=0.1, kernel="lucy", viscosity=0.0,
+                    closest_approach=0.0, mass=1.0, spacing=1.0, box=None, externals=()):
     """A solid that sums over the neighbours of its reference configuration x (N, D): p, L and E are kept.
 
     material: ElasticSolid; range of the weight (length; default 3 spacings); penalty kappa against zero-energy
-    modes; kernel as of Scheme. Others as of SmoothParticles().
+    modes; kernel, viscosity and closest_approach as of Scheme. What viscosity takes from the motion is booked as
+    viscous_heat, and heats nothing. Others as of SmoothParticles().
     """
-    return _solid("total_lagrangian", x, material, density, range, penalty, kernel, mass, spacing, box, externals)
+    return _solid("total_lagrangian", x, material, density, range, penalty, kernel, viscosity, closest_approach,
+                  mass, spacing, box, externals)
 
 
-def MaterialVectors(x, *, material=None, density=None, range=None, penalty=2.0, mass=1.0, spacing=1.0,
-                    box=None, externals=()):
+def MaterialVectors(x, *, material=None, density=None, range=None, penalty=2.0, viscosity=0.0,
+                    closest_approach=0.0, mass=1.0, spacing=1.0, box=None, externals=()):
     """A solid whose particles remember a material vector for each present neighbour: p, L and E are kept, and
     bodies meet. Arguments as of TotalLagrangian(), but for kernel."""
-    return _solid("material_vectors", x, material, density, range, penalty, "lucy", mass, spacing, box, externals)
+    return _solid("material_vectors", x, material, density, range, penalty, "lucy", viscosity, closest_approach,
+                  mass, spacing, box, externals)
 
 
-def Springs(x, *, kappa=1.0, rest_length=None, mass=1.0, spacing=1.0, box=None, externals=()):
-    """Molecular dynamics: harmonic springs kappa between neighbours nearer than 1.2 spacings in x (N, D)."""
+def Springs(x, *, kappa=1.0, rest_length=None, closest_approach=0.0, mass=1.0, spacing=1.0, box=None,
+            externals=()):
+    """Molecular dynamics: harmonic springs kappa between neighbours nearer than 1.2 spacings in x (N, D);
+    closest_approach as of Scheme."""
     rest_length = spacing if rest_length is None else rest_length
     return remembering(x, "springs", ElasticSolid.triangular_lattice(kappa), kappa, rest_length, mass,
-                       _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", spacing, list(box or ()),
-                       list(externals))
+                       _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
+                       list(box or ()), list(externals))
 
 
-def _solid(kind, x, material, density, range, penalty, kernel, mass, spacing, box, externals):
+def _solid(kind, x, material, density, range, penalty, kernel, viscosity, closest_approach, mass, spacing, box,
+           externals):
     material = ElasticSolid.triangular_lattice() if material is None else material
     return remembering(x, kind, material, 1.0, 1.0, mass, _density(density, mass, spacing, x, box),
-                       3.0 * spacing if range is None else range, penalty, kernel, spacing, list(box or ()),
-                       list(externals))
+                       3.0 * spacing if range is None else range, penalty, kernel, viscosity, closest_approach,
+                       spacing, list(box or ()), list(externals))
 
 
 def _density(density, mass, spacing, x, box):
