@@ -78,7 +78,7 @@ Experiment prepare(const Parameters& p, Law law) {
     e.model->add_term_among<SmoothParticles<2>>(fluid * n, n, matter, scheme);
     for (const std::size_t k : {molecules, moved})
         if (law == Law::lucy)
-            e.model->add_term_among<LucyPairPotential<2>>(k * n, n, p.range);
+            e.model->add_term_among<WeightPotential<2>>(k * n, n, p.range);
         else
             e.model->add_term_among<DensityPotentialTerm<2>>(
                 k * n, n, DensityPotentials{.state = EmbeddedAtom{}, .range = p.range});

@@ -45,13 +45,16 @@ PairLaw<Dim> law_of(const CohesivePotential& potential) {
 }
 
 template <int Dim>
-PairLaw<Dim> lucys_law(const Particles<Dim>& particles, double range, double a) {
+PairLaw<Dim> weights_law(const Particles<Dim>& particles, double range, double a, Kernel kernel) {
     PairLaw<Dim> law{
-        best_sweeps([](auto level) { return lucy_potential_sweeps<Dim, level>(); }),
+        best_sweeps([&](auto level) { return weight_potential_sweeps<Dim, level>(kernel); }),
         valid_range<Dim>(range, particles.spacing, particles.size()),
-        fmt::format("molecular dynamics, Lucy's weight function of range {:g} as pair potential",
+        fmt::format("molecular dynamics, {} of range {:g} as pair potential",
+                    kernel == Kernel::lucy ? "Lucy's weight function"
+                                           : fmt::format("the weight {}", to_string(kernel)),
                     range)};
     law.constants.core_energy = a;
+    law.kernel = kernel;
     return law;
 }
 
@@ -66,8 +69,9 @@ Cohesion<Dim>::Cohesion(const Selection<Dim>& among, const CohesivePotential& po
     : PairTerm<Dim>(among, law_of<Dim>(potential)) {}
 
 template <int Dim>
-LucyPairPotential<Dim>::LucyPairPotential(const Selection<Dim>& among, double range, double a)
-    : PairTerm<Dim>(among, lucys_law<Dim>(among.particles(), range, a)) {}
+WeightPotential<Dim>::WeightPotential(const Selection<Dim>& among, double range, double a,
+                                      Kernel kernel)
+    : PairTerm<Dim>(among, weights_law<Dim>(among.particles(), range, a, kernel)) {}
 
 template class Core<1>;
 template class Core<2>;
@@ -75,8 +79,8 @@ template class Core<3>;
 template class Cohesion<1>;
 template class Cohesion<2>;
 template class Cohesion<3>;
-template class LucyPairPotential<1>;
-template class LucyPairPotential<2>;
-template class LucyPairPotential<3>;
+template class WeightPotential<1>;
+template class WeightPotential<2>;
+template class WeightPotential<3>;
 
 }  // namespace spam

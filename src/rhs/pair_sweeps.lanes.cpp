@@ -52,12 +52,15 @@ Sweeps<Dim> contact_sweeps() {
 }
 
 template <int Dim, InstructionSet Level>
-Sweeps<Dim> lucy_potential_sweeps() {
-    using R = PointRecord<Dim>;
-    auto sweeps =
-        pair_sweeps<Level, LucysSweep, Dim, R, PairPotential<Dim>, PairPotentialEnergy<Dim>>();
-    sweeps.density = run_sweep<LucysSweep, native_lanes(Level), Dim, R, DensitySum>;
-    return sweeps;
+Sweeps<Dim> weight_potential_sweeps(Kernel kernel) {
+    const auto of = []<class Kind>(Kind) {
+        using R = PointRecord<Dim>;
+        auto sweeps =
+            pair_sweeps<Level, Kind, Dim, R, PairPotential<Dim>, PairPotentialEnergy<Dim>>();
+        sweeps.density = run_sweep<Kind, native_lanes(Level), Dim, R, DensitySum>;
+        return sweeps;
+    };
+    return kernel == Kernel::lucy ? of(LucysSweep{}) : of(GeneralSweep{});
 }
 
 template Sweeps<1> viscous_sweeps<1, InstructionSet::SPAM_LEVEL>();
@@ -72,8 +75,8 @@ template Sweeps<3> cohesive_sweeps<3, InstructionSet::SPAM_LEVEL>();
 template Sweeps<1> contact_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> contact_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> contact_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> lucy_potential_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> lucy_potential_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> lucy_potential_sweeps<3, InstructionSet::SPAM_LEVEL>();
+template Sweeps<1> weight_potential_sweeps<1, InstructionSet::SPAM_LEVEL>(Kernel);
+template Sweeps<2> weight_potential_sweeps<2, InstructionSet::SPAM_LEVEL>(Kernel);
+template Sweeps<3> weight_potential_sweeps<3, InstructionSet::SPAM_LEVEL>(Kernel);
 
 }  // namespace spam

@@ -38,9 +38,9 @@ Sweeps<Dim> own_range_sweeps();
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> density_potential_sweeps(bool shape);
 
-/// Lucy's weight function as pair potential, of PointRecord.
+/// A weight function as pair potential, of PointRecord.
 template <int Dim, InstructionSet Level>
-Sweeps<Dim> lucy_potential_sweeps();
+Sweeps<Dim> weight_potential_sweeps(Kernel kernel);
 
 /// Artificial viscosity as a term of its own, of MotionRecord and the density.
 template <int Dim, InstructionSet Level>

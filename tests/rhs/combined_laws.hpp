@@ -127,7 +127,7 @@ inline const std::map<std::string, Build> with_scheme{
      }}};
 
 inline void add_lucy(Sample& s, double range) {
-    s.model.add_term<LucyPairPotential<2>>(s.length(range), s.of("l^4/t^2") / s.units.mass);
+    s.model.add_term<WeightPotential<2>>(s.length(range), s.of("l^4/t^2") / s.units.mass);
 }
 inline void add_springs(Sample& s) {
     s.model.add_term<Springs<2>>(HarmonicSpring{s.stress(1.0), s.length(1.0)});
@@ -173,7 +173,7 @@ inline const std::map<std::string, Build> without_scheme{
      [](Sample& s, const Scheme&) {
          s.model.add_term<Cohesion<2>>(CohesivePotential{s.energy(1.0), s.length(1.0)});
      }},
-    {"LucyPairPotential", [](Sample& s, const Scheme&) { add_lucy(s, 3.0); }},
+    {"WeightPotential", [](Sample& s, const Scheme&) { add_lucy(s, 3.0); }},
     {"TotalLagrangian",
      [](Sample& s, const Scheme&) {
          s.model.add_term<TotalLagrangian<2>>(StVenantKirchhoff{s.stress(0.43), s.stress(0.43)},
@@ -222,7 +222,7 @@ inline const std::map<std::string, std::function<void(Sample&)>> further{
                                                .kernel = Kernel::w4});
      }},
     {"ReflectedPairs", [](Sample& s) { s.model.add_term<ReflectedPairs<2>>(s.length(0.5)); }},
-    {"LucyPairPotential", [](Sample& s) { add_lucy(s, 2.5); }},
+    {"WeightPotential", [](Sample& s) { add_lucy(s, 2.5); }},
     {"DensityPotentialTerm", [](Sample& s) {
          s.model.add_term<DensityPotentialTerm<2>>(
              DensityPotentials{.surface_tension = 0.02 * s.of("l^8/t^2") / s.units.mass,

@@ -3,6 +3,7 @@
 // of its energy, what it keeps.
 #include "support/random_state.hpp"
 #include <spam/core/error.hpp>
+#include <spam/kernel/any_weight.hpp>
 #include <spam/kernel/lucy.hpp>
 #include <spam/material/embedded_atom.hpp>
 #include <spam/rhs/density_potentials.hpp>
@@ -28,9 +29,8 @@ struct ByDefinition {
 };
 
 /// The weight function as potential.
-template <int Dim>
-ByDefinition lucys() {
-    const Lucy<Dim> weight(2.6);
+template <int Dim, class Weight>
+ByDefinition of(const Weight& weight) {
     return {
         [=](double m_i, double m_j, double r) { return m_i * m_j * weight.value(r); },
         [=](double m_i, double m_j, double r) { return m_i * m_j * weight.minus_slope_over_r(r); }};
@@ -98,7 +98,11 @@ template <int Dim>
 void every_pair(int cells, const Box<Dim>& box) {
     const auto particles = jittered_particles<Dim>(cells, 81, 0.15, box);
     PairPotentialModel<Dim> lucy(particles, 2.6, box);
-    every_pair<Dim>(lucy, lucys<Dim>());
+    every_pair<Dim>(lucy, of<Dim>(Lucy<Dim>(2.6)));
+    for (const Kernel kernel : {Kernel::w4, Kernel::monaghan}) {
+        PairPotentialModel<Dim> other(particles, 2.6, box, kernel);
+        every_pair<Dim>(other, of<Dim>(weight_function<Dim>(to_string(kernel), 2.6)));
+    }
     ParticleModel<Dim> cohesion(particles, box);
     cohesion.template add_term<Cohesion<Dim>>(CohesivePotential{0.7, 1.1});
     every_pair<Dim>(cohesion, cohesive(0.7, 1.1));

@@ -68,7 +68,7 @@ const std::vector<Law> laws{
      },
      0.1},
     {"springs", [](auto& m) { m.template add_term<Springs<2>>(HarmonicSpring{}); }, 0.1},
-    {"Lucy's potential", [](auto& m) { m.template add_term<LucyPairPotential<2>>(2.6); }, 0.05},
+    {"Lucy's potential", [](auto& m) { m.template add_term<WeightPotential<2>>(2.6); }, 0.05},
     {"molecules", [](auto& m) { m.template add_term<Cohesion<2>>(); }, 0.005}};
 
 const double angles[] = {0.1, 0.25, 0.4, 0.75};

@@ -27,22 +27,24 @@ class Cohesion final : public PairTerm<Dim> {
     explicit Cohesion(const Selection<Dim>& among, const CohesivePotential& potential = {});
 };
 
-/// Molecular dynamics with Lucy's weight function as pair potential, phi = m_i m_j w(r), [HHM04] III.
+/// Molecular dynamics with a weight function as pair potential, phi = a m_i m_j w(r); Lucy's in [HHM04] III.
 template <int Dim>
-class LucyPairPotential final : public PairTerm<Dim> {
+class WeightPotential final : public PairTerm<Dim> {
   public:
     /// `range`: of the weight function, > spacing. Throws InputError for another, and for a periodic
     /// box that is narrower than a fifth of the range.
-    LucyPairPotential(const Selection<Dim>& among, double range, double a = 1.0);
+    WeightPotential(const Selection<Dim>& among, double range, double a = 1.0,
+                    Kernel kernel = Kernel::lucy);
 };
 
 /// The latter and nothing else.
 template <int Dim>
 class PairPotentialModel final : public ParticleModel<Dim> {
   public:
-    PairPotentialModel(Particles<Dim> particles, double range, const Box<Dim>& box = {})
+    PairPotentialModel(Particles<Dim> particles, double range, const Box<Dim>& box = {},
+                       Kernel kernel = Kernel::lucy)
         : ParticleModel<Dim>(std::move(particles), box) {
-        this->template add_term<LucyPairPotential<Dim>>(range);
+        this->template add_term<WeightPotential<Dim>>(range, 1.0, kernel);
     }
 };
 
