@@ -128,8 +128,11 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         e.high = std::max(e.high, -1e-3 * e.low);
     }
     const gnuplot::Size frame = e.frame();
-    const gnuplot::PanelGrid grid(panels.size(), columns, frame, {{gap, gap, gap, gap}},
-                                  {.right = bar, .top = top});
+    gnuplot::PanelGrid grid(panels.size(), columns, frame, {{gap, gap, gap, gap}},
+                            {.right = bar, .top = top});
+    grid.grow_to(9.5 * static_cast<double>(title.size()) + 2.0 * gap);
+    const gnuplot::Frame last = grid.frame(std::min(panels.size(), grid.columns()) - 1);
+    const double bar_at = last.right() + gap + 12.0;
     const double title_room = e.height() * title_share / (frame.height - title_share);
 
     std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
@@ -158,14 +161,13 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         script += grid.place(k);
         script += fmt::format("set label 1 \"{}\" at graph 0.5,{:.5f} center font ',12'\n",
                               escaped(panel.title), 1.0 - 0.55 * title_share / frame.height);
-        script += k == 0
-                      ? fmt::format(
-                            "set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
-                            "set cbtics font ',11' tc rgb 'black'\nset cblabel \"{}\" font ',12' "
-                            "tc rgb 'black'\n",
-                            1.0 - (bar - 12) / grid.width(), 0.25, 16 / grid.width(), 0.5,
-                            escaped(colour_label))
-                      : std::string("unset colorbox\n");
+        script +=
+            k == 0 ? fmt::format(
+                         "set colorbox user origin {:.5f},{:.5f} size {:.5f},{:.5f}\n"
+                         "set cbtics font ',11' tc rgb 'black'\nset cblabel \"{}\" font ',12' "
+                         "tc rgb 'black'\n",
+                         bar_at / grid.width(), 0.25, 16 / grid.width(), 0.5, escaped(colour_label))
+                   : std::string("unset colorbox\n");
         script += fmt::format("plot {}\n", lines);
     }
     script += "unset multiplot\n";
