@@ -23,7 +23,7 @@ namespace {
 using namespace spam;
 
 struct Parameters : SolidChoice {
-    Parameters() { viscosity = 1.0; }
+    Parameters() { usual_viscosity = 1.0; }
 
     double radius = 16.0, inner_radius = 12.0;
     double speed = 0.05;  // of each ring

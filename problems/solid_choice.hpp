@@ -27,8 +27,9 @@ inline void add_pair_laws(ParticleModel<2>& model, std::size_t first, std::size_
 /// --formulation, --penalty and --viscosity.
 struct SolidChoice {
     Formulation formulation = Formulation::total_lagrangian;
-    std::optional<double> penalty{};  ///< kappa of the solids that remember
-    double viscosity = 0.0;           ///< alpha
+    std::optional<double> penalty{};    ///< kappa of the solids that remember
+    std::optional<double> viscosity{};  ///< alpha
+    double usual_viscosity = 0.0;       ///< of the updated solid; the others have none unless asked
 
     bool lagrangian() const { return formulation == Formulation::total_lagrangian; }
     bool vectors() const { return formulation == Formulation::material_vectors; }
@@ -53,15 +54,19 @@ struct SolidChoice {
             .only_when(
                 {"formulation"}, [this] { return remembers(); },
                 "has no meaning for --formulation updated; leave it out");
-        options.number("viscosity", viscosity, "alpha of von Neumann's artificial viscosity",
-                       between(0.0, 100.0));
+        options.number(
+            "viscosity", viscosity,
+            fmt::format(
+                "alpha of von Neumann's artificial viscosity (default: {:g} for updated, else 0)",
+                usual_viscosity),
+            between(0.0, 100.0));
     }
 
     /// Among `count` particles from number `first` on. `updated`: of smooth particles, but for range and viscosity.
     void add_term(ParticleModel<2>& model, std::size_t first, std::size_t count,
                   const ElasticSolid& solid, double density, double range, Scheme updated) const {
         updated.range = range;
-        updated.viscosity = viscosity;
+        updated.viscosity = viscosity.value_or(remembers() ? 0.0 : usual_viscosity);
         if (lagrangian())
             model.add_term_among<TotalLagrangian<2>>(
                 first, count, StVenantKirchhoff::like(solid),

@@ -9,7 +9,7 @@ namespace cantilever {
 using namespace spam;
 
 struct Parameters : SolidChoice {
-    Parameters() { viscosity = 0.5; }
+    Parameters() { usual_viscosity = 0.5; }
 
     Beam beam{};
     int layers = 10;      // over the thickness

@@ -259,12 +259,17 @@ BOOST_AUTO_TEST_CASE(a_shape_lost_in_the_last_row_has_not_survived) {
     const Outcome outcome = run(problem("turns_survived", {"--smoke", "--no-plots", "--speed", "1",
                                                            "--turns", "0.166", "--out", "o"}),
                                 {folder.path()});
-    BOOST_TEST(outcome.status == 1, outcome.out << outcome.err);
+    BOOST_TEST(outcome.status == 0,
+               outcome.out << outcome.err);  // nothing is claimed near the speed of sound
+    int found = 0;
     for (const auto& check : json_of(folder / "o/result.json")) {
         if (check["name"] == "molecular_dynamics_turns") BOOST_TEST(check["source"] == "deformed");
-        if (check["name"] == "molecular_dynamics_survives") BOOST_TEST(check["holds"] == false);
-        if (check["name"] == "total_lagrangian_survives") BOOST_TEST(check["holds"] == true);
+        const bool molecules = check["name"] == "molecular_dynamics_survives";
+        if (!molecules && check["name"] != "total_lagrangian_survives") continue;
+        BOOST_TEST((check["value"].get<double>() < 0.166) == molecules);
+        ++found;
     }
+    BOOST_TEST(found == 2);
 }
 
 /// Steps so long that RK4 may lose nearly everything: no limit is better than one that cannot fail.
