@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(plates_without_meaning_are_refused) {
         {{"--layers", "2"}, {"layers", "between 3 and 200"}},
         {{"--layers", "5", "--compare"}, {"layers: --compare", "6 or more"}},
         {{"--poisson", "0.5"}, {"poisson", "0.499"}},
-        {{"--viscosity", "1"}, {"leapfrog", "viscous_heat"}},
+        {{"--viscosity", "-1"}, {"viscosity", "between"}},
         {{"--penalty", "1", "--formulation", "updated"}, {"penalty", "updated"}},
     };
     check_refused("cantilever", all);
