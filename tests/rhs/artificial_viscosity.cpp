@@ -61,7 +61,8 @@ std::pair<std::vector<double>, std::vector<double>> rates_with(const Box<Dim>& b
             velocity[static_cast<std::size_t>(model.particles().id[i])];
     const std::vector<double> rates = rates_of(model, y);
     const ConstState<Dim> rate(model.layout(), rates);
-    const auto v_dot = rate.velocity(), e_dot = rate.field(heat);
+    const auto v_dot = rate.velocity();
+    const auto e_dot = rate.field(heat);
     return {{v_dot.data(), v_dot.data() + v_dot.size()},
             {e_dot.data(), e_dot.data() + e_dot.size()}};
 }
