@@ -45,7 +45,7 @@ void report(Session& session, const Parameters& p, const std::vector<Plate>& pla
         of_plate.measure("largest_tip", h.largest("tip"));
         if (!(T > 0.0)) continue;
         periods.push_back(T);
-        const bool known = runs[k].complete && p.lagrangian() && p.gravity == 0.0 &&
+        const bool known = runs[k].complete && p.lagrangian() && !p.damped() && p.gravity == 0.0 &&
                            plates[k].layers >= 10 && p.range() >= 1.5 && p.kappa() <= 0.1 &&
                            amplitude(p) < 0.7 && p.beam.length >= 8.0 * p.beam.thickness &&
                            runs[k].statistics.t_end >= 1.9 * T;
@@ -60,8 +60,8 @@ void report(Session& session, const Parameters& p, const std::vector<Plate>& pla
         findings.claim("period_of_many_layers",
                        limit_of_doubling(periods[0], periods[1], periods[2]), p.beam.period(),
                        0.01 * p.beam.period(), "beam with shear and rotary inertia",
-                       p.lagrangian() && p.gravity == 0.0 && p.range() <= 2.0 && p.layers >= 10 &&
-                           amplitude(p) < 0.7 && !session.common().smoke);
+                       p.lagrangian() && !p.damped() && p.gravity == 0.0 && p.range() <= 2.0 &&
+                           p.layers >= 10 && amplitude(p) < 0.7 && !session.common().smoke);
 }
 
 void compute(Session& session, const Parameters& p) {

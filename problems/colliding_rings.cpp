@@ -124,7 +124,7 @@ void report(Session& session, const RunRecord& run) {
     const bool known =
         run.complete && run.statistics.t_end >= 600.0 &&
         session.when_default({"radius", "inner-radius", "speed", "offset", "formulation", "range",
-                              "penalty", "contact-energy", "contact-range"});
+                              "penalty", "viscosity", "contact-energy", "contact-range"});
     findings.claim("contact_energy_at_end", h.last("contact_energy"), 0.0, 0.0,
                    "contact does not hold on to anything", known);
     findings.claim("parting_speed", h.last("parting_speed"), 0.0394, 0.003,

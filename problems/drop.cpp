@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         refuse_impossible(p);
         session.smoke_default("cells", p.cells, 10);
-        // The tension of the standard drop is 0.1; a stronger one makes waves that are as much faster.
+        // Waves of the surface are faster with the root of its tension; up to 1 the usual step serves.
         session.prefer_step(
             0.1 * std::min(1.0, std::sqrt(1.0 / p.surface_tension.value_or(1.0))) *
             relative_step({p.core, p.core_range}, {usual_core, Parameters{}.core_range}));

@@ -138,7 +138,9 @@ bool is_standard(const Session& session, const Parameters& p, const Model<2>& mo
                   solid->scheme().density == Density::summed || solid->scheme().viscosity > 0.0 ||
                   solid->scheme().closest_approach > 0.0))
         return false;
-    if (p.remembers() && (session.scheme().range != 3.0 || p.kappa() < 0.1 || p.kappa() > 10.0))
+    if (p.remembers() &&
+        (session.scheme().range != 3.0 || session.scheme().viscosity > 0.0 ||
+         session.scheme().closest_approach > 0.0 || p.kappa() < 0.1 || p.kappa() > 10.0))
         return false;
     const auto& integrator = session.integrator();
     return p.size == 8 && p.speed == 0.1 && p.turns.value_or(0.0) >= 1.0 &&

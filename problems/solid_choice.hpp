@@ -38,6 +38,9 @@ struct SolidChoice {
         return penalty.value_or(lagrangian() ? 0.1 : MaterialVectorScheme::default_penalty);
     }
 
+    double alpha() const { return viscosity.value_or(remembers() ? 0.0 : usual_viscosity); }
+    bool damped() const { return alpha() > 0.0; }
+
     void add_formulation_option(Options& options) {
         options.choice<Formulation>(
             "formulation", formulation,
@@ -66,7 +69,7 @@ struct SolidChoice {
     void add_term(ParticleModel<2>& model, std::size_t first, std::size_t count,
                   const ElasticSolid& solid, double density, double range, Scheme updated) const {
         updated.range = range;
-        updated.viscosity = viscosity.value_or(remembers() ? 0.0 : usual_viscosity);
+        updated.viscosity = alpha();
         if (lagrangian())
             model.add_term_among<TotalLagrangian<2>>(
                 first, count, StVenantKirchhoff::like(solid),

@@ -130,7 +130,7 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
     const gnuplot::Size frame = e.frame();
     gnuplot::PanelGrid grid(panels.size(), columns, frame, {{gap, gap, gap, gap}},
                             {.right = bar, .top = top});
-    grid.grow_to(9.5 * static_cast<double>(title.size()) + 2.0 * gap);
+    grid.grow_to(title, gap);
     const gnuplot::Frame last = grid.frame(std::min(panels.size(), grid.columns()) - 1);
     const double bar_at = last.right() + gap + 12.0;
     const double title_room = e.height() * title_share / (frame.height - title_share);

@@ -67,7 +67,7 @@ gnuplot::PanelGrid grid_of(std::string_view title, const std::vector<ContourPane
         panels.size(), columns,
         {across * size(0) / size.maxCoeff(), across * size(1) / size.maxCoeff()}, around,
         {.left = left, .top = top});
-    grid.grow_to(9.5 * static_cast<double>(title.size()) + 2.0 * gap);
+    grid.grow_to(title, gap);
     grid.make_even();
     return grid;
 }

@@ -53,7 +53,9 @@ PanelGrid::PanelGrid(std::size_t panels, std::size_t most_columns, Size frame,
     for (double& bottom : bottom_) bottom = size_.height - bottom;
 }
 
-void PanelGrid::grow_to(double width) {
+void PanelGrid::grow_to(std::string_view title, double margin) {
+    const double width =
+        9.5 * static_cast<double>(title.size()) + 2.0 * margin;  // of a letter: 9.5
     outside_.left += 0.5 * std::max(0.0, width - size_.width);
     size_.width = std::max(size_.width, width);
 }

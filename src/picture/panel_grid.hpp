@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spam::gnuplot {
@@ -56,8 +57,8 @@ class PanelGrid {
     double width() const { return size_.width; }
     double height() const { return size_.height; }
 
-    /// A picture at least so wide, the panels in its middle; and of whole even numbers of pixels, as films want them.
-    void grow_to(double width);
+    /// A picture wide enough for its title, the panels in its middle; and of whole even numbers of pixels, as films want them.
+    void grow_to(std::string_view title, double margin);
     void make_even();
 
     Frame frame(std::size_t panel) const;

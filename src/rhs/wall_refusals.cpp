@@ -32,7 +32,7 @@ void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
                    "mirror";
         if (nature.own_heat && wall.passes_energy())
             return fmt::format(
-                "the heat of '{}' is no energy of particles, which a wall could take; use a mirror",
+                "a wall that exchanges energy cannot take up the heat of '{}'; use a mirror",
                 nature.description);
         if (wall.temperature && !nature.conducts)
             return "nothing here conducts heat, and the temperature behind a wall has no effect; leave it "

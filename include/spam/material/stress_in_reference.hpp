@@ -8,8 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace spam {
 
@@ -55,8 +59,9 @@ class StressInReference {
             std::copy_n(stress_in_y + trial.c.size() * i, trial.c.size(), trial.c.begin());
             return returned(i, trial);
         }
-        Mat<Dim> stress(std::size_t i, const Mat<Dim>& F) const {
-            const SymTensor<Dim> s = sigma(i);
+        Mat<Dim> stress(std::size_t i, const Mat<Dim>& F) const { return of(sigma(i), F); }
+        /// P of this sigma.
+        static Mat<Dim> of(const SymTensor<Dim>& s, const Mat<Dim>& F) {
             const double J = determinant(F);
             const Mat<Dim> back = inverse(F);
             Mat<Dim> P;
@@ -84,7 +89,8 @@ class StressInReference {
             return [now = in_state(t, state), rate_of = std::move(rate_of), density = density_,
                     s_dot = rate.find(Field::stress), e_dot = rate.find(Field::energy)](
                        std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot) {
-                const Mat<Dim> back = inverse(F), P = now.stress(i, F);
+                const SymTensor<Dim> sigma = now.sigma(i);
+                const Mat<Dim> back = inverse(F), P = now.of(sigma, F);
                 Mat<Dim> grad_v;
                 double power = 0.0;
                 for (int a = 0; a < Dim; ++a)
@@ -92,7 +98,7 @@ class StressInReference {
                         for (int c = 0; c < Dim; ++c) grad_v(a, b) += F_dot(b, c) * back(c, a);
                         power += P(a, b) * F_dot(a, b);
                     }
-                const SymTensor<Dim> found = rate_of(i, grad_v, now.sigma(i));
+                const SymTensor<Dim> found = rate_of(i, grad_v, sigma);
                 std::copy(found.c.begin(), found.c.end(), s_dot + found.c.size() * i);
                 e_dot[i] = power / density;
             };
