@@ -19,11 +19,11 @@ void Scheme::validate(int dim) const {
         throw InputError(
             "density: chain_rule differs from continuity only when particles move with an averaged "
             "velocity; add --transport average or monaghan, or use --density continuity");
-    if (angular_momentum != AngularMomentum::free && dim != 2)
+    if (angular_momentum != AngularMomentum::free && dim == 1)
         throw InputError(
-            fmt::format("angular-momentum: {} is a plane law (one rotation axis), this "
-                        "problem has {} dimension{}; use --angular-momentum free",
-                        to_string(angular_momentum), dim, dim == 1 ? "" : "s"));
+            fmt::format("angular-momentum: {} keeps what turns, and on a line nothing does; use "
+                        "--angular-momentum free",
+                        to_string(angular_momentum)));
     if (!(viscosity >= 0.0) || !std::isfinite(viscosity))
         throw InputError(fmt::format(
             "viscosity: {} must be 0 (none) or a positive number; try --viscosity 1", viscosity));

@@ -6,59 +6,71 @@
 namespace spam {
 namespace {
 
-Vec<2> vector_at(const double* field, std::size_t i) { return {{field[2 * i], field[2 * i + 1]}}; }
+template <int Dim>
+Vec<Dim> vector_at(const double* field, std::size_t i) {
+    Vec<Dim> v;
+    std::copy_n(field + Dim * i, Dim, v.c.begin());
+    return v;
+}
 
 }  // namespace
 
-void GaussForces::constrain(const Groups& groups, const double* x, const double* u, const double* v,
-                            double* v_dot) {
+template <int Dim>
+void GaussForces<Dim>::constrain(const Groups& groups, const double* x, const double* u,
+                                 const double* v, double* v_dot) {
     const auto first = first_.of(groups.group, groups.count, [&](std::size_t i) {
         const double m = groups.mass[i];
-        return std::array<double, 7>{m,
-                                     m * x[2 * i],
-                                     m * x[2 * i + 1],
-                                     m * u[2 * i],
-                                     m * u[2 * i + 1],
-                                     m * v[2 * i],
-                                     m * v[2 * i + 1]};
+        std::array<double, 1 + 3 * Dim> terms{m};
+        for (std::size_t a = 0; a < Dim; ++a) {
+            terms[1 + a] = m * x[Dim * i + a];
+            terms[1 + Dim + a] = m * u[Dim * i + a];
+            terms[1 + 2 * Dim + a] = m * v[Dim * i + a];
+        }
+        return terms;
     });
     means_.clear();
-    for (const auto& s : first)
-        means_.push_back({{{s[1] / s[0], s[2] / s[0]}},
-                          {{s[3] / s[0], s[4] / s[0]}},
-                          {{s[5] / s[0], s[6] / s[0]}}});
+    for (const auto& s : first) {
+        Means& mean = means_.emplace_back();
+        for (std::size_t a = 0; a < Dim; ++a) {
+            mean.centre.c[a] = s[1 + a] / s[0];
+            mean.transport.c[a] = s[1 + Dim + a] / s[0];
+            mean.velocity.c[a] = s[1 + 2 * Dim + a] / s[0];
+        }
+    }
     const auto means_of = [&](std::size_t i) -> const Means& {
         return means_[static_cast<std::size_t>(groups.group[i])];
     };
     const auto moments = moments_.of(groups.group, groups.count, [&](std::size_t i) {
         const Means& mean = means_of(i);
-        const double m = groups.mass[i];
-        const Vec<2> r = vector_at(x, i) - mean.centre, r_dot = vector_at(u, i) - mean.transport,
-                     w = vector_at(v, i) - mean.velocity;
-        return std::array<double, 4>{m * dot(r, r), m * cross(r, w), m * dot(w, w),
-                                     m * (cross(r_dot, w) + cross(r, vector_at(v_dot, i)))};
+        return Law::terms(groups.mass[i], vector_at<Dim>(x, i) - mean.centre,
+                          vector_at<Dim>(u, i) - mean.transport,
+                          vector_at<Dim>(v, i) - mean.velocity, vector_at<Dim>(v_dot, i));
     });
     multipliers_.clear();
-    for (const auto& [inertia, L, twice_K, L_dot] : moments)
-        multipliers_.push_back(gauss_multipliers(inertia, L, twice_K, L_dot));
+    for (const auto& sums : moments) multipliers_.push_back(Law::multipliers(sums));
     parallel_for(groups.mass.size(), [&](std::size_t i) {
         const Means& mean = means_of(i);
-        const GaussMultipliers& of_group = multipliers_[static_cast<std::size_t>(groups.group[i])];
-        const Vec<2> r = vector_at(x, i) - mean.centre, w = vector_at(v, i) - mean.velocity;
-        v_dot[2 * i] -= of_group.alpha * w[0] + of_group.beta * r[1];
-        v_dot[2 * i + 1] -= of_group.alpha * w[1] - of_group.beta * r[0];
+        const Vec<Dim> change = Law::acceleration(
+            multipliers_[static_cast<std::size_t>(groups.group[i])],
+            vector_at<Dim>(x, i) - mean.centre, vector_at<Dim>(v, i) - mean.velocity);
+        for (std::size_t a = 0; a < Dim; ++a) v_dot[Dim * i + a] += change.c[a];
     });
 }
 
-double GaussForces::health() const {
+template <int Dim>
+double GaussForces<Dim>::health() const {
     double smallest = 1.0;
     for (const auto& m : multipliers_) smallest = std::min(smallest, m.health);
     return smallest;
 }
 
-bool GaussForces::singular() const {
+template <int Dim>
+bool GaussForces<Dim>::singular() const {
     return std::any_of(multipliers_.begin(), multipliers_.end(),
                        [](const auto& m) { return m.singular; });
 }
+
+template class GaussForces<2>;
+template class GaussForces<3>;
 
 }  // namespace spam

@@ -7,10 +7,11 @@
 
 namespace spam {
 
-/// Gauss' constraint (physics/gauss_constraint.hpp) of every group of a plane model.
+/// Gauss' constraint (physics/gauss_constraint.hpp) of every group of a model.
+template <int Dim>
 class GaussForces {
   public:
-    /// Adds the constraint to v_dot. x, u, v, v_dot: 2 x N.
+    /// Adds the constraint to v_dot. x, u, v, v_dot: Dim x N.
     void constrain(const Groups& groups, const double* x, const double* u, const double* v,
                    double* v_dot);
 
@@ -19,14 +20,24 @@ class GaussForces {
     bool singular() const;
 
   private:
+    using Law = GaussLaw<Dim>;
     struct Means {
-        Vec<2> centre, transport, velocity;  ///< of x, u and v, by mass
+        Vec<Dim> centre, transport, velocity;  ///< of x, u and v, by mass
     };
 
-    ExactGroupSums<7> first_;    ///< mass, mass x, mass u, mass v
-    ExactGroupSums<4> moments_;  ///< about the centre: inertia, L, 2 K, dL/dt
+    ExactGroupSums<1 + 3 * Dim> first_;     ///< mass, mass x, mass u, mass v
+    ExactGroupSums<Law::numbers> moments_;  ///< about the centre
     std::vector<Means> means_;
-    std::vector<GaussMultipliers> multipliers_;
+    std::vector<typename Law::Multipliers> multipliers_;
+};
+
+/// On a line nothing turns, and the scheme is refused.
+template <>
+class GaussForces<1> {
+  public:
+    void constrain(const Groups&, const double*, const double*, const double*, double*) {}
+    double health() const { return 1.0; }
+    bool singular() const { return false; }
 };
 
 }  // namespace spam

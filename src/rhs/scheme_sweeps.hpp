@@ -11,7 +11,7 @@
 #include <spam/physics/pair_friction.hpp>
 #include <spam/physics/pressure_force.hpp>
 #include <spam/physics/shifting.hpp>
-#include <spam/physics/torque_balance.hpp>
+#include <spam/physics/torque_balance_in_space.hpp>
 #include <spam/physics/transport.hpp>
 #include <spam/physics/velocity_gradient.hpp>
 #include <spam/physics/viscosity.hpp>
@@ -80,8 +80,8 @@ struct ForceSweeps {
     }
     template <Work work, class Make, class Velocity>
     static Sweep<Dim> by_force(const Scheme& scheme, const Make& make, Velocity velocity) {
-        if constexpr (Dim == 2 && work == Work::mean)
-            if (scheme.balances_torques()) return make(velocity, TorqueSums{});
+        if constexpr (Dim > 1 && work == Work::mean)
+            if (scheme.balances_torques()) return make(velocity, TorqueSums<Dim>{});
         return make(velocity, StressForce<Dim, work>{});
     }
 };

@@ -20,11 +20,20 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
     if (matter != Matter::solid || scheme.mean_density != MeanDensityKind::arithmetic)
         return sweeps;
     sweeps.force = ForceSweeps<LucysSweep, Dim, ArithmeticMean>::solid(scheme);
+    if constexpr (Dim == 3) {
+        if (sweeps.torques != nullptr)
+            sweeps.torques =
+                run_sweep<LucysSweep, W, Dim, BalancedRecord<Dim>, SpaceTorqueSums<true>>;
+        if (scheme.balances_torques() && scheme.density != Density::chain_rule &&
+            scheme.viscosity == 0.0)
+            sweeps.second =
+                run_sweep<LucysSweep, W, Dim, BalancedRecord<Dim>, BalancedStressForce<Dim>>;
+    }
     if constexpr (Dim == 2)
         if (scheme.balances_torques() && scheme.density != Density::chain_rule &&
             scheme.viscosity == 0.0) {
             sweeps.second =
-                run_sweep<LucysSweep, W, Dim, TransportRecord<Dim>, BalancedStressForce>;
+                run_sweep<LucysSweep, W, Dim, TransportRecord<Dim>, BalancedStressForce<Dim>>;
             if (scheme.angular_momentum == AngularMomentum::torque_pair)
                 sweeps.one_balance =
                     ForceSweeps<LucysSweep, Dim, ArithmeticMean>::one_balance(scheme);

@@ -2,7 +2,7 @@
 #include "carried_energy.hpp"
 #include "constitution.hpp"
 #include "gauss_forces.hpp"
-#include "torque_factors.hpp"
+#include "torque_factors_in_space.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/parts.hpp>
@@ -75,9 +75,9 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
                 "angular-momentum: gauss turns bodies about their centres, which a periodic box "
                 "does "
                 "not have; use free or torque_pair, or a box without periods");
-        gauss_ = std::make_unique<GaussForces>();
+        gauss_ = std::make_unique<GaussForces<Dim>>();
     } else if (law != AngularMomentum::free) {
-        torques_ = std::make_unique<TorqueFactors>(n, law);
+        torques_ = std::make_unique<TorqueFactors<Dim>>(n, scheme);
         if (sweeps_->gradient != nullptr) heat_.resize(n);
     }
     prepare_damping();
@@ -95,8 +95,8 @@ void SmoothParticles<Dim>::set_nature() {
     nature.moves_with_velocity = scheme_.transport == Transport::plain;
     nature.potential = false;
     nature.conducts = constitution_->conducts();
-    // Torques of particles jump where one changes its sign; Gauss' principle sets in and out.
-    nature.smooth = scheme_.angular_momentum != AngularMomentum::torque_particle &&
+    // In the plane torques of particles jump where one changes its sign; Gauss' principle sets in and out.
+    nature.smooth = (Dim == 3 || scheme_.angular_momentum != AngularMomentum::torque_particle) &&
                     scheme_.angular_momentum != AngularMomentum::gauss && constitution_->smooth();
     // In space a fluid's pressures act along r_ij; everything else does not, unless it is balanced.
     nature.promises = scheme_.promises(Dim);
@@ -177,27 +177,35 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
     return {};
 }
 
-/// The first sweep finds torques and the heat conducted, the second forces and their work. One is enough
-/// where all pairs have one R.
+/// The first sweep finds torques and the heat conducted, the last one forces and their work. One is enough
+/// where all pairs have one R. In space there are more between them: Newton's method for the factors of pairs starts
+/// from 1 at every state, or rates would depend on those before.
 template <int Dim>
 void SmoothParticles<Dim>::balance(const Now& now, const SweepInput<Dim>& in,
                                    SweepOutput<Dim>& out) {
     SweepOutput<Dim> first = out;
-    first.positive_torque = torques_->positive();
-    first.negative_torque = torques_->negative();
+    torques_->take_sums(first);
     std::fill(heat_.begin(), heat_.end(), 0.0);
     first.e_dot = heat_.empty() ? nullptr : heat_.data();
     const double* const v = now.state.velocity().data();
-    if (sweeps_->one_balance != nullptr && group_count_ == 1) {
-        first.torque_parts = torques_->parts();
-        first.e_dot = out.e_dot;
-        sweeps_->one_balance(in, first);
-        torques_->balance(groups(), out.x_dot, v);
-        return torques_->add_parts(out.v_dot, out.e_dot);
-    }
+    if constexpr (Dim == 2)
+        if (sweeps_->one_balance != nullptr && group_count_ == 1) {
+            first.torque_parts = torques_->parts();
+            first.e_dot = out.e_dot;
+            sweeps_->one_balance(in, first);
+            torques_->balance(groups(), out.x_dot, v);
+            return torques_->add_parts(out.v_dot, out.e_dot);
+        }
     sweeps_->force(in, first);
     torques_->balance(groups(), out.x_dot, v);
     load_transport(now);
+    while (torques_->wants_sums()) {
+        SweepOutput<Dim> torques;
+        torques_->take_sums(torques);
+        sweeps_->torques(in, torques);
+        torques_->go_on(groups());
+        load_transport(now);
+    }
     if (scheme_.density != Density::chain_rule) out.rho_dot = nullptr;
     out.close = nullptr;
     sweeps_->second(in, out);
@@ -240,20 +248,25 @@ std::string SmoothParticles<Dim>::complaint(std::span<const double> rho) const {
 /// What the second sweep reads beyond the first.
 template <int Dim>
 void SmoothParticles<Dim>::load_transport(const Now& now) {
-    using R = ViscousRecord<Dim>;
+    using R = BalancedRecord<Dim>;
     constexpr auto d = static_cast<std::size_t>(Dim);
     const double* const u = now.rate.position().data();
     const bool sound = sweeps_->gradient != nullptr && scheme_.viscosity > 0.0;
     constexpr int from = R::template at<column::Transport>;
     static_assert(R::template at<column::NegativeFactor> == from + Dim &&
                   R::template at<column::PositiveFactor> == from + Dim + 1 &&
-                  R::template at<column::SoundSpeed> == from + Dim + 2);
-    packed_->template write<R>(from, Dim + 3, [&](std::size_t i, double* number) {
+                  R::template at<column::SoundSpeed> == from + Dim + 2 &&
+                  R::template at<column::TorqueMultiplier> == from + Dim + 3);
+    const bool balanced_in_space = Dim == 3 && torques_ != nullptr;
+    const int count = balanced_in_space ? Dim + 3 + Dim : Dim + 3;
+    packed_->template write<R>(from, count, [&](std::size_t i, double* number) {
         std::copy_n(u + i * d, d, number);
-        const TorqueScale s = torques_ ? torques_->of(i, group_[i]) : TorqueScale{};
-        number[d] = s.negative;
-        number[d + 1] = s.positive;
-        if (sound) number[d + 2] = constitution_->sound_speed_of(i);
+        number[d] = number[d + 1] = 1.0;
+        if (torques_) torques_->write(i, group_[i], number + d);
+        if (sound)
+            number[d + 2] = constitution_->sound_speed_of(i);
+        else if (balanced_in_space)  // these records have the column, needed or not
+            number[d + 2] = viscosity_.sound_speed;
     });
 }
 
@@ -262,12 +275,25 @@ std::span<const TorqueScale> SmoothParticles<Dim>::torque_scales() const {
     return torques_ ? torques_->scales() : std::span<const TorqueScale>{};
 }
 
+template <int Dim>
+TorqueSearch SmoothParticles<Dim>::torque_search() const {
+    return torques_ ? torques_->search() : TorqueSearch{};
+}
+
 /// At the start it counts as singular: a body that rotates rigidly has no need of the constraint.
 template <int Dim>
 std::vector<Remark> SmoothParticles<Dim>::watch(double t, std::span<const double> y) {
-    if (!gauss_) return {};
+    const bool may_fail =
+        Dim == 3 && torques_ != nullptr && scheme_.transport == Transport::average;
+    if (!gauss_ && !may_fail) return {};
     watched_rates_.resize(y.size());
     this->model().rates(t, y, watched_rates_);
+    if (may_fail) {
+        const double left = torques_->search().residual;
+        const bool fails = left > 1e-12;
+        if (fails == std::exchange(torques_fail_, fails)) return {};
+        return {{fails ? "torques not balanced" : "torques balanced", left}};
+    }
     const bool works = !gauss_->singular();
     if (works == std::exchange(gauss_works_, works)) return {};
     if (works) return {{"gauss constraint works", gauss_->health()}};
@@ -277,7 +303,7 @@ std::vector<Remark> SmoothParticles<Dim>::watch(double t, std::span<const double
 
 template <int Dim>
 void SmoothParticles<Dim>::remember(Memory<Dim>& memory) {
-    memory.run(works_kind, gauss_works_);
+    memory.run(works_kind, gauss_works_, torques_fail_);
 }
 
 template <int Dim>

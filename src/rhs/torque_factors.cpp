@@ -8,14 +8,16 @@
 namespace spam {
 
 /// Of one particle, where only the sum of its torques counts.
-TorqueFactors::Torques TorqueFactors::torques_of(std::size_t i) const {
+template <int Dim>
+auto TorqueFactors<Dim>::torques_of(std::size_t i) const -> Torques {
     const double positive = 0.5 * positive_[i], negative = 0.5 * negative_[i];
     if (law_ != AngularMomentum::torque_particle) return {positive, negative};
     const double T = positive - negative;
     return {std::max(T, 0.0), std::max(-T, 0.0)};
 }
 
-void TorqueFactors::balance(const Groups& groups, const double* u, const double* v) {
+template <int Dim>
+void TorqueFactors<Dim>::balance(const Groups& groups, const double* u, const double* v) {
     const auto terms = [&, this](std::size_t i) {
         const Torques torques = torques_of(i);
         return std::array<double, 3>{
@@ -27,7 +29,8 @@ void TorqueFactors::balance(const Groups& groups, const double* u, const double*
         scales_.push_back(torque_balance(P, M, X));
 }
 
-void TorqueFactors::add_parts(double* v_dot, double* e_dot) const {
+template <int Dim>
+void TorqueFactors<Dim>::add_parts(double* v_dot, double* e_dot) const {
     const double positive = scales_.front().positive - 1.0,
                  negative = scales_.front().negative - 1.0;
     parallel_for(positive_.size(), [=, this](std::size_t i) {
@@ -37,5 +40,8 @@ void TorqueFactors::add_parts(double* v_dot, double* e_dot) const {
         e_dot[i] += positive * part[2] - negative * part[5];
     });
 }
+
+template class TorqueFactors<1>;
+template class TorqueFactors<2>;
 
 }  // namespace spam

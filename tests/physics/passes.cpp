@@ -181,7 +181,7 @@ struct WithoutMass {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(on_the_line) { every_pass<1>(); }
-BOOST_AUTO_TEST_CASE(in_the_plane) { every_pass<2, TorqueSums, BalancedStressForce>(); }
+BOOST_AUTO_TEST_CASE(in_the_plane) { every_pass<2, TorqueSums<2>, BalancedStressForce<2>>(); }
 BOOST_AUTO_TEST_CASE(in_space) { every_pass<3>(); }
 BOOST_AUTO_TEST_CASE(a_wrong_pass_is_noticed) {
     const Cloud<2> cloud;

@@ -139,10 +139,13 @@ class OracleModel final : public Model<Dim> {
         if (mutation_ == Mutation::absolute_position) f *= 1.0 + 0.01 * x_[at(i)][0] * x_[at(j)][0];
         return f;
     }
-    static double cross(const V& a, const V& b) {
-        if constexpr (Dim == 2) return a[0] * b[1] - a[1] * b[0];
-        return 0.0;
+    /// In space, where a plane or a line lies.
+    static Eigen::Vector3d in_space(const V& a) {
+        Eigen::Vector3d r = Eigen::Vector3d::Zero();
+        r.head<Dim>() = a;
+        return r;
     }
+    static Eigen::Vector3d cross(const V& a, const V& b) { return in_space(a).cross(in_space(b)); }
 
     void load(std::span<const double> y) {
         const ConstState<Dim> state(this->layout(), y);
@@ -220,50 +223,64 @@ class OracleModel final : public Model<Dim> {
         return scheme_.balance == Balance::global ? 1 : this->particles().bodies();
     }
 
-    double torque(int i) const {
-        double T = 0.0;
-        for (int j = 0; j < n_; ++j)
-            T += 0.5 * m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
+    Eigen::Vector3d torque(int i, int j) const {
+        return m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
+    }
+    Eigen::Vector3d torque(int i) const {
+        Eigen::Vector3d T = Eigen::Vector3d::Zero();
+        for (int j = 0; j < n_; ++j) T += 0.5 * torque(i, j);
         return T;
     }
+    static double factor(const Eigen::Vector3d& T, const Eigen::Vector3d& theta) {
+        return T.isZero(0.0) ? 1.0 : std::exp(-theta.dot(T.normalized()));
+    }
 
-    /// R of every group, [HHM04] VIII with physics X = sum m u x v.
-    std::vector<double> factors() const {
-        std::vector<double> R;
+    /// theta of every group, where sum |T| exp(-theta.n) - theta.X is least, X = sum m u x v, by Newton's method. In
+    /// the plane e^theta is the R of [HHM04] VIII.
+    std::vector<Eigen::Vector3d> multipliers() const {
+        std::vector<Eigen::Vector3d> all;
         for (int group = 0; group < groups(); ++group) {
-            double P = 0.0, Q = 0.0, X = 0.0;
+            std::vector<Eigen::Vector3d> torques;
+            Eigen::Vector3d X = Eigen::Vector3d::Zero();
             for (int i = 0; i < n_; ++i) {
                 if (!in(i, group)) continue;
                 if (mutation_ != Mutation::without_X) X += m(i) * cross(u_[at(i)], v_[at(i)]);
-                const double T_i = torque(i);
                 if (scheme_.angular_momentum == AngularMomentum::torque_particle)
-                    (T_i > 0.0 ? P : Q) += std::abs(T_i);
+                    torques.push_back(torque(i));
                 else
-                    for (int j = 0; j < n_; ++j) {
-                        const double T =
-                            0.5 * m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
-                        (T > 0.0 ? P : Q) += std::abs(T);
-                    }
+                    for (int j = 0; j < n_; ++j) torques.push_back(0.5 * torque(i, j));
             }
-            R.push_back((X + std::sqrt(X * X + 4.0 * P * Q)) / (2.0 * Q));
+            if (scheme_.transport != Transport::average) X.setZero();
+            Eigen::Vector3d theta = Eigen::Vector3d::Zero();
+            for (int k = 0; k < 60; ++k) {
+                Eigen::Vector3d rest = X;
+                Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+                for (const Eigen::Vector3d& T : torques) {
+                    if (T.isZero(0.0)) continue;
+                    rest += factor(T, theta) * T;
+                    H += factor(T, theta) * T * T.transpose() / T.norm();
+                }
+                Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> inverse;
+                inverse.setThreshold(1e-12);
+                const Eigen::Vector3d step = inverse.compute(H).solve(rest);
+                theta += step / std::max(1.0, 2.0 * step.norm());
+            }
+            all.push_back(theta);
         }
-        return R;
+        return all;
     }
-
-    /// s_i of every particle (torque_particle); by the sign of T_ij (torque_pair).
-    double factor(int i, double T_ij, const std::vector<double>& R,
-                  const std::vector<double>& T) const {
-        const int group = scheme_.balance == Balance::global ? 0 : this->particles().body[at(i)];
-        const bool particle = scheme_.angular_momentum == AngularMomentum::torque_particle;
-        return (particle ? T[at(i)] : T_ij) < 0.0 ? R[at(group)] : 1.0 / R[at(group)];
+    Eigen::Vector3d of_group(int i, const std::vector<Eigen::Vector3d>& theta) const {
+        return theta[scheme_.balance == Balance::global ? 0 : at(this->particles().body[at(i)])];
     }
 
     void forces(const State<Dim>& rate) const {
         const bool balance = scheme_.angular_momentum == AngularMomentum::torque_pair ||
                              scheme_.angular_momentum == AngularMomentum::torque_particle;
-        const auto R = balance ? factors() : std::vector<double>{};
-        std::vector<double> torques;
-        for (int i = 0; i < n_ && balance; ++i) torques.push_back(torque(i));
+        const auto theta = balance ? multipliers() : std::vector<Eigen::Vector3d>{};
+        const bool particle = scheme_.angular_momentum == AngularMomentum::torque_particle;
+        std::vector<double> own;  // factors of particles
+        for (int i = 0; i < n_ && balance && particle; ++i)
+            own.push_back(factor(torque(i), of_group(i, theta)));
         for (int i = 0; i < n_; ++i) {
             V v_dot = V::Zero();
             double e_dot = 0.0;
@@ -271,14 +288,15 @@ class OracleModel final : public Model<Dim> {
                 if (j == i || skip(i, j)) continue;
                 const V before = force(i, j);
                 V f = before;
-                if constexpr (Dim == 2)
-                    if (balance) {
-                        const V r = x_[at(i)] - x_[at(j)];
-                        const double T = cross(r, f);
-                        const double s =
-                            (factor(i, T, R, torques) + factor(j, T, R, torques)) / 2.0;
-                        f += (s - 1.0) * T / r.squaredNorm() * V(-r[1], r[0]);
-                    }
+                if (balance) {
+                    const V r = x_[at(i)] - x_[at(j)];
+                    const Eigen::Vector3d T = cross(r, f);
+                    const double s =
+                        particle
+                            ? 0.5 * (own[at(i)] + own[at(j)])
+                            : 0.5 * (factor(T, of_group(i, theta)) + factor(T, of_group(j, theta)));
+                    f += (s - 1.0) / r.squaredNorm() * T.cross(in_space(r)).template head<Dim>();
+                }
                 v_dot += m(j) * f;
                 const V& working = mutation_ == Mutation::work_before_scaling ? before : f;
                 e_dot -= (mutation_ == Mutation::full_work ? 1.0 : 0.5) * m(j) *
@@ -292,7 +310,9 @@ class OracleModel final : public Model<Dim> {
     /// [HHM04] VII with the multipliers derived again.
     void gauss(const State<Dim>& rate) const {
         for (int group = 0; group < groups(); ++group) {
-            double mass = 0.0, I = 0.0, L = 0.0, K = 0.0, L_dot = 0.0;
+            double mass = 0.0, K = 0.0;
+            Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
+            Eigen::Vector3d L = Eigen::Vector3d::Zero(), L_dot = L;
             V X = V::Zero(), U = V::Zero(), transport = V::Zero();
             for (int i = 0; i < n_; ++i)
                 if (in(i, group)) {
@@ -307,25 +327,23 @@ class OracleModel final : public Model<Dim> {
             for (int i = 0; i < n_; ++i)
                 if (in(i, group)) {
                     const V r = x_[at(i)] - X, v = v_[at(i)] - U;
-                    I += m(i) * r.squaredNorm();
+                    I += m(i) * (r.squaredNorm() * Eigen::Matrix3d::Identity() -
+                                 in_space(r) * in_space(r).transpose());
                     L += m(i) * cross(r, v);
                     K += m(i) * v.squaredNorm() / 2.0;
                     L_dot += m(i) * (cross(V(u_[at(i)] - transport), v) +
                                      cross(r, V(rate.velocity().col(i))));
                 }
-            double beta = -L_dot / (I - L * L / (2.0 * K));
+            const Eigen::Matrix3d reduced = I - L * L.transpose() / (2.0 * K);
+            Eigen::Vector3d beta = -reduced.fullPivLu().solve(L_dot);
             if (mutation_ == Mutation::printed_multipliers) beta = -beta;
-            const double alpha = beta * L / (2.0 * K);
-            if (std::abs(alpha) > std::abs(L) / I) continue;
+            const double alpha = beta.dot(L) / (2.0 * K);
+            if (std::abs(alpha) > I.fullPivLu().solve(L).norm()) continue;
             for (int i = 0; i < n_; ++i)
-                if (in(i, group)) {
-                    V F = -alpha * (v_[at(i)] - U);
-                    if constexpr (Dim == 2) {
-                        const V r = x_[at(i)] - X;
-                        F += beta * V(-r[1], r[0]);
-                    }
-                    rate.velocity().col(i) += F;
-                }
+                if (in(i, group))
+                    rate.velocity().col(i) +=
+                        beta.cross(in_space(V(x_[at(i)] - X))).template head<Dim>() -
+                        alpha * (v_[at(i)] - U);
         }
     }
 

@@ -79,7 +79,7 @@ std::vector<Scheme> all_schemes(Kernel kernel = Kernel::lucy) {
                      {AngularMomentum::free, AngularMomentum::gauss,
                       AngularMomentum::torque_particle, AngularMomentum::torque_pair})
                     for (const double viscosity : {0.0, 0.3}) {
-                        if (L != AngularMomentum::free && Dim != 2) continue;
+                        if (L != AngularMomentum::free && Dim == 1) continue;
                         if (density == Density::chain_rule && transport == Transport::plain)
                             continue;
                         schemes.push_back({.density = density,

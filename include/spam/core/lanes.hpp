@@ -3,8 +3,10 @@
 
 #include <spam/core/vec.hpp>
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -36,10 +38,11 @@ namespace detail {
 template <int W>
 struct VectorOf;
 // One by one: a vector_size that depends on a template parameter is ignored by GCC.
-#define SPAM_VECTOR(W)                                              \
-    template <>                                                     \
-    struct VectorOf<W> {                                            \
-        typedef double Numbers __attribute__((vector_size(8 * W))); \
+#define SPAM_VECTOR(W)                                                  \
+    template <>                                                         \
+    struct VectorOf<W> {                                                \
+        typedef double Numbers __attribute__((vector_size(8 * W)));     \
+        typedef std::uint64_t Bits __attribute__((vector_size(8 * W))); \
     };
 SPAM_VECTOR(2)
 SPAM_VECTOR(4)
@@ -155,6 +158,12 @@ struct Lanes {
         return r;
     }
 
+    /// 2^k of numbers that were made by adding a whole k from -1022 to 1023 to 1.5 2^52: k is then in their lowest bits.
+    SPAM_INLINE friend Lanes power_of_two(const Lanes& shifted) {
+        using Bits = typename detail::VectorOf<W>::Bits;
+        return Vector(((Bits)shifted.v + 1023) << 52);
+    }
+
   private:
     SPAM_INLINE static Lanes divide(const Lanes& a, const Lanes& b) {
 #if defined(__AVX512F__)
@@ -261,6 +270,27 @@ SPAM_INLINE T rounded(const T& x) {
 SPAM_INLINE double sqrt_by_products(double x) { return std::sqrt(x); }
 SPAM_INLINE unsigned lanes_below(double a, double b) { return a < b ? 1U : 0U; }
 SPAM_INLINE double where_below(double a, double b, double x) { return a < b ? x : 0.0; }
+SPAM_INLINE double power_of_two(double shifted) {
+    return std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023) << 52);
+}
+
+/// e^x to two units in the last place, and with the same bits in any number of lanes; beyond -700 and 700 as there.
+/// x = k ln 2 + r, and the series of e^r, |r| < .35, to r^13.
+template <class T>
+SPAM_INLINE T exponential(const T& given) {
+    using std::max;
+    const T x = -max(-max(given, T(-700.0)), T(-700.0));
+    constexpr double magic = 0x1.8p52;  // the next whole number is rounded to
+    const T shifted = rounded(x * T(0x1.71547652b82fep0)) + T(magic);
+    const T k = rounded(shifted) - T(magic);
+    const T r = (x - k * T(0x1.62e42fefa0000p-1)) - k * T(0x1.cf79abc9e3b3ap-40);
+    T sum = T(1.0 / 6227020800.0);
+    for (const double factorial : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0,
+                                   720.0, 120.0, 24.0, 6.0, 2.0, 1.0, 1.0})
+        sum = sum * r + T(1.0 / factorial);
+    return sum * power_of_two(shifted);
+}
+
 SPAM_INLINE double lane(double x, int) { return x; }
 template <int W>
 SPAM_INLINE double lane(const Lanes<W>& x, int l) {

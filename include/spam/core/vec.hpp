@@ -48,6 +48,12 @@ constexpr T cross(const Vec<2, T>& a, const Vec<2, T>& b) {
     return a[0] * b[1] - a[1] * b[0];
 }
 
+/// a x b in space.
+template <class T>
+constexpr Vec<3, T> cross(const Vec<3, T>& a, const Vec<3, T>& b) {
+    return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+
 /// max(x, 0), exactly, and without the branch that a compiler makes of max in scalar code: near the
 /// range of a weight function it would be mispredicted again and again.
 inline double positive_part(double x) { return 0.5 * (x + std::abs(x)); }

@@ -67,6 +67,12 @@ struct PositiveFactor {
     T positive_factor = T(1.0);  ///< 1/R
 };
 
+/// In space. An axial vector: bodies whose torques are balanced have no images behind mirrors.
+template <int Dim, class T>
+struct TorqueMultiplier {
+    Vec<Dim, T> theta;
+};
+
 template <int Dim, class T>
 struct SoundSpeed {
     T c{};
@@ -172,5 +178,9 @@ using TransportRecord =
 /// The same where the artificial viscosity needs every particle's own sound speed.
 template <int Dim, class T = double>
 using ViscousRecord = typename TransportRecord<Dim, T>::template And<column::SoundSpeed>;
+
+/// The same where torques are balanced in space.
+template <int Dim, class T = double>
+using BalancedRecord = typename ViscousRecord<Dim, T>::template And<column::TorqueMultiplier>;
 
 }  // namespace spam

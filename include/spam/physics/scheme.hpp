@@ -50,7 +50,7 @@ struct Scheme {
     Transport transport = Transport::plain;
     /// --mean-density
     MeanDensityKind mean_density = MeanDensityKind::arithmetic;
-    /// --angular-momentum; other than `free` in the plane only.
+    /// --angular-momentum; other than `free` in the plane and in space.
     AngularMomentum angular_momentum = AngularMomentum::free;
     /// --balance
     Balance balance = Balance::body;

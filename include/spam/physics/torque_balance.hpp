@@ -18,9 +18,17 @@
 /// is not Galilean covariant; with v or ⟨v⟩_Monaghan X vanishes and it is.
 namespace spam {
 
+/// What a scheme needs of the torques of its first sweep; in space see torque_balance_in_space.hpp.
+template <int Dim>
+struct TorqueSums;
+/// The stress force with balanced torques; its power enters the energy like any force's.
+template <int Dim>
+struct BalancedStressForce;
+
 /// Sums over the pairs of particle i: of its positive torques and of minus its negative ones (every
 /// pair is met twice, once from each end).
-struct TorqueSums {
+template <>
+struct TorqueSums<2> {
     template <class T>
     struct Sums {
         T positive{};
@@ -130,8 +138,8 @@ Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
     return {{f_ij[0] + k * pair.r_ji[1], f_ij[1] - k * pair.r_ji[0]}};
 }
 
-/// The stress force with balanced torques; its power enters the energy like any force's.
-struct BalancedStressForce {
+template <>
+struct BalancedStressForce<2> {
     template <class T>
     using Sums = ForceSums<2, T>;
 

@@ -21,11 +21,20 @@ template <int Dim>
 class PackedParticles;
 struct PackedFields;
 struct Groups;
+template <int Dim>
 class TorqueFactors;
 struct RestingBody;
+template <int Dim>
 class GaussForces;
 template <int Dim>
 class Constitution;
+
+/// What balanced torques in space have taken so far: how often they were balanced, by how many sums over torques
+/// in all (sweeps over pairs with torque_pair), and what is left of them by the sum of their sizes, the latest time.
+struct TorqueSearch {
+    std::size_t balances = 0, sums = 0;
+    double residual = 0.0;
+};
 
 /// Smooth particles with stress and energy, [HHM04] II, [HH07] 4: y = (x, v, [rho], [sigma], e). The scheme
 /// decides whether density is part of y, what velocity moves the particles, and what keeps the angular
@@ -61,7 +70,8 @@ class SmoothParticles final : public Term<Dim> {
     std::string rates(const Now& now) override;
     Answer answer(Ask what, std::span<const double> y) const override;
     /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
-    /// denominator (physics/gauss_constraint.hpp).
+    /// denominator (physics/gauss_constraint.hpp); and likewise when the torques of a body in space cannot balance what ⟨v⟩
+    /// changes of its angular momentum.
     std::vector<Remark> watch(double t, std::span<const double> y) override;
     void set_bodies() override;
     void remember(Memory<Dim>& memory) override;
@@ -72,6 +82,8 @@ class SmoothParticles final : public Term<Dim> {
     /// R and 1/R of each body (of all with Balance::global) in the latest rates(); empty where torques
     /// are left free.
     std::span<const TorqueScale> torque_scales() const;
+    /// In space, where there are multipliers in place of R.
+    TorqueSearch torque_search() const;
 
     // Of fluids, as the functions of FluidModel (below). Precondition: the particles are fluid.
     /// The first of them.
@@ -108,9 +120,10 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<double> heat_;         ///< by conduction, where work is found after it
     std::vector<std::int32_t> group_;  ///< per particle, what keeps its angular momentum
     std::size_t group_count_ = 1;
-    std::unique_ptr<TorqueFactors> torques_;
-    std::unique_ptr<GaussForces> gauss_;
+    std::unique_ptr<TorqueFactors<Dim>> torques_;
+    std::unique_ptr<GaussForces<Dim>> gauss_;
     bool gauss_works_ = false;           ///< at the latest accepted state
+    bool torques_fail_ = false;          ///< likewise: what is left of a balance in space
     std::vector<double> watched_rates_;  ///< there
 };
 
@@ -130,8 +143,10 @@ class SmoothParticleModel final : public ParticleModel<Dim> {
 
     /// The choices it was made with.
     const Scheme& scheme() const { return law.scheme(); }
-    /// R and 1/R of each body in the latest rates(); empty where torques are left free.
+    /// R and 1/R of each body in the latest rates(); empty where torques are left free, and in space.
     std::span<const TorqueScale> torque_scales() const { return law.torque_scales(); }
+    /// In space, where there are multipliers in place of R.
+    TorqueSearch torque_search() const { return law.torque_search(); }
 
     /// Its one term.
     SmoothParticles<Dim>& law;

@@ -53,6 +53,7 @@ struct SweepOutput {
     double* energy = nullptr;                     ///< N, a potential's
     double *positive_torque = nullptr, *negative_torque = nullptr;  ///< N, TorqueSums
     double* torque_parts = nullptr;                                 ///< 6 N, TorqueParts
+    double* torque_moments = nullptr;                               ///< 9 N, SpaceTorqueSums
     double *spread = nullptr, *approach = nullptr;                  ///< N, OwnRangeSums
     double* records = nullptr;                                      ///< those of SweepInput
 
@@ -107,7 +108,8 @@ struct Sweeps {
     Sweep<Dim> second = nullptr;    ///< balanced torques, viscosity, chain rule; a penalty
     Sweep<Dim> force = nullptr;
     Sweep<Dim> one_balance = nullptr;  ///< in place of force and second where all pairs have one R
-    Sweep<Dim> energy = nullptr;       ///< of a potential
+    Sweep<Dim> torques = nullptr;  ///< sums of scaled torques, which balances in space take some of
+    Sweep<Dim> energy = nullptr;   ///< of a potential
 };
 
 /// Sweeps of a law outside the library, by name: an object of this type in a file of spam_add_sweeps()
