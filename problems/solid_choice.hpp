@@ -13,15 +13,17 @@
 namespace spam {
 
 /// What a scheme says of pairs, for solids that remember: the artificial viscosity and the closest approach.
-inline void add_pair_laws(ParticleModel<2>& model, std::size_t first, std::size_t count,
-                          const ElasticSolid& solid, double density, const Scheme& scheme) {
+template <int Dim>
+void add_pair_laws(ParticleModel<Dim>& model, std::size_t first, std::size_t count,
+                   const ElasticSolid& solid, double density, const Scheme& scheme) {
     if (scheme.viscosity > 0.0)
-        model.add_term_among<ArtificialViscosity<2>>(
+        model.template add_term_among<ArtificialViscosity<Dim>>(
             first, count,
-            ArtificialViscosity<2>::Constants{scheme.viscosity, scheme.range, density,
-                                              solid.sound_speed(density), scheme.kernel});
+            typename ArtificialViscosity<Dim>::Constants{scheme.viscosity, scheme.range, density,
+                                                         solid.sound_speed(density),
+                                                         scheme.kernel});
     if (scheme.closest_approach > 0.0)
-        model.add_term_among<ReflectedPairs<2>>(first, count, scheme.closest_approach);
+        model.template add_term_among<ReflectedPairs<Dim>>(first, count, scheme.closest_approach);
 }
 
 /// --formulation, --penalty and --viscosity.
@@ -66,19 +68,21 @@ struct SolidChoice {
     }
 
     /// Among `count` particles from number `first` on. `updated`: of smooth particles, but for range and viscosity.
-    void add_term(ParticleModel<2>& model, std::size_t first, std::size_t count,
+    template <int Dim>
+    void add_term(ParticleModel<Dim>& model, std::size_t first, std::size_t count,
                   const ElasticSolid& solid, double density, double range, Scheme updated) const {
         updated.range = range;
         updated.viscosity = alpha();
         if (lagrangian())
-            model.add_term_among<TotalLagrangian<2>>(
+            model.template add_term_among<TotalLagrangian<Dim>>(
                 first, count, StVenantKirchhoff::like(solid),
                 TotalLagrangianScheme{density, range, kappa(), updated.kernel});
         else if (vectors())
-            model.add_term_among<MaterialVectors<2>>(first, count, PolynomialSolid::like(solid),
-                                                     MaterialVectorScheme{density, range, kappa()});
+            model.template add_term_among<MaterialVectors<Dim>>(
+                first, count, PolynomialSolid::like(solid),
+                MaterialVectorScheme{density, range, kappa()});
         else
-            model.add_term_among<SmoothParticles<2>>(first, count, solid, updated);
+            model.template add_term_among<SmoothParticles<Dim>>(first, count, solid, updated);
         if (remembers()) add_pair_laws(model, first, count, solid, density, updated);
     }
 };

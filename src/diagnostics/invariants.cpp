@@ -58,22 +58,29 @@ Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const doub
     return result;
 }
 
-std::vector<double> angular_momentum_of_bodies(const Model<2>& model, std::span<const double> y) {
-    const ConstState<2> state(model.layout(), y);
+template <int Dim>
+std::vector<double> angular_momentum_of_bodies(const Model<Dim>& model, std::span<const double> y) {
+    const ConstState<Dim> state(model.layout(), y);
     const auto x = state.position();
     const auto v = state.velocity();
-    ExactGroupSums<1> sums;
+    constexpr std::size_t planes = Invariants<Dim>::planes;
+    ExactGroupSums<planes> sums;
     const auto by_body =
         sums.of(model.particles().body, static_cast<std::size_t>(model.particles().bodies()),
                 [&](std::size_t i) {
-                    return std::array<double, 1>{
-                        model.particles().mass[i] *
-                        angular_momentum_term<2>(x, v, static_cast<Eigen::Index>(i), 0)};
+                    std::array<double, planes> L;
+                    for (std::size_t p = 0; p < planes; ++p)
+                        L[p] = model.particles().mass[i] *
+                               angular_momentum_term<Dim>(x, v, static_cast<Eigen::Index>(i),
+                                                          static_cast<int>(p));
+                    return L;
                 });
     std::vector<double> values;
-    for (const auto& [L] : by_body) values.push_back(L);
+    for (const auto& L : by_body) values.insert(values.end(), L.begin(), L.end());
     return values;
 }
+template std::vector<double> angular_momentum_of_bodies(const Model<2>&, std::span<const double>);
+template std::vector<double> angular_momentum_of_bodies(const Model<3>&, std::span<const double>);
 
 template <int Dim>
 InvariantScales measure_scales(const Model<Dim>& model, std::span<const double> y) {

@@ -126,6 +126,13 @@ bool IntegratorSettings::prefer_step(double dt, const Options& options) {
     return true;
 }
 
+bool IntegratorSettings::prefer_leapfrog(double dt, const Options& options) {
+    if (options.given("integrator")) return false;
+    method_ = "leapfrog";
+    if (!options.given("dt")) dt_ = dt;
+    return true;
+}
+
 void refuse_endless(const IntegratorOptions& integrator, double t_end) {
     for (const auto& [option, step] :
          {std::pair{"dt", integrator.dt}, std::pair{"max-step", integrator.max_step}})

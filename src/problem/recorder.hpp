@@ -38,10 +38,11 @@ class Recorder {
         for (const auto& account : accounts())
             row.insert(row.end(), y.data() + account.offset,
                        y.data() + account.offset + account.size);
-        if constexpr (Dim == 2)
+        if constexpr (Dim > 1)
             if (bodies_ > 1) {
                 auto L = angular_momentum_of_bodies(model_, y);
-                L.resize(static_cast<std::size_t>(bodies_));  // the columns of the start
+                // the columns of the start
+                L.resize(static_cast<std::size_t>(bodies_ * Invariants<Dim>::planes));
                 row.insert(row.end(), L.begin(), L.end());
             }
         for (const auto& column : columns_) row.push_back(column.measure(model_, y));
@@ -148,9 +149,11 @@ class Recorder {
             for (std::size_t c = 0; c < account.components; ++c)
                 result.push_back(std::string(account.field.name()) +
                                  account.field.template suffix<Dim>(c));
-        if (Dim == 2 && bodies_ > 1)
+        if (Dim > 1 && bodies_ > 1)
             for (int b = 1; b <= bodies_; ++b)
-                result.push_back(fmt::format("angular_momentum_body_{}", b));
+                for (int p = 0; p < Invariants<Dim>::planes; ++p)
+                    result.push_back(fmt::format("angular_momentum_body_{}{}", b,
+                                                 Dim == 2 ? "" : "_" + axes[std::size_t(p)]));
         for (const auto& column : columns_) {
             if (std::find(result.begin(), result.end(), column.name) != result.end())
                 throw InputError(fmt::format(

@@ -47,6 +47,12 @@ void Session::prefer_step(double dt) {
     if (problem_.integrator_.prefer_step(dt, problem_.options_)) integrator_.dt = dt;
 }
 
+void Session::prefer_leapfrog(double dt) {
+    if (!problem_.integrator_.prefer_leapfrog(dt * problem_.relative_step_, problem_.options_))
+        return;
+    integrator_ = problem_.integrator_.resolve(problem_.options_);
+}
+
 /// As many as gain by it, of those that can be had, where none were asked for.
 void Session::choose_threads(std::size_t particles) {
     if (!chooses_threads_) return;

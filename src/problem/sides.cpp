@@ -65,9 +65,7 @@ class Reader {
                          : kind == SideKind::rigid                               ? WallKind::rigid
                          : kind == SideKind::no_slip || kind == SideKind::moving ? WallKind::no_slip
                                                                                  : WallKind::open;
-        if (kind == SideKind::moving)
-            side.wall.velocity[axis_ == 0 ? 1 : 0] =
-                number(kind_.substr(7), "velocity", -fastest, fastest, "as in moving:0.1");
+        if (kind == SideKind::moving) set_velocity(side.wall);
         if (temperature_) side.wall.temperature = temperature_of(side);
         return side;
     }
@@ -88,6 +86,24 @@ class Reader {
         refuse(fmt::format("is none of {}; give one of these", allowed_));
     }
 
+    /// Along the other axes, in their order: one number, or in space two, with a comma between them.
+    void set_velocity(Wall<Dim>& wall) const {
+        const char* const example =
+            Dim == 3 ? "as in moving:0.1 or moving:0.1,0.2" : "as in moving:0.1";
+        std::string words = kind_.substr(7);
+        for (int a = 0; a < Dim; ++a) {
+            if (a == axis_ || words.empty()) continue;
+            const auto comma = Dim == 3 ? words.find(',') : std::string::npos;
+            wall.velocity[a] =
+                number(words.substr(0, comma), "velocity", -fastest, fastest, example);
+            words = comma == std::string::npos ? "" : words.substr(comma + 1);
+            if (words.empty() && comma != std::string::npos)
+                number(words, "velocity", -fastest, fastest, example);
+        }
+        if (!words.empty())
+            refuse(
+                "has a velocity across itself: a wall moves along itself; give no more than two");
+    }
     double temperature_of(const Side<Dim>& side) const {
         if (side.periodic || side.wall.open())
             refuse("is no wall and has no temperature; leave it out");

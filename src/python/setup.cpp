@@ -45,6 +45,22 @@ Doubles square(const std::vector<int>& cells, double spacing) {
     }
 }
 
+CubicLattice cubic_of(const std::string& name) {
+    for (const auto& [lattice, known] : {std::pair{CubicLattice::sc, "sc"},
+                                         {CubicLattice::fcc, "fcc"},
+                                         {CubicLattice::bcc, "bcc"}})
+        if (name == known) return lattice;
+    throw InputError(
+        fmt::format("lattice: '{}' is none of sc, fcc and bcc; give one of these", name));
+}
+
+/// `cut` of rows of three coordinates.
+Doubles part_of(const py::handle& points, double radius,
+                Points<3> (*cut)(const Points<3>&, double)) {
+    expect(radius >= 0.0, "radius", radius, "0 or more");
+    return array_of<3>(cut(points_of<3>(points, "points"), radius));
+}
+
 }  // namespace
 
 void bind_setup(py::module_& module) {
@@ -86,6 +102,33 @@ void bind_setup(py::module_& module) {
         "square_lattice", &square, "cells"_a, "spacing"_a = 1.0,
         "Linear, square or cubic lattice of cells particles in each direction, [nx], [nx, ny] or\n"
         "[nx, ny, nz], the first at the origin: (N, D).");
+    module.def(
+        "cubic_lattice",
+        [](const std::string& lattice, const std::array<int, 3>& cells, double spacing) {
+            expect_spacing(spacing);
+            double particles = 4.0;
+            for (const int n : cells) {
+                expect(n >= 1, "cells", n, "1 or more in each direction");
+                particles *= n;
+            }
+            expect(particles <= most_particles, "cells", particles, "up to 1e8 particles");
+            return array_of<3>(cubic_lattice(cubic_of(lattice), cells, spacing));
+        },
+        "lattice"_a, "cells"_a, "spacing"_a = 1.0,
+        "Simple, face-centred or body-centred cubic lattice ('sc', 'fcc', 'bcc') of [nx, ny, nz] cells, nearest\n"
+        "neighbours `spacing` apart, the first particle at the origin: (N, 3).");
+    module.def(
+        "ball_of",
+        [](const py::handle& points, double radius) { return part_of(points, radius, &ball_of); },
+        "points"_a, "radius"_a,
+        "Of the points (N, 3) those not farther than `radius` from the origin: (M, 3).");
+    module.def(
+        "cylinder_of",
+        [](const py::handle& points, double radius) {
+            return part_of(points, radius, &cylinder_of);
+        },
+        "points"_a, "radius"_a,
+        "Of the points (N, 3) those not farther than `radius` from the z axis: (M, 3).");
 }
 
 }  // namespace spam::python

@@ -95,8 +95,9 @@ void SmoothParticles<Dim>::set_nature() {
     nature.moves_with_velocity = scheme_.transport == Transport::plain;
     nature.potential = false;
     nature.conducts = constitution_->conducts();
-    // In the plane torques of particles jump where one changes its sign; Gauss' principle sets in and out.
-    nature.smooth = (Dim == 3 || scheme_.angular_momentum != AngularMomentum::torque_particle) &&
+    // Torques of particles jump where one changes its sign, and in space turn quickly where one passes near 0; Gauss'
+    // principle sets in and out.
+    nature.smooth = scheme_.angular_momentum != AngularMomentum::torque_particle &&
                     scheme_.angular_momentum != AngularMomentum::gauss && constitution_->smooth();
     // In space a fluid's pressures act along r_ij; everything else does not, unless it is balanced.
     nature.promises = scheme_.promises(Dim);

@@ -69,6 +69,41 @@ Points<Dim> square_lattice(const std::array<int, Dim>& cells, double spacing) {
     return points;
 }
 
+double cubic_edge(CubicLattice lattice) {
+    return lattice == CubicLattice::sc    ? 1.0
+           : lattice == CubicLattice::fcc ? std::sqrt(2.0)
+                                          : 2.0 / std::sqrt(3.0);
+}
+
+Points<3> cubic_lattice(CubicLattice lattice, const std::array<int, 3>& cells, double spacing) {
+    std::vector<Point<3>> basis{Point<3>::Zero()};
+    if (lattice == CubicLattice::fcc)
+        basis.insert(basis.end(), {{0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}, {0.5, 0.5, 0.0}});
+    if (lattice == CubicLattice::bcc) basis.emplace_back(0.5, 0.5, 0.5);
+    const Points<3> corners = square_lattice<3>(cells);
+    Points<3> points(3, corners.cols() * static_cast<Eigen::Index>(basis.size()));
+    Eigen::Index k = 0;
+    for (const auto& corner : corners.colwise())
+        for (const Point<3>& site : basis)
+            points.col(k++) = spacing * cubic_edge(lattice) * (corner + site);
+    return points;
+}
+
+namespace {
+
+/// Those of which the first `axes` coordinates are not farther than the radius.
+Points<3> within(const Points<3>& points, Eigen::Index axes, double radius) {
+    std::vector<Eigen::Index> inside;
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+        if (points.col(k).head(axes).norm() <= radius * (1.0 + 1e-12)) inside.push_back(k);
+    return points(Eigen::all, inside);
+}
+
+}  // namespace
+
+Points<3> ball_of(const Points<3>& points, double radius) { return within(points, 3, radius); }
+Points<3> cylinder_of(const Points<3>& points, double radius) { return within(points, 2, radius); }
+
 template <int Dim>
 Particles<Dim> make_particles(const Points<Dim>& position, double mass, double spacing,
                               const Box<Dim>& box, double reach) {

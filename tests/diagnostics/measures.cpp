@@ -42,6 +42,44 @@ BOOST_AUTO_TEST_CASE(angular_momentum_in_space_is_a_vector) {
     BOOST_TEST((measure_invariants<3>(model, y).angular_momentum - L).norm() < 1e-12);
 }
 
+BOOST_AUTO_TEST_CASE(angular_momenta_of_bodies_in_space_add_up) {
+    auto particles = jittered_particles<3>(4, 73);
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        particles.body[i] = static_cast<std::int32_t>(i % 3);
+    BondedModel<3> model(particles, {});
+    const auto y = random_state(model, 74);
+    const auto of_bodies = angular_momentum_of_bodies(model, y);
+    BOOST_TEST_REQUIRE(of_bodies.size() == 9U);
+    const auto all = measure_invariants<3>(model, y).angular_momentum;
+    for (std::size_t a = 0; a < 3; ++a) {
+        BOOST_TEST(std::abs(of_bodies[a] + of_bodies[3 + a] + of_bodies[6 + a] -
+                            all[static_cast<Eigen::Index>(a)]) < 1e-12);
+        BOOST_TEST(std::abs(of_bodies[a] - of_bodies[3 + a]) > 1e-3);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(cubic_lattices_have_their_neighbours) {
+    // Of a site inside: how many at distance 1, and no nearer one.
+    for (const auto& [lattice, neighbours, in_cell] : {std::tuple{CubicLattice::sc, 6, 1},
+                                                       std::tuple{CubicLattice::fcc, 12, 4},
+                                                       std::tuple{CubicLattice::bcc, 8, 2}}) {
+        const Points<3> points = 0.5 * cubic_lattice(lattice, {6, 6, 6}, 2.0);
+        BOOST_TEST(points.cols() == 216 * in_cell);
+        const double middle = 3.0 * cubic_edge(lattice);
+        int near = 0;
+        for (const auto& x : points.colwise()) {
+            const double r = (x.array() - middle).matrix().norm();
+            near += r > 1e-9 && r < 1.0 + 1e-9 ? 1 : 0;
+            BOOST_TEST((r < 1e-9 || r > 1.0 - 1e-9));
+        }
+        BOOST_TEST(near == neighbours);
+        // A fcc ball of radius 4 has 381 sites.
+        const Points<3> about = points.array() - middle;
+        if (lattice == CubicLattice::fcc) BOOST_TEST(ball_of(about, 4.0).cols() == 381);
+        BOOST_TEST(cylinder_of(about, 0.0).cols() == 6);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_neighbours_exchange_at_a_mean_distance_and_speed) {
     BondedModel<2> model(make_particles<2>(triangular_hexagon(3), 1.5), {});
     auto y = initial_state<2>(model, 1.0, 1.0, rigid_rotation(0.1));

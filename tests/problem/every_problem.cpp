@@ -127,6 +127,12 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused_in_one_line) {
 
 BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) {
     const std::vector<RefusedCall> all{
+        {"rotating_body", {"--body", "pear"}, {"body", "pear", "cube"}},
+        {"rotating_body", {"--compare"}, {"compare", "--body block"}},
+        {"rotating_body", {"--speed", "0"}, {"speed", "0", "between"}},
+        {"rotating_body",
+         {"--formulation", "total_lagrangian", "--angular-momentum", "torque_pair"},
+         {"angular-momentum", "updated"}},
         {"rotating_disk", {"--shape", "hexagon", "--radius", "7.5"}, {"radius", "7.5", "whole"}},
         {"rotating_disk", {"--radius", "2"}, {"radius", "2", "between 6 and"}},
         {"rotating_disk", {"--damping", "-1"}, {"damping", "-1"}},

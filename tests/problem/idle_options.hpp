@@ -241,6 +241,8 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"rotating_hexagon", {"--angular-momentum", "gauss", "--transport", "monaghan"}},
     {"rotating_hexagon", {"--integrator", "arkode:BOGACKI_SHAMPINE_4_2_3"}},
     {"rotating_hexagon", {"--formulation", "total_lagrangian"}},
+    {"rotating_body", {"--size", "4"}},
+    {"rotating_body", {"--body", "block", "--formulation", "total_lagrangian", "--turns", "0.1"}},
     {"rotating_disk", {"--model", "md"}},
     {"rotating_disk", {"--model", "spam"}},
     {"plane_wave", {}},

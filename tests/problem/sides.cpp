@@ -49,6 +49,22 @@ BOOST_AUTO_TEST_CASE(sides_move_along_themselves) {
     BOOST_TEST((box_of({"--bottom", "rigid"}).wall(1, false).kind == WallKind::rigid));
 }
 
+BOOST_AUTO_TEST_CASE(in_space_they_have_two_velocities) {
+    const auto walls = [](const char* top) {
+        Options options("test", "a test");
+        const Sides sides(options, {"open", "open", "open", "mirror", "open", "open"});
+        const std::array<const char*, 3> arguments{"test", "--top", top};
+        options.parse(3, arguments.data());
+        return sides.box<3>(Point<3>::Zero(), Point<3>::Ones()).wall(1, true).velocity;
+    };
+    BOOST_TEST(walls("moving:0.5") == Point<3>(0.5, 0.0, 0.0));
+    BOOST_TEST(walls("moving:0.5,-0.25") == Point<3>(0.5, 0.0, -0.25));
+    const auto why = [&](const char* top) { return refusal([&] { walls(top); }); };
+    BOOST_TEST(why("moving:0.5,-0.25,1").find("moves along itself") != std::string::npos);
+    BOOST_TEST(why("moving:0.5,").find("has '' for a velocity") != std::string::npos);
+    BOOST_TEST(refused({"--top", "moving:0.5,1"}, "has '0.5,1' for a velocity"));
+}
+
 /// A word of the problem's own, for what other options say.
 BOOST_AUTO_TEST_CASE(words_may_stand_for_others) {
     Options options("test", "a test");

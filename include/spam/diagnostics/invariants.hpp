@@ -37,8 +37,9 @@ struct Invariants {
 template <int Dim>
 Invariants<Dim> measure_invariants(const Model<Dim>& model, std::span<const double> y);
 
-/// Angular momentum of each body about the origin (plane problems).
-std::vector<double> angular_momentum_of_bodies(const Model<2>& model, std::span<const double> y);
+/// Angular momentum of each body about the origin: by body, then z in the plane, or x, y, z. On a line there is none.
+template <int Dim>
+std::vector<double> angular_momentum_of_bodies(const Model<Dim>& model, std::span<const double> y);
 
 /// Sizes against which changes are judged: sum m |v| and sum m |x||v|, which do not vanish when the
 /// conserved vector does, and what neighbours do to each other before it cancels (of which rounding

@@ -26,6 +26,8 @@ class IntegratorSettings {
     void shorten_default(double part) { default_dt_ *= part; }
     /// Another step of rk4 for the case at hand, where none is given. Returns whether it is taken.
     bool prefer_step(double dt, const Options& options);
+    /// The same of leapfrog, where no method is given; the step too, where that is not. To be resolved then.
+    bool prefer_leapfrog(double dt, const Options& options);
 
     /// Names of all of them.
     static const std::vector<std::string>& names();

@@ -29,6 +29,9 @@ struct Plan {
     /// Of rk4, where --dt is not given, for a case among others that needs a step of its own; else
     /// Session::prefer_step(), which case.toml tells of.
     std::optional<double> step{};
+    /// The method, where --integrator is not given, of a case among others that another one than theirs suits; with
+    /// `step`.
+    std::optional<std::string> method{};
     /// t_end stays what it is: --t-end is meant for other cases of the session.
     bool own_end = false;
     /// What watches the run, in the order of the calls.

@@ -51,6 +51,8 @@ class Session {
 
     /// The step of rk4, where none is given, of a case that needs another one than the problem's.
     void prefer_step(double dt);
+    /// The same of leapfrog, which is then the method where none is given.
+    void prefer_leapfrog(double dt);
 
     /// Sums in one thread where --threads does not ask for more: for who measures processor time.
     void prefer_one_thread() { chooses_threads_ = false; }
@@ -155,7 +157,9 @@ class Session {
     template <int Dim>
     IntegratorOptions integrator_of(const Plan<Dim>& plan) const {
         IntegratorOptions own = integrator_;
-        if (plan.step && own.method == "rk4" && !given("dt"))
+        const bool other = plan.method && !given("integrator");
+        if (other) own.method = *plan.method;
+        if (plan.step && (other || own.method == "rk4") && !given("dt"))
             own.dt = *plan.step * problem_.relative_step_;
         return own;
     }

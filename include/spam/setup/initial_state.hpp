@@ -17,6 +17,11 @@ inline VelocityField<2> rigid_rotation(double omega) {
     return [omega](const Point<2>& x) { return Point<2>(-omega * x.y(), omega * x.x()); };
 }
 
+/// The same in space, about the axis of the vector omega.
+inline VelocityField<3> rigid_rotation(const Point<3>& omega) {
+    return [omega](const Point<3>& x) { return Point<3>(omega.cross(x)); };
+}
+
 template <int Dim>
 VelocityField<Dim> at_rest() {
     return [](const Point<Dim>&) { return Point<Dim>(Point<Dim>::Zero()); };

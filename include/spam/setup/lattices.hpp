@@ -34,6 +34,18 @@ Box<2> triangular_box(int columns, int rows, double spacing = 1.0);
 template <int Dim>
 Points<Dim> square_lattice(const std::array<int, Dim>& cells, double spacing = 1.0);
 
+/// Lattices whose cells are cubes: simple, face-centred, body-centred.
+enum class CubicLattice { sc, fcc, bcc };
+/// The edge of their cells where nearest neighbours are 1 apart: 1, sqrt(2), 2/sqrt(3).
+double cubic_edge(CubicLattice lattice);
+/// 1, 4 or 2 particles in each of so many cells, nearest neighbours `spacing` apart, the first one at the origin.
+Points<3> cubic_lattice(CubicLattice lattice, const std::array<int, 3>& cells,
+                        double spacing = 1.0);
+
+/// Of the points those not farther than `radius` from the origin; in a cylinder: from the z axis.
+Points<3> ball_of(const Points<3>& points, double radius);
+Points<3> cylinder_of(const Points<3>& points, double radius);
+
 /// The middles of so many squares (cubes, pieces of a line) of side 1 from the origin on.
 template <int Dim>
 Points<Dim> cell_centres(const std::array<int, Dim>& cells) {

@@ -26,8 +26,8 @@ _COMPILED = {
     "simulating": ("Drift", "Run", "Simulation", "State"),
     "equations": ("Solution", "WorkPrecision", "integrate", "work_precision"),
     "_core": ("Drag", "ElasticSolid", "Fluid", "Force", "Friction", "GammaGas", "Gravity", "IdealGas",
-              "IsentropicGas", "LucyGas", "Material", "Scheme", "VanDerWaals", "VonMisesSolid", "methods",
-              "square_lattice", "triangular_block", "triangular_disk", "triangular_hexagon",
+              "IsentropicGas", "LucyGas", "Material", "Scheme", "VanDerWaals", "VonMisesSolid", "ball_of",
+              "cubic_lattice", "cylinder_of", "methods", "square_lattice", "triangular_block", "triangular_disk", "triangular_hexagon",
               "usable_cores"),
 }
 _HOME = {name: module for module, names in _COMPILED.items() for name in names}
