@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../common.hpp"
+#include "../ranges.hpp"
 #include <spam/diagnostics/field_grid.hpp>
 #include <spam/material/fluid.hpp>
 
@@ -12,9 +13,6 @@ using namespace spam;
 
 enum class Walls { periodic, mirror };
 inline std::string_view to_string(Walls w) { return w == Walls::periodic ? "periodic" : "mirror"; }
-
-enum class Ranges { fixed, density };
-inline std::string_view to_string(Ranges r) { return r == Ranges::fixed ? "fixed" : "density"; }
 
 struct Parameters {
     const Sides* sides = nullptr;

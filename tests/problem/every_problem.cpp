@@ -127,6 +127,9 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused_in_one_line) {
 
 BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) {
     const std::vector<RefusedCall> all{
+        {"gas_cloud", {"--axes", "4,2"}, {"axes", "3 dimensions", "one for each"}},
+        {"gas_cloud", {"--axes", "1,2,x"}, {"axes", "'x'", "--axes 4,2,1"}},
+        {"gas_cloud", {"--dimension", "2", "--axes", ",1"}, {"axes", "''", "--axes 2,1"}},
         {"rotating_body", {"--body", "pear"}, {"body", "pear", "cube"}},
         {"rotating_body", {"--compare"}, {"compare", "--body block"}},
         {"rotating_body", {"--speed", "0"}, {"speed", "0", "between"}},

@@ -271,6 +271,8 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"free_expansion", {"--t-end", "12"}},
     {"free_expansion", {"--dimension", "1"}},
     {"free_expansion", {"--compare", "--t-end", "6"}},
+    {"gas_cloud", {"--size", "3", "--time", "0.5"}},
+    {"gas_cloud", {"--dimension", "2", "--return", "--time", "0.5"}},
     {"isomorphism", {}},
     {"diffusion_waves", {"--density", "continuity"}},
     {"diffusion_waves",
