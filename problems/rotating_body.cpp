@@ -195,25 +195,10 @@ int main(int argc, char** argv) {
     options.number("turns", p.turns, "number of nominal turns (default 1; 12 for a block)",
                    positive());
     problem.use_scheme({.transport = Transport::monaghan, .range = 2.6});
-    p.solid.add_formulation_option(options);
-    options.number("penalty", p.solid.penalty,
-                   "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
-                   "material_vectors (default 2)",
-                   between(0.0, 100.0));
+    p.solid.add_beside_scheme(options, [&p] { return !p.solid.remembers() || p.compare; });
     options.flag("compare", p.compare,
                  "a total-Lagrangian block at three speeds, and updated particles beside it");
     options.one_of({"turns", "t-end"}, "the end of the run");
-    options.only_when(
-        {"penalty"}, {"formulation"}, [&p] { return p.solid.remembers(); },
-        "has no meaning for --formulation updated; leave it out");
-    auto of_updated = Problem::scheme_option_names();
-    std::erase_if(of_updated, [](const std::string& name) {
-        return name == "kernel" || name == "range" || name == "viscosity" ||
-               name == "closest-approach";
-    });
-    options.only_when(
-        of_updated, {"formulation"}, [&p] { return !p.solid.remembers() || p.compare; },
-        "is of updated smooth particles; give --formulation updated, or leave it out");
     options.only_when(
         {"compare"}, {"body"}, [&p] { return p.block(); },
         "is for --body block; give that, or leave it out");

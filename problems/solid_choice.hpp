@@ -50,7 +50,21 @@ struct SolidChoice {
             "sums over the initial neighbours, over the present ones, or over "
             "the present ones with a memory");
     }
-    void add_constants(Options& options) {
+    /// --formulation and --penalty beside the options of Problem::use_scheme(), of which most are those of updated
+    /// particles alone; `updated`: whether there are any.
+    void add_beside_scheme(Options& options, std::function<bool()> updated) {
+        add_formulation_option(options);
+        add_penalty_option(options);
+        auto names = Problem::scheme_option_names();
+        std::erase_if(names, [](const std::string& name) {
+            return name == "kernel" || name == "range" || name == "viscosity" ||
+                   name == "closest-approach";
+        });
+        options.only_when(names, {"formulation"}, std::move(updated),
+                          "is of updated smooth particles; give --formulation updated, or leave it "
+                          "out");
+    }
+    void add_penalty_option(Options& options) {
         options
             .number("penalty", penalty,
                     "penalty kappa against zero-energy modes: total_lagrangian (default 0.1), "
@@ -59,6 +73,9 @@ struct SolidChoice {
             .only_when(
                 {"formulation"}, [this] { return remembers(); },
                 "has no meaning for --formulation updated; leave it out");
+    }
+    void add_constants(Options& options) {
+        add_penalty_option(options);
         options.number(
             "viscosity", viscosity,
             fmt::format(

@@ -314,6 +314,7 @@ bool SmoothParticles<Dim>::settle(double t, const State<Dim>& state) {
 
 template <int Dim>
 auto SmoothParticles<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::damping) return {fastest_damping_in(y)};  // also of no state
     const ConstState<Dim> state = this->state_of(y);
     switch (what) {
         case Ask::energy:
@@ -326,7 +327,6 @@ auto SmoothParticles<Dim>::answer(Ask what, std::span<const double> y) const -> 
                      constitution_->stress_forces(state, this->densities(y))) /
                     this->particles().spacing};
         case Ask::damping:
-            return {fastest_damping_in(y)};
         case Ask::deformation:
             break;
     }

@@ -273,6 +273,8 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"free_expansion", {"--compare", "--t-end", "6"}},
     {"gas_cloud", {"--size", "3", "--time", "0.5"}},
     {"gas_cloud", {"--dimension", "2", "--return", "--time", "0.5"}},
+    {"torsion", {"--columns", "3", "--periods", "0.2"}},
+    {"torsion", {"--columns", "3", "--periods", "0.1", "--formulation", "updated"}},
     {"isomorphism", {}},
     {"diffusion_waves", {"--density", "continuity"}},
     {"diffusion_waves",

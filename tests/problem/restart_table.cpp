@@ -68,6 +68,7 @@ const std::map<std::string, Words> runs{
     {"taylor_green", {"--cells", "14", "--t-end", "120", "--checkpoint-every", "17"}},
     {"taylor_bar", {"--particles-per-radius", "2", "--t-end", "20", "--checkpoint-every", "1.7"}},
     {"tensile_instability", {"--cells", "8", "--t-end", "15", "--checkpoint-every", "1.7"}},
+    {"torsion", {"--columns", "3", "--periods", "0.7", "--checkpoint-every", "7"}},
     {"tension_test",
      {"--columns", "16", "--rows", "6", "--load-rate", "4e-5", "--t-end", "120",
       "--checkpoint-every", "17"}},
