@@ -17,6 +17,9 @@
 // and all wave vectors of a periodic sample of cells x cells particles.
 // Without scheme options it compares the plain velocity, <v> and <v>_Monaghan.
 //
+// --dimension 3 --lattice sc, fcc or bcc: cubic lattices in space, and of all waves the fastest, by a climb from a grid
+// over the symmetric part of the zone (stability/space.cpp).
+//
 // --formulation material_vectors: a solid whose particles remember a material vector for each neighbour, under
 // stress, which may have a shear part (--shear-stress). Its K(k), m omega^2 u = K(k) u, is Hermitian: a wave
 // grows or oscillates, and none does neither but translations. Without --penalty or --memoryless it compares
@@ -77,6 +80,9 @@ void add_rules(Options& options, const Parameters& p) {
         "has a meaning for --formulation material_vectors alone; leave it out");
     options.exclude("memoryless", {"penalty"},
                     "has no meaning with --memoryless, which leaves no misfit; leave one out");
+    options.only_when(
+        {"cells", "formulation", "penalty", "shear-stress", "memoryless"}, {"dimension"},
+        [&p] { return p.dimension == 2; }, "has no meaning with --dimension 3; leave it out");
     // Without any of these several schemes are compared.
     options.only_when(Problem::scheme_option_names(), {},
                       [&] { return !options.first_given(Problem::scheme_option_names()).empty(); },
@@ -114,10 +120,24 @@ int main(int argc, char** argv) {
                    between(-1.0, 1.0));
     options.flag("memoryless", p.memoryless,
                  "material_vectors without their memory: vectors are renewed all the time");
+    options.integer("dimension", p.dimension,
+                    "2: the triangular lattice; 3: a cubic one, with stresses 0.01 and 0.02 unless "
+                    "--stress says another",
+                    between(2, 3));
+    options
+        .choice<CubicLattice>("lattice", p.lattice,
+                              {CubicLattice::sc, CubicLattice::fcc, CubicLattice::bcc},
+                              "simple, face-centred or body-centred cubic")
+        .only_when(
+            {"dimension"}, [&p] { return p.dimension == 3; },
+            "is of lattices in space; give --dimension 3, or leave it out");
     problem.use_scheme();
     add_rules(options, p);
 
     return problem.main(argc, argv, [&](Session& session) {
+        if (p.dimension == 3)
+            return analyse_in_space(session, p,
+                                    !options.first_given(Problem::scheme_option_names()).empty());
         session.smoke_default("cells", p.cells, 8);
         const Box<2> box = triangular_box(p.cells, p.cells);
         const bool single = p.vectors()

@@ -6,6 +6,14 @@
 #include <spam/analysis/bonded_lattice.hpp>
 #include <spam/analysis/wave_vectors.hpp>
 
+namespace spam {
+
+inline std::string_view to_string(CubicLattice lattice) {
+    return lattice == CubicLattice::sc ? "sc" : lattice == CubicLattice::fcc ? "fcc" : "bcc";
+}
+
+}  // namespace spam
+
 namespace stability {
 
 using namespace spam;
@@ -16,6 +24,8 @@ struct Parameters {
     Formulation formulation = Formulation::updated;
     std::optional<double> penalty;
     bool memoryless = false;
+    int dimension = 2;
+    CubicLattice lattice = CubicLattice::sc;
 
     bool vectors() const { return formulation == Formulation::material_vectors; }
 };
@@ -56,6 +66,9 @@ std::vector<Analysed> smooth_particles(const Parameters& p, const Scheme& scheme
 
 /// Material vectors with several penalties and without a memory, or those of the options.
 std::vector<Analysed> material_vectors(const Parameters& p, double range, bool single);
+
+/// Cubic lattices in space, without options of the scheme (`single`) two of them; with --stress one, else two stresses.
+void analyse_in_space(Session& session, const Parameters& p, bool single);
 
 // ---- report.cpp ----
 

@@ -254,6 +254,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"tensile_instability", {"--stress", "0.01", "--speed", "0.01"}},
     {"stability", {}},
     {"stability", {"--transport", "monaghan"}},
+    {"stability", {"--dimension", "3"}},
     {"stability", {"--formulation", "material_vectors"}},
     {"material_vectors_study", {}},
     {"thousand_turns", {}},

@@ -76,3 +76,17 @@ BOOST_AUTO_TEST_CASE(columns_twist_as_much_more_easily_as_derived) {
                           "frequency_error_percent");
     BOOST_TEST(vectors.claims == 1U);
 }
+
+/// A wave that a grid alone misses is found: (1.24, 1.24, 0) or what symmetry makes of it.
+BOOST_AUTO_TEST_CASE(the_fastest_wave_of_a_cubic_lattice_is_found) {
+    const Results found("stability", {"--dimension", "3", "--lattice", "bcc"},
+                        "plain_0.01_growth_rate");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(std::abs(found.value.at("monaghan_0.01_growth_rate") - 0.00293) < 2e-5);
+    const Results one(
+        "stability",
+        {"--dimension", "3", "--transport", "plain", "--stress", "0.01", "--range", "2"},
+        "plain_0.01_growth_rate");
+    BOOST_TEST(one.claims == 1U);
+    BOOST_TEST(!one.value.contains("monaghan_0.01_growth_rate"));
+}
