@@ -118,7 +118,10 @@ void compute(Session& session, const Parameters& p) {
     std::vector<Body> bodies;
     const double speed = p.speed.value_or(p.block() && p.solid.lagrangian() ? 0.02 : 0.1);
     Scheme of_lagrangian = session.scheme(), of_updated = session.scheme();
-    if (!session.given("range")) of_lagrangian.range = 2.2;
+    if (!session.given("range")) {
+        of_lagrangian.range = 2.2;
+        if (p.compare || p.solid.lagrangian()) session.leave_out_of_case({"range"});
+    }
     if (!session.given("angular-momentum") && p.compare)
         of_updated.angular_momentum = AngularMomentum::torque_pair;
     if (p.compare) {
@@ -142,13 +145,13 @@ void compute(Session& session, const Parameters& p) {
     const double turns = p.turns.value_or(session.common().smoke ? 0.05 : p.block() ? 12.0 : 1.0);
     const auto runs = run_all(session, bodies, [&](Body& body) {
         Plan<3> plan;
-        plan.t_end = turns * body.turn();
+        plan.t_end = session.common().t_end.value_or(turns * body.turn());
         if (p.compare && body.smooth == nullptr) {
             plan.method = "leapfrog";
             plan.step = step_of_leapfrog(body.speed);
         } else if (p.compare) {
             plan.step = 0.1;
-            plan.t_end = std::min(turns, 2.0) * body.turn();
+            plan.t_end = std::min(plan.t_end, 2.0 * body.turn());
             plan.own_end = true;
         }
         plan.record({closest_pair_column<3>(), shape_error_column<3>()});

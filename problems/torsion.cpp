@@ -92,20 +92,24 @@ std::optional<double> known(const Parameters& p, int n) {
 
 void compute(Session& session, const Parameters& p) {
     Scheme scheme = session.scheme();
-    if (p.solid.lagrangian() && !session.given("range")) scheme.range = 2.2;
+    if (p.solid.lagrangian() && !session.given("range")) {
+        scheme.range = 2.2;
+        session.leave_out_of_case({"range"});
+    }
     std::vector<Bar> bars;
     for (const int n : p.compare ? std::vector{4, 6, 8} : std::vector{p.columns})
         bars.push_back(make_bar(p, scheme, n));
     if (p.solid.remembers()) session.prefer_leapfrog(0.4);
     const auto runs = run_all(session, bars, [&](Bar& bar) {
         Plan<3> plan;
-        plan.t_end = p.periods * 2.0 * std::numbers::pi / bar.saint_venant();
+        plan.t_end = session.common().t_end.value_or(p.periods * 2.0 * std::numbers::pi /
+                                                     bar.saint_venant());
         plan.record({twist_column(bar), shape_error_column<3>()});
         return plan;
     });
     const bool usual = !session.common().smoke &&
-                       session.at_default({"speed", "periods", "penalty", "kernel", "range",
-                                           "viscosity", "closest-approach", "density",
+                       session.at_default({"speed", "periods", "t-end", "penalty", "kernel",
+                                           "range", "viscosity", "closest-approach", "density",
                                            "mean-density", "transport", "angular-momentum"});
     std::vector<double> sizes, errors;
     for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -136,9 +140,9 @@ void compute(Session& session, const Parameters& p) {
         curve.x = divided(curve.x, 2.0 * std::numbers::pi / bars[k].saint_venant());
         panels[0].curves.push_back(std::move(curve));
     }
-    panels[0].curves.push_back(graph("Saint-Venant", 0.0, p.periods, 400, [](double t) {
-        return std::cos(2.0 * std::numbers::pi * t);
-    }));
+    panels[0].curves.push_back(
+        graph("Saint-Venant", 0.0, panels[0].curves[0].x.back(), 400,
+              [](double t) { return std::cos(2.0 * std::numbers::pi * t); }));
     draw_curves(session, "torsion", "A free square bar oscillates in torsion", panels);
 }
 

@@ -305,6 +305,7 @@ std::vector<Remark> SmoothParticles<Dim>::watch(double t, std::span<const double
 template <int Dim>
 void SmoothParticles<Dim>::remember(Memory<Dim>& memory) {
     memory.run(works_kind, gauss_works_, torques_fail_);
+    if (torques_) torques_->remember(memory);
 }
 
 template <int Dim>

@@ -59,6 +59,7 @@ class TorqueFactors {
     }
     std::span<const TorqueScale> scales() const { return scales_; }
     TorqueSearch search() const { return {}; }
+    void remember(Memory<Dim>&) {}
 
   private:
     struct Torques {

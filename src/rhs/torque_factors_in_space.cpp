@@ -89,6 +89,11 @@ void TorqueFactors<3>::write(std::size_t i, std::int32_t group, double* number) 
     std::copy(theta.c.begin(), theta.c.end(), number + 3);
 }
 
+void TorqueFactors<3>::remember(Memory<3>& memory) {
+    static constexpr FieldKind sums_kind{"torque_sums", Rank::scalar, Role::memory, "1"};
+    memory.run(sums_kind, search_.balances, search_.sums);
+}
+
 TorqueSearch TorqueFactors<3>::search() const {
     TorqueSearch search = search_;
     for (const TorqueBalance& of_group : balances_)

@@ -31,6 +31,8 @@ class TorqueFactors<3> {
 
     std::span<const TorqueScale> scales() const { return {}; }
     TorqueSearch search() const;
+    /// How many sums there were: of a run, also where it was stopped and goes on.
+    void remember(Memory<3>& memory);
 
   private:
     using Numbers = std::array<double, torque_moments>;

@@ -69,7 +69,8 @@ struct Call {
             const rlimit limit{seconds, seconds};
             setrlimit(RLIMIT_CPU, &limit);
         };
-        return Child(problem(program, words), launch).finish(Child::Seconds(SPAM_SANITIZED ? 1000 : 240));
+        return Child(problem(program, words), launch)
+            .finish(Child::Seconds(SPAM_SANITIZED ? 1000 : 240));
     }
 };
 

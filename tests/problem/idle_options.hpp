@@ -193,6 +193,9 @@ inline const std::map<std::string, std::string> another_value{
     {"finer", "3"},
     {"stress-limit", "0.02"},
     {"end-speed", "0.3"},
+    {"axes", "3,2,1"},
+    {"time", "0.3"},
+    {"body", "ball"},
 };
 
 /// Where that is no value of an option, or no other than the case has.
@@ -229,6 +232,9 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"tension_test", "model"}, "embedded_atom"},
     {{"stability", "formulation"}, "material_vectors"},
     {{"mesh_modes", "speed"}, "1e-5"},
+    {{"stability", "dimension"}, "3"},
+    {{"stability", "lattice"}, "fcc"},
+    {{"gas_cloud", "dimension"}, "2"},
 };
 
 /// Cases of problems that leave different options without effect.
@@ -254,7 +260,6 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"tensile_instability", {"--stress", "0.01", "--speed", "0.01"}},
     {"stability", {}},
     {"stability", {"--transport", "monaghan"}},
-    {"stability", {"--dimension", "3"}},
     {"stability", {"--formulation", "material_vectors"}},
     {"material_vectors_study", {}},
     {"thousand_turns", {}},
@@ -273,7 +278,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"free_expansion", {"--dimension", "1"}},
     {"free_expansion", {"--compare", "--t-end", "6"}},
     {"gas_cloud", {"--size", "3", "--time", "0.5"}},
-    {"gas_cloud", {"--dimension", "2", "--return", "--time", "0.5"}},
+    {"gas_cloud", {"--return", "--size", "3", "--time", "0.5", "--axes", "2,1,1"}},
     {"torsion", {"--columns", "3", "--periods", "0.2"}},
     {"torsion", {"--columns", "3", "--periods", "0.1", "--formulation", "updated"}},
     {"isomorphism", {}},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "support/oracle_weight.hpp"
 #include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/model.hpp>
 
@@ -27,9 +28,8 @@ enum class Mutation {
     lucys_weight          ///< that weight function, whatever the scheme says
 };
 
-/// The equations of smooth particles written straight from the papers as loops over all pairs, with
-/// Eigen, sharing no sum, list or weight function with the library. Slow, simple, and the judge of
-/// the pipeline. Free space.
+/// The equations of smooth particles from the papers as loops over all pairs, with Eigen, sharing no sum, list or weight
+/// function with the library. Slow, simple, and the judge of the pipeline. Free space.
 template <int Dim>
 class OracleModel final : public Model<Dim> {
     using V = Point<Dim>;
@@ -75,6 +75,8 @@ class OracleModel final : public Model<Dim> {
     double reach() const override { return scheme_.range; }
 
   private:
+    using Axial = Eigen::Vector3d;
+
     static std::vector<Field> fields(const Scheme& s) {
         std::vector<Field> f{Field::position, Field::velocity, Field::stress, Field::energy};
         if (s.density != Density::summed) f.push_back(Field::density);
@@ -84,47 +86,15 @@ class OracleModel final : public Model<Dim> {
     double m(int i) const { return this->particles().mass[at(i)]; }
     bool skip(int i, int j) const { return mutation_ == Mutation::half_list && j < i; }
 
-    double weight(double r) const {
-        const double h = scheme_.range, u = r / h, pi = std::numbers::pi;
-        if (u >= 1.0) return 0.0;
-        if (spline()) {
-            const double A = amplitude();
-            return u < 0.5 ? A * (1.0 - 6.0 * u * u + 6.0 * u * u * u)
-                           : 2.0 * A * std::pow(1.0 - u, 3);
-        }
-        const int n = family();
-        const double C = Dim == 1   ? (n + 2) / (4.0 * h)
-                         : Dim == 2 ? (n + 2) * (n + 3) / (6.0 * pi * h * h)
-                                    : (n + 2) * (n + 3) * (n + 4) / (32.0 * pi * h * h * h);
-        return C * (1.0 + n * u) * std::pow(1.0 - u, n);
+    OracleWeight<Dim> w() const {
+        return {mutation_ == Mutation::lucys_weight ? Kernel::lucy : scheme_.kernel, scheme_.range};
     }
-    double slope(double r) const {  // w'
-        const double h = scheme_.range, u = r / h;
-        if (spline())
-            return amplitude() / h *
-                   (u < 0.5 ? -12.0 * u + 18.0 * u * u : -6.0 * (1.0 - u) * (1.0 - u));
-        const int n = family();  // from w itself
-        return weight(r) * (n / (h + n * r) - n / (h - r));
-    }
-    /// Monaghan's spline, [HH07] 3; else a member of the family w_n there.
-    bool spline() const {
-        return scheme_.kernel == Kernel::monaghan && mutation_ != Mutation::lucys_weight;
-    }
-    double amplitude() const {
-        const double h = scheme_.range, pi = std::numbers::pi;
-        return Dim == 1   ? 4.0 / (3.0 * h)
-               : Dim == 2 ? 40.0 / (7.0 * pi * h * h)
-                          : 8.0 / (pi * h * h * h);
-    }
-    int family() const {
-        if (scheme_.kernel == Kernel::lucy || mutation_ == Mutation::lucys_weight) return 3;
-        return to_string(scheme_.kernel).back() - '0';
-    }
+    double weight(double r) const { return w().value(r); }
     V gradient(int i, int j) const {
         const V r = x_[at(i)] - x_[at(j)];
         const double h = scheme_.range, d = r.norm();
         if (d >= h || d == 0.0) return V::Zero();
-        return slope(d) / d * r;
+        return w().slope(d) / d * r;
     }
     double mean(int i, int j) const {
         return scheme_.mean_density == MeanDensityKind::arithmetic
@@ -140,12 +110,12 @@ class OracleModel final : public Model<Dim> {
         return f;
     }
     /// In space, where a plane or a line lies.
-    static Eigen::Vector3d in_space(const V& a) {
-        Eigen::Vector3d r = Eigen::Vector3d::Zero();
+    static Axial in_space(const V& a) {
+        Axial r = Axial::Zero();
         r.head<Dim>() = a;
         return r;
     }
-    static Eigen::Vector3d cross(const V& a, const V& b) { return in_space(a).cross(in_space(b)); }
+    static Axial cross(const V& a, const V& b) { return in_space(a).cross(in_space(b)); }
 
     void load(std::span<const double> y) {
         const ConstState<Dim> state(this->layout(), y);
@@ -223,25 +193,25 @@ class OracleModel final : public Model<Dim> {
         return scheme_.balance == Balance::global ? 1 : this->particles().bodies();
     }
 
-    Eigen::Vector3d torque(int i, int j) const {
+    Axial torque(int i, int j) const {
         return m(i) * m(j) * cross(x_[at(i)] - x_[at(j)], force(i, j));
     }
-    Eigen::Vector3d torque(int i) const {
-        Eigen::Vector3d T = Eigen::Vector3d::Zero();
+    Axial torque(int i) const {
+        Axial T = Axial::Zero();
         for (int j = 0; j < n_; ++j) T += 0.5 * torque(i, j);
         return T;
     }
-    static double factor(const Eigen::Vector3d& T, const Eigen::Vector3d& theta) {
+    static double factor(const Axial& T, const Axial& theta) {
         return T.isZero(0.0) ? 1.0 : std::exp(-theta.dot(T.normalized()));
     }
 
     /// theta of every group, where sum |T| exp(-theta.n) - theta.X is least, X = sum m u x v, by Newton's method. In
     /// the plane e^theta is the R of [HHM04] VIII.
-    std::vector<Eigen::Vector3d> multipliers() const {
-        std::vector<Eigen::Vector3d> all;
+    std::vector<Axial> multipliers() const {
+        std::vector<Axial> all;
         for (int group = 0; group < groups(); ++group) {
-            std::vector<Eigen::Vector3d> torques;
-            Eigen::Vector3d X = Eigen::Vector3d::Zero();
+            std::vector<Axial> torques;
+            Axial X = Axial::Zero();
             for (int i = 0; i < n_; ++i) {
                 if (!in(i, group)) continue;
                 if (mutation_ != Mutation::without_X) X += m(i) * cross(u_[at(i)], v_[at(i)]);
@@ -251,32 +221,32 @@ class OracleModel final : public Model<Dim> {
                     for (int j = 0; j < n_; ++j) torques.push_back(0.5 * torque(i, j));
             }
             if (scheme_.transport != Transport::average) X.setZero();
-            Eigen::Vector3d theta = Eigen::Vector3d::Zero();
+            Axial theta = Axial::Zero();
             for (int k = 0; k < 60; ++k) {
-                Eigen::Vector3d rest = X;
+                Axial rest = X;
                 Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-                for (const Eigen::Vector3d& T : torques) {
+                for (const Axial& T : torques) {
                     if (T.isZero(0.0)) continue;
                     rest += factor(T, theta) * T;
                     H += factor(T, theta) * T * T.transpose() / T.norm();
                 }
                 Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> inverse;
                 inverse.setThreshold(1e-12);
-                const Eigen::Vector3d step = inverse.compute(H).solve(rest);
+                const Axial step = inverse.compute(H).solve(rest);
                 theta += step / std::max(1.0, 2.0 * step.norm());
             }
             all.push_back(theta);
         }
         return all;
     }
-    Eigen::Vector3d of_group(int i, const std::vector<Eigen::Vector3d>& theta) const {
+    Axial of_group(int i, const std::vector<Axial>& theta) const {
         return theta[scheme_.balance == Balance::global ? 0 : at(this->particles().body[at(i)])];
     }
 
     void forces(const State<Dim>& rate) const {
         const bool balance = scheme_.angular_momentum == AngularMomentum::torque_pair ||
                              scheme_.angular_momentum == AngularMomentum::torque_particle;
-        const auto theta = balance ? multipliers() : std::vector<Eigen::Vector3d>{};
+        const auto theta = balance ? multipliers() : std::vector<Axial>{};
         const bool particle = scheme_.angular_momentum == AngularMomentum::torque_particle;
         std::vector<double> own;  // factors of particles
         for (int i = 0; i < n_ && balance && particle; ++i)
@@ -290,7 +260,7 @@ class OracleModel final : public Model<Dim> {
                 V f = before;
                 if (balance) {
                     const V r = x_[at(i)] - x_[at(j)];
-                    const Eigen::Vector3d T = cross(r, f);
+                    const Axial T = cross(r, f);
                     const double s =
                         particle
                             ? 0.5 * (own[at(i)] + own[at(j)])
@@ -312,7 +282,7 @@ class OracleModel final : public Model<Dim> {
         for (int group = 0; group < groups(); ++group) {
             double mass = 0.0, K = 0.0;
             Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
-            Eigen::Vector3d L = Eigen::Vector3d::Zero(), L_dot = L;
+            Axial L = Axial::Zero(), L_dot = L;
             V X = V::Zero(), U = V::Zero(), transport = V::Zero();
             for (int i = 0; i < n_; ++i)
                 if (in(i, group)) {
@@ -335,7 +305,7 @@ class OracleModel final : public Model<Dim> {
                                      cross(r, V(rate.velocity().col(i))));
                 }
             const Eigen::Matrix3d reduced = I - L * L.transpose() / (2.0 * K);
-            Eigen::Vector3d beta = -reduced.fullPivLu().solve(L_dot);
+            Axial beta = -reduced.fullPivLu().solve(L_dot);
             if (mutation_ == Mutation::printed_multipliers) beta = -beta;
             const double alpha = beta.dot(L) / (2.0 * K);
             if (std::abs(alpha) > I.fullPivLu().solve(L).norm()) continue;
