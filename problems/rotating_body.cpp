@@ -57,7 +57,8 @@ void report(Session& session, const Parameters& p, const Body& body, const RunRe
     const bool balanced = body.smooth != nullptr && body.smooth->scheme().balances_torques();
     if (balanced || body.smooth == nullptr) {
         const bool particle = law == AngularMomentum::torque_particle;
-        const bool leapfrog = body.smooth == nullptr && !session.given("integrator");
+        const bool leapfrog =
+            body.smooth == nullptr && !session.given("integrator") && undamped(session.scheme());
         findings.claim("angular_momentum_change", change_of_L(h), 0.0,
                        leapfrog   ? 1e-13
                        : particle ? 1e-7
@@ -137,7 +138,7 @@ void compute(Session& session, const Parameters& p) {
         bodies.push_back(make_body(p, p.solid.formulation, speed,
                                    p.solid.lagrangian() ? of_lagrangian : of_updated));
         // L by it is conserved to round-off, for a quarter of the right-hand sides.
-        if (p.solid.remembers())
+        if (p.solid.remembers() && undamped(of_lagrangian))
             session.prefer_leapfrog(step_of_leapfrog(speed));
         else if (p.block())
             session.prefer_step(0.1);
@@ -146,13 +147,13 @@ void compute(Session& session, const Parameters& p) {
     const auto runs = run_all(session, bodies, [&](Body& body) {
         Plan<3> plan;
         plan.t_end = session.common().t_end.value_or(turns * body.turn());
-        if (p.compare && body.smooth == nullptr) {
-            plan.method = "leapfrog";
-            plan.step = step_of_leapfrog(body.speed);
-        } else if (p.compare) {
+        if (p.compare && body.smooth != nullptr) {
             plan.step = 0.1;
             plan.t_end = std::min(plan.t_end, 2.0 * body.turn());
             plan.own_end = true;
+        } else if (p.compare && undamped(of_lagrangian)) {
+            plan.method = "leapfrog";
+            plan.step = step_of_leapfrog(body.speed);
         }
         plan.record({closest_pair_column<3>(), shape_error_column<3>()});
         if (p.block()) plan.record(own_angular_velocity(body));

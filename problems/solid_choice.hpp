@@ -26,6 +26,11 @@ void add_pair_laws(ParticleModel<Dim>& model, std::size_t first, std::size_t cou
         model.template add_term_among<ReflectedPairs<Dim>>(first, count, scheme.closest_approach);
 }
 
+/// Whether nothing damps or reflects: leapfrog is then the method for solids that remember.
+inline bool undamped(const Scheme& scheme) {
+    return !(scheme.viscosity > 0.0) && !(scheme.closest_approach > 0.0);
+}
+
 /// --formulation, --penalty and --viscosity.
 struct SolidChoice {
     Formulation formulation = Formulation::total_lagrangian;

@@ -99,7 +99,7 @@ void compute(Session& session, const Parameters& p) {
     std::vector<Bar> bars;
     for (const int n : p.compare ? std::vector{4, 6, 8} : std::vector{p.columns})
         bars.push_back(make_bar(p, scheme, n));
-    if (p.solid.remembers()) session.prefer_leapfrog(0.4);
+    if (p.solid.remembers() && undamped(scheme)) session.prefer_leapfrog(0.4);
     const auto runs = run_all(session, bars, [&](Bar& bar) {
         Plan<3> plan;
         plan.t_end = session.common().t_end.value_or(p.periods * 2.0 * std::numbers::pi /

@@ -235,6 +235,11 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"stability", "dimension"}, "3"},
     {{"stability", "lattice"}, "fcc"},
     {{"gas_cloud", "dimension"}, "2"},
+    {{"gas_cloud", "ranges"}, "density"},
+    {{"rotating_body", "size"}, "5"},
+    {{"torsion", "formulation"}, "material_vectors"},
+    {{"torsion", "closest-approach"}, "0.999999"},
+    {{"torsion", "speed"}, "0.01"},
 };
 
 /// Cases of problems that leave different options without effect.
