@@ -5,7 +5,8 @@
 #include <spam/material/elastic_solid.hpp>
 #include <spam/rhs/model.hpp>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <numbers>
 
@@ -27,6 +28,18 @@ enum class Mutation {
     absolute_position,    ///< a force that knows where the origin is
     lucys_weight          ///< that weight function, whatever the scheme says
 };
+
+/// A^-1 b of a symmetric A, 0 along axes of which A knows nothing.
+[[gnu::noinline]] inline Eigen::Vector3d solved(const Eigen::Matrix3d& A,
+                                                const Eigen::Vector3d& b) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(A);
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(axes.eigenvalues()[k]) > 1e-12 * A.norm())
+            x += axes.eigenvectors().col(k) *
+                 (axes.eigenvectors().col(k).dot(b) / axes.eigenvalues()[k]);
+    return x;
+}
 
 /// The equations of smooth particles from the papers as loops over all pairs, with Eigen, sharing no sum, list or weight
 /// function with the library. Slow, simple, and the judge of the pipeline. Free space.
@@ -230,9 +243,7 @@ class OracleModel final : public Model<Dim> {
                     rest += factor(T, theta) * T;
                     H += factor(T, theta) * T * T.transpose() / T.norm();
                 }
-                Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> inverse;
-                inverse.setThreshold(1e-12);
-                const Axial step = inverse.compute(H).solve(rest);
+                const Axial step = solved(H, rest);
                 theta += step / std::max(1.0, 2.0 * step.norm());
             }
             all.push_back(theta);
@@ -305,10 +316,10 @@ class OracleModel final : public Model<Dim> {
                                      cross(r, V(rate.velocity().col(i))));
                 }
             const Eigen::Matrix3d reduced = I - L * L.transpose() / (2.0 * K);
-            Axial beta = -reduced.fullPivLu().solve(L_dot);
+            Axial beta = -solved(reduced, L_dot);
             if (mutation_ == Mutation::printed_multipliers) beta = -beta;
             const double alpha = beta.dot(L) / (2.0 * K);
-            if (std::abs(alpha) > I.fullPivLu().solve(L).norm()) continue;
+            if (std::abs(alpha) > solved(I, L).norm()) continue;
             for (int i = 0; i < n_; ++i)
                 if (in(i, group))
                     rate.velocity().col(i) +=
