@@ -15,37 +15,23 @@ struct SecondSweeps {
     static constexpr Sweep<Dim> with = run_sweep<GeneralSweep, W, Dim, R, Passes...>;
 
     static Sweep<Dim> viscous(const Scheme& scheme) {
-        if constexpr (balances != Balances::never)
-            if (balances == Balances::always || scheme.balances_torques())
+        if constexpr (Dim == 2)
+            if (scheme.balances_torques())
                 return with<ChainRuleContinuity, BalancedStressForce<Dim>, Viscous>;
-        if constexpr (balances != Balances::always) return with<ChainRuleContinuity, Viscous>;
+        return with<ChainRuleContinuity, Viscous>;
     }
     static Sweep<Dim> inviscid(const Scheme& scheme) {
         const bool chain_rule = scheme.density == Density::chain_rule;
-        if constexpr (balances != Balances::never)
-            if (balances == Balances::always || scheme.balances_torques())
+        if constexpr (Dim == 2)
+            if (scheme.balances_torques())
                 return chain_rule ? with<ChainRuleContinuity, BalancedStressForce<Dim>>
                                   : with<BalancedStressForce<Dim>>;
-        if constexpr (balances != Balances::always)
-            return chain_rule ? with<ChainRuleContinuity> : nullptr;
+        return chain_rule ? with<ChainRuleContinuity> : nullptr;
     }
-
-  private:
-    /// In space with records of their own alone.
-    enum class Balances { never, maybe, always };
-    static constexpr Balances balances = Dim == 2 ? Balances::maybe
-                                         : R::template has<column::TorqueMultiplier>
-                                             ? Balances::always
-                                             : Balances::never;
 };
 
 template <int Dim>
 Sweep<Dim> second_sweep(const Scheme& scheme, Matter matter) {
-    if constexpr (Dim == 3)
-        if (scheme.balances_torques()) {
-            using Second = SecondSweeps<Dim, BalancedRecord<Dim>>;
-            return scheme.viscosity > 0.0 ? Second::viscous(scheme) : Second::inviscid(scheme);
-        }
     if (!(scheme.viscosity > 0.0)) return SecondSweeps<Dim, TransportRecord<Dim>>::inviscid(scheme);
     return matter == Matter::conducting ? SecondSweeps<Dim, ViscousRecord<Dim>>::viscous(scheme)
                                         : SecondSweeps<Dim, TransportRecord<Dim>>::viscous(scheme);
@@ -80,15 +66,8 @@ Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter) {
                       : matter == Matter::shifted    ? ShiftedRecord<Dim>::numbers
                       : matter == Matter::conducting ? ConductingRecord<Dim>::numbers
                                                      : Record<Dim>::numbers;
-    int later =
+    const int later =
         matter == Matter::conducting ? ViscousRecord<Dim>::numbers : TransportRecord<Dim>::numbers;
-    if constexpr (Dim == 3)
-        if (scheme.balances_torques()) {
-            later = BalancedRecord<Dim>::numbers;
-            if (scheme.angular_momentum == AngularMomentum::torque_pair)
-                sweeps.torques =
-                    run_sweep<GeneralSweep, W, Dim, BalancedRecord<Dim>, SpaceTorqueSums<true>>;
-        }
     sweeps.numbers = sweeps.second != nullptr ? std::max(first, later) : first;
     return sweeps;
 }

@@ -26,8 +26,10 @@ inline constexpr int W = native_lanes(InstructionSet::SPAM_LEVEL);
 /// torques; and what goes with them. A solid's velocity gradient is found on the way.
 template <class Kind, int Dim, class Mean>
 struct ForceSweeps {
+    /// `torques`: those of the first sweep in space, where they are balanced; in the plane the scheme says it.
+    template <bool torques = false>
     static Sweep<Dim> solid(const Scheme& scheme) {
-        return by_transport(scheme, [](auto transport, auto force) {
+        return by_transport<Work::mean, torques>(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, Record<Dim>, VelocityGradient<Dim, Mean>, Continuity,
                              decltype(transport), decltype(force)>;
         });
@@ -39,13 +41,13 @@ struct ForceSweeps {
                              decltype(transport), TorqueParts>;
         });
     }
-    template <Work work = Work::mean>
+    template <Work work = Work::mean, bool torques = false>
     static Sweep<Dim> conducting(const Scheme& scheme) {
         if constexpr (work == Work::mean)
             if (scheme.transport == Transport::shifting)
                 return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, StressForce<Dim>,
                                  HeatFlow<Dim>, Continuity, ShiftingTransport<Dim, Mean>>;
-        return by_transport<work>(scheme, [](auto transport, auto force) {
+        return by_transport<work, torques>(scheme, [](auto transport, auto force) {
             return run_sweep<Kind, W, Dim, ConductingRecord<Dim>, decltype(transport),
                              decltype(force), HeatFlow<Dim>, Continuity>;
         });
@@ -65,24 +67,27 @@ struct ForceSweeps {
                   ShiftingTransport<Dim, Mean>, PairFriction<Dim>, PairConduction>;
 
   private:
-    template <Work work = Work::mean, class Make>
+    template <Work work = Work::mean, bool torques = false, class Make>
     static Sweep<Dim> by_transport(const Scheme& scheme, const Make& make) {
         switch (scheme.transport) {
             case Transport::plain:
-                return by_force<work>(scheme, make, PlainTransport<Dim>{});
+                return by_force<work, torques>(scheme, make, PlainTransport<Dim>{});
             case Transport::average:
-                return by_force<work>(scheme, make, AverageTransport<Dim>{});
+                return by_force<work, torques>(scheme, make, AverageTransport<Dim>{});
             case Transport::monaghan:
             case Transport::shifting:  // of fluids: above
                 break;
         }
-        return by_force<work>(scheme, make, MonaghanTransport<Dim, Mean>{});
+        return by_force<work, torques>(scheme, make, MonaghanTransport<Dim, Mean>{});
     }
-    template <Work work, class Make, class Velocity>
+    template <Work work, bool torques, class Make, class Velocity>
     static Sweep<Dim> by_force(const Scheme& scheme, const Make& make, Velocity velocity) {
-        if constexpr (Dim > 1 && work == Work::mean)
+        if constexpr (Dim == 2 && work == Work::mean)
             if (scheme.balances_torques()) return make(velocity, TorqueSums<Dim>{});
-        return make(velocity, StressForce<Dim, work>{});
+        if constexpr (torques)
+            return make(velocity, TorqueSums<Dim>{});
+        else
+            return make(velocity, StressForce<Dim, work>{});
     }
 };
 

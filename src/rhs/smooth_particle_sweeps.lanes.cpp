@@ -7,6 +7,8 @@ namespace spam {
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
     if (scheme.work == Work::own) return own_work_sweeps<Dim, Level>(scheme, matter);
+    if constexpr (Dim == 3)
+        if (scheme.balances_torques()) return balanced_sweeps_in_space<Level>(scheme, matter);
     Sweeps<Dim> sweeps = general_sweeps<Dim, Level>(scheme, matter);
     if (scheme.kernel != Kernel::lucy) return sweeps;
     // On a line a fluid's general sweeps are as quick.
@@ -20,15 +22,6 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter) {
     if (matter != Matter::solid || scheme.mean_density != MeanDensityKind::arithmetic)
         return sweeps;
     sweeps.force = ForceSweeps<LucysSweep, Dim, ArithmeticMean>::solid(scheme);
-    if constexpr (Dim == 3) {
-        if (sweeps.torques != nullptr)
-            sweeps.torques =
-                run_sweep<LucysSweep, W, Dim, BalancedRecord<Dim>, SpaceTorqueSums<true>>;
-        if (scheme.balances_torques() && scheme.density != Density::chain_rule &&
-            scheme.viscosity == 0.0)
-            sweeps.second =
-                run_sweep<LucysSweep, W, Dim, BalancedRecord<Dim>, BalancedStressForce<Dim>>;
-    }
     if constexpr (Dim == 2)
         if (scheme.balances_torques() && scheme.density != Density::chain_rule &&
             scheme.viscosity == 0.0) {

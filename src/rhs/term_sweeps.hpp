@@ -26,6 +26,10 @@ Sweeps<Dim> smooth_particle_sweeps(const Scheme& scheme, Matter matter);
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> general_sweeps(const Scheme& scheme, Matter matter);
 
+/// The same for schemes that balance torques in space.
+template <InstructionSet Level>
+Sweeps<3> balanced_sweeps_in_space(const Scheme& scheme, Matter matter);
+
 /// The same of rubbing and conducting matter for schemes with Work::own.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> own_work_sweeps(const Scheme& scheme, Matter matter);
