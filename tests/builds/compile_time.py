@@ -2,7 +2,8 @@
 """No source takes more than 30 s of a quiet core to compile.
 
 Seconds on a busy machine say nothing; processor time compared with that of a source compiled beside it does. Compiled
-again is the source that took longest in the build, by ninja's log."""
+again is the source that took longest in the build, by ninja's log. A unit of eight sources (SPAM_UNITY) is no source: its own
+limit is twice that."""
 import json
 import os
 import re
@@ -58,7 +59,7 @@ class CompileTimes(unittest.TestCase):
             file, command = known[slowest(known)[0]]
             taken = processor_seconds(command, folder) / seconds
             print(f"{os.path.relpath(file, BUILD)}: {taken:.1f} s of a quiet core")
-            self.assertLess(taken, MOST, file)
+            self.assertLess(taken, 2.0 * MOST if "/Unity/" in file else MOST, file)
 
 
 if __name__ == "__main__":
