@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: an ellipsoid of gas flies apart in the void, beside Dyson's exact solution; 20 s
+// spam-list: an ellipsoid of gas flies apart in the void, beside Dyson's exact solution; 2 s
 //
 // An ellipse or an ellipsoid of gas with semi-axes a, b, c is let go in the void.
 //

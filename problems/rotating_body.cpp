@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: an elastic cube, ball or block that rotates in space; balanced torques, and a block that tumbles; 30 s
+// spam-list: an elastic cube, ball or block that rotates in space; balanced torques, and a block that tumbles; 2 s
 //
 // An elastic body rotates in space, [HHM04] I and VIII.
 //
@@ -193,8 +193,8 @@ int main(int argc, char** argv) {
                     between(3, 200));
     options.number(
         "speed", p.speed,
-        "speed of the particle farthest from the centre, were it off the axis (default 0.1; "
-        "0.02 for a total-Lagrangian block)",
+        "angular velocity times the distance of the farthest particle from the centre (default "
+        "0.1; 0.02 for a total-Lagrangian block)",
         between(1e-6, 1e3));
     options.number("turns", p.turns, "number of nominal turns (default 1; 12 for a block)",
                    positive());

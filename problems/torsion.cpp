@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: a free square bar that oscillates in torsion, against Saint-Venant and the theory of its columns; 10 s
+// spam-list: a free square bar that oscillates in torsion, against Saint-Venant and the theory of its columns; 2 s
 //
 // A free square bar, n x n x 6n particles on a cubic lattice of spacing 1, oscillates in torsion.
 //

@@ -24,14 +24,19 @@ void expect_spacing(double spacing) {
     expect(std::isfinite(spacing) && spacing > 0.0, "spacing", spacing, "a positive number");
 }
 
-Doubles square(const std::vector<int>& cells, double spacing) {
+/// `particles`: in a cell.
+template <class Cells>
+void expect_cells(const Cells& cells, double spacing, double particles) {
     expect_spacing(spacing);
-    double particles = 1.0;
     for (const int n : cells) {
         expect(n >= 1, "cells", n, "1 or more in each direction");
         particles *= n;
     }
     expect(particles <= most_particles, "cells", particles, "up to 1e8 particles");
+}
+
+Doubles square(const std::vector<int>& cells, double spacing) {
+    expect_cells(cells, spacing, 1.0);
     switch (cells.size()) {
         case 1:
             return array_of<1>(square_lattice<1>({cells[0]}, spacing));
@@ -105,13 +110,7 @@ void bind_setup(py::module_& module) {
     module.def(
         "cubic_lattice",
         [](const std::string& lattice, const std::array<int, 3>& cells, double spacing) {
-            expect_spacing(spacing);
-            double particles = 4.0;
-            for (const int n : cells) {
-                expect(n >= 1, "cells", n, "1 or more in each direction");
-                particles *= n;
-            }
-            expect(particles <= most_particles, "cells", particles, "up to 1e8 particles");
+            expect_cells(cells, spacing, 4.0);
             return array_of<3>(cubic_lattice(cubic_of(lattice), cells, spacing));
         },
         "lattice"_a, "cells"_a, "spacing"_a = 1.0,

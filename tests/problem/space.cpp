@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(columns_twist_as_much_more_easily_as_derived) {
     }
 }
 
-/// A wave that a grid alone misses is found: (1.24, 1.24, 0) or what symmetry makes of it.
+/// Also the one on a narrow ridge that a coarse grid misses.
 BOOST_AUTO_TEST_CASE(the_fastest_wave_of_a_cubic_lattice_is_found) {
     const Results found(
         "stability",

@@ -21,9 +21,6 @@ namespace spam {
 /// What a scheme needs of the torques of its first sweep; in space see torque_balance_in_space.hpp.
 template <int Dim>
 struct TorqueSums;
-/// The stress force with balanced torques; its power enters the energy like any force's.
-template <int Dim>
-struct BalancedStressForce;
 
 /// Sums over the pairs of particle i: of its positive torques and of minus its negative ones (every
 /// pair is met twice, once from each end).
@@ -138,13 +135,15 @@ Vec<2, T> scale_torque(const Pair<2, T>& pair, const Record& i, const Record& j,
     return {{f_ij[0] + k * pair.r_ji[1], f_ij[1] - k * pair.r_ji[0]}};
 }
 
-template <>
-struct BalancedStressForce<2> {
+/// The stress force with balanced torques, by the scale_torque() of its dimension; its power enters the energy like any
+/// force's.
+template <int Dim>
+struct BalancedStressForce {
     template <class T>
-    using Sums = ForceSums<2, T>;
+    using Sums = ForceSums<Dim, T>;
 
     template <class T, class Record>
-    static void add(const Pair<2, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
+    static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
     }
     template <class To, class T>

@@ -113,19 +113,4 @@ inline constexpr std::size_t torque_moments = 9;
 template <>
 struct TorqueSums<3> : SpaceTorqueSums<false> {};
 
-template <>
-struct BalancedStressForce<3> {
-    template <class T>
-    using Sums = ForceSums<3, T>;
-
-    template <class T, class Record>
-    static void add(const Pair<3, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
-        sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
-    }
-    template <class To, class T>
-    static void store(const To& to, const Sums<T>& sums) {
-        sums.store(to);
-    }
-};
-
 }  // namespace spam
