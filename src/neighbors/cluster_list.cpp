@@ -20,6 +20,10 @@ ClusterList<Dim>::ClusterList(double range, double skin, const Box<Dim>& box, in
       box_(box),
       width_(width),
       stride_(static_cast<std::uint32_t>(stride)) {
+    if (std::isinf(range) && box.periodic())
+        throw InputError(
+            "box: forces of infinite range have no sum over the images of a periodic box; leave out the periods, "
+            "or use a potential of finite range");
     for (int a = 0; a < Dim; ++a) {
         const double least = 0.2 * (range + skin);
         if (box.periodic(a) && !(box.length(a) > least))
@@ -167,10 +171,27 @@ std::size_t ClusterList<Dim>::search() {
         bits > 0 ? parallel_threshold : 0);
 }
 
+/// Of an infinite range.
+template <int Dim>
+void ClusterList<Dim>::list_all() {
+    gather_in_order();
+    ghosts_.build(box_, reach(), place(), slot_of_, order_.size(), x_);
+    cells_.load({boxes_, ghosts_, place(), order_, slot_of_, x_, static_cast<std::size_t>(width_),
+                 0.0, reach(), 0.0});
+    parts_.assign(1, {{}});
+    std::vector<std::uint32_t>& all = parts_.front().front();
+    all.resize(cells_.count + 1);  // sweeps look one entry ahead
+    for (std::size_t k = 0; k < cells_.count; ++k) all[k] = cells_.slots[k] * stride_;
+    entries_.assign(boxes_.size(), {all.data(), static_cast<std::uint32_t>(cells_.count)});
+    pairs_ = size_ > 0 ? size_ * (cells_.count - 1) / 2 : 0;
+    ++builds_;
+}
+
 template <int Dim>
 void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     size_ = static_cast<std::size_t>(position.cols());
     motion_.begin(position);
+    if (std::isinf(range_)) return list_all();
     sort();
     ghosts_.build(box_, reach(), place(), slot_of_, order_.size(), x_);
     entries_.resize(boxes_.size());

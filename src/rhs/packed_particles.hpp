@@ -4,6 +4,7 @@
 #include <spam/neighbors/neighbourhood.hpp>
 #include <spam/rhs/sweeps.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace spam {
@@ -12,9 +13,10 @@ namespace spam {
 template <int Dim>
 class PackedParticles : public Neighbourhood<Dim> {
   public:
+    /// `range`: where it is not the weight's.
     PackedParticles(const GeneralWeight<Dim>& weight, ListUse use, const Box<Dim>& box,
-                    const Sweeps<Dim>& sweeps)
-        : Neighbourhood<Dim>(weight.range(), use, box, sweeps.width, sweeps.numbers,
+                    const Sweeps<Dim>& sweeps, std::optional<double> range = {})
+        : Neighbourhood<Dim>(range.value_or(weight.range()), use, box, sweeps.width, sweeps.numbers,
                              sweeps.pack.kinds),
           weight_(weight),
           make_records_(sweeps.pack) {}

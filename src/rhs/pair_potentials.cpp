@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spam {
 namespace {
@@ -45,6 +47,33 @@ PairLaw<Dim> law_of(const CohesivePotential& potential) {
 }
 
 template <int Dim>
+PairLaw<Dim> law_of(const LongRangeScheme& scheme, const Particles<Dim>& particles) {
+    const std::vector<double>& q = scheme.charge.empty() ? particles.mass : scheme.charge;
+    if (scheme.strength == 0.0 || !std::isfinite(scheme.strength))
+        throw InputError(fmt::format(
+            "strength: {:g} of long-range forces must be a number other than 0; -G is that of gravity",
+            scheme.strength));
+    const auto below = [](double charge) { return charge < 0.0; };
+    const auto negative = std::count_if(q.begin(), q.end(), below);
+    const bool alike = negative == 0 || negative == static_cast<std::ptrdiff_t>(q.size());
+    if (!(scheme.softening > 0.0 || (scheme.softening == 0.0 && alike && scheme.strength > 0.0)) ||
+        !std::isfinite(scheme.softening))
+        throw InputError(fmt::format(
+            "softening: {:g} must be above 0 where particles attract each other, which else may meet at infinite "
+            "speed, and 0 or more where all repel; a tenth of the spacing is usual",
+            scheme.softening));
+    PairLaw<Dim> law{best_sweeps([](auto level) { return long_range_sweeps<Dim, level>(); }),
+                     std::numeric_limits<double>::infinity(),
+                     fmt::format("{} of all pairs, {:g} {}/sqrt(r^2 + {:g}^2)",
+                                 scheme.charge.empty() ? "gravity" : "charges", scheme.strength,
+                                 scheme.charge.empty() ? "m_i m_j" : "q_i q_j", scheme.softening)};
+    law.constants.core_energy = scheme.strength;
+    law.constants.core_range = scheme.softening;
+    law.columns = {q};
+    return law;
+}
+
+template <int Dim>
 PairLaw<Dim> weights_law(const Particles<Dim>& particles, double range, double a, Kernel kernel) {
     PairLaw<Dim> law{
         best_sweeps([&](auto level) { return weight_potential_sweeps<Dim, level>(kernel); }),
@@ -69,6 +98,10 @@ Cohesion<Dim>::Cohesion(const Selection<Dim>& among, const CohesivePotential& po
     : PairTerm<Dim>(among, law_of<Dim>(potential)) {}
 
 template <int Dim>
+LongRange<Dim>::LongRange(const Selection<Dim>& among, const LongRangeScheme& scheme)
+    : PairTerm<Dim>(among, law_of<Dim>(scheme, among.particles())) {}
+
+template <int Dim>
 WeightPotential<Dim>::WeightPotential(const Selection<Dim>& among, double range, double a,
                                       Kernel kernel)
     : PairTerm<Dim>(among, weights_law<Dim>(among.particles(), range, a, kernel)) {}
@@ -79,6 +112,9 @@ template class Core<3>;
 template class Cohesion<1>;
 template class Cohesion<2>;
 template class Cohesion<3>;
+template class LongRange<1>;
+template class LongRange<2>;
+template class LongRange<3>;
 template class WeightPotential<1>;
 template class WeightPotential<2>;
 template class WeightPotential<3>;

@@ -4,6 +4,8 @@
 #include <spam/physics/contact_potential.hpp>
 #include <spam/physics/density_passes.hpp>
 #include <spam/physics/density_sum.hpp>
+#include <spam/physics/fick_flux.hpp>
+#include <spam/physics/long_range.hpp>
 #include <spam/physics/mean_density.hpp>
 #include <spam/physics/pair_potential.hpp>
 #include <spam/physics/viscosity.hpp>
@@ -46,6 +48,23 @@ Sweeps<Dim> cohesive_sweeps() {
 }
 
 template <int Dim, InstructionSet Level>
+Sweeps<Dim> long_range_sweeps() {
+    return pair_sweeps<Level, GeneralSweep, Dim, ChargedRecord<Dim>, LongRangeForce<Dim>,
+                       LongRangeEnergy<Dim>>();
+}
+
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> species_sweeps() {
+    constexpr int W = native_lanes(Level);
+    using R = SpeciesRecord<Dim>;
+    Sweeps<Dim> sweeps{W, R::numbers, pack<Dim, PointRecord<Dim>>};
+    sweeps.density = run_sweep<GeneralSweep, W, Dim, PointRecord<Dim>, DensitySum>;
+    sweeps.gradient = run_sweep<GeneralSweep, W, Dim, ConcentrationRecord<Dim>, FickFlux<Dim>>;
+    sweeps.force = run_sweep<GeneralSweep, W, Dim, R, HeatFlow<Dim>>;
+    return sweeps;
+}
+
+template <int Dim, InstructionSet Level>
 Sweeps<Dim> contact_sweeps() {
     return pair_sweeps<Level, GeneralSweep, Dim, ContactRecord<Dim>, ContactForce<Dim>,
                        ContactEnergy<Dim>>();
@@ -75,6 +94,12 @@ template Sweeps<3> cohesive_sweeps<3, InstructionSet::SPAM_LEVEL>();
 template Sweeps<1> contact_sweeps<1, InstructionSet::SPAM_LEVEL>();
 template Sweeps<2> contact_sweeps<2, InstructionSet::SPAM_LEVEL>();
 template Sweeps<3> contact_sweeps<3, InstructionSet::SPAM_LEVEL>();
+template Sweeps<1> long_range_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> long_range_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> long_range_sweeps<3, InstructionSet::SPAM_LEVEL>();
+template Sweeps<1> species_sweeps<1, InstructionSet::SPAM_LEVEL>();
+template Sweeps<2> species_sweeps<2, InstructionSet::SPAM_LEVEL>();
+template Sweeps<3> species_sweeps<3, InstructionSet::SPAM_LEVEL>();
 template Sweeps<1> weight_potential_sweeps<1, InstructionSet::SPAM_LEVEL>(Kernel);
 template Sweeps<2> weight_potential_sweeps<2, InstructionSet::SPAM_LEVEL>(Kernel);
 template Sweeps<3> weight_potential_sweeps<3, InstructionSet::SPAM_LEVEL>(Kernel);

@@ -17,7 +17,7 @@ namespace {
 template <int Dim>
 PairLaw<Dim> validated(PairLaw<Dim> law, std::size_t particles) {
     const int own = static_cast<int>(law.sweeps.pack.kinds.size());
-    if (!(law.range > 0.0) || !std::isfinite(law.range))
+    if (!(law.range > 0.0))
         throw InputError(fmt::format("range: {:g} of '{}' must be a positive length", law.range,
                                      law.description));
     if (law.sweeps.numbers < own + static_cast<int>(law.columns.size()))
@@ -42,12 +42,15 @@ PairTerm<Dim>::PairTerm(const Selection<Dim>& among, PairLaw<Dim> law)
     : Term<Dim>(among),
       law_(validated(std::move(law), among.particles().size())),
       kinds_(record_kinds()),
-      packed_(std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(law_.kernel, law_.range),
-                                                     ListUse::again_and_again, this->box(),
-                                                     law_.sweeps)) {
+      packed_(std::make_unique<PackedParticles<Dim>>(
+          GeneralWeight<Dim>(law_.kernel, std::isinf(law_.range) ? 1.0 : law_.range),
+          ListUse::again_and_again, this->box(), law_.sweeps, law_.range)) {
     this->look_after(*packed_);
     this->nature_.description = law_.description;
     this->nature_.reach = law_.range;
+    if (std::isinf(law_.range))
+        this->nature_.no_images =
+            "images behind a wall would attract and repel like particles; use rigid sides";
     this->nature_.potential = law_.sweeps.energy != nullptr;
     if (law_.heat) {
         this->nature_.fields = {*law_.heat};

@@ -57,6 +57,14 @@ Sweeps<Dim> core_sweeps();
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> cohesive_sweeps();
 
+/// Long-range forces, of ChargedRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> long_range_sweeps();
+
+/// A species that spreads and reacts, of SpeciesRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> species_sweeps();
+
 /// Contact, of ContactRecord.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> contact_sweeps();

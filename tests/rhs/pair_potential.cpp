@@ -9,6 +9,7 @@
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 using namespace spam;
@@ -47,6 +48,14 @@ ByDefinition cohesive(double e_b, double a) {
             }};
 }
 
+/// s q_i q_j/sqrt(r^2 + eps^2) with q = m.
+ByDefinition long_range(double s, double eps) {
+    return {[=](double m_i, double m_j, double r) { return s * m_i * m_j / std::hypot(r, eps); },
+            [=](double m_i, double m_j, double r) {
+                return s * m_i * m_j / std::pow(std::hypot(r, eps), 3);
+            }};
+}
+
 template <int Dim>
 void every_pair(ParticleModel<Dim>& model, const ByDefinition& law) {
     const Box<Dim>& box = model.box();
@@ -74,7 +83,7 @@ void every_pair(ParticleModel<Dim>& model, const ByDefinition& law) {
             energy += 0.5 * law.energy(m_i, m_j, r.norm());
         }
     BOOST_TEST((rate.velocity() - v_dot).norm() < 1e-13 * v_dot.norm());
-    BOOST_TEST(std::abs(model.internal_energy(y) - energy) < 1e-13 * energy);
+    BOOST_TEST(std::abs(model.internal_energy(y) - energy) < 1e-13 * std::abs(energy));
     for (Eigen::Index i = 0; i < x.cols(); ++i)
         total += m[static_cast<std::size_t>(i)] * rate.velocity().col(i);
     BOOST_TEST(total.norm() < 1e-13 * v_dot.norm());
@@ -106,6 +115,16 @@ void every_pair(int cells, const Box<Dim>& box) {
     ParticleModel<Dim> cohesion(particles, box);
     cohesion.template add_term<Cohesion<Dim>>(CohesivePotential{0.7, 1.1});
     every_pair<Dim>(cohesion, cohesive(0.7, 1.1));
+    for (const auto& [strength, softening] : {std::pair(-0.8, 0.3), std::pair(1.7, 0.0)}) {
+        const LongRangeScheme scheme{strength, softening};
+        ParticleModel<Dim> attracted(particles, box);
+        if (box.periodic()) {
+            BOOST_CHECK_THROW(attracted.template add_term<LongRange<Dim>>(scheme), InputError);
+            continue;
+        }
+        attracted.template add_term<LongRange<Dim>>(scheme);
+        every_pair<Dim>(attracted, long_range(strength, softening));
+    }
 }
 
 }  // namespace
@@ -130,6 +149,63 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     ParticleModel<2> model(particles);
     for (const auto& wrong : {CohesivePotential{0.0, 1.0}, CohesivePotential{1.0, -1.0}})
         BOOST_CHECK_THROW(model.add_term<Cohesion<2>>(wrong), InputError);
+}
+
+// Charges of either sign; the list of all pairs lasts however far particles go.
+BOOST_AUTO_TEST_CASE(charges) {
+    auto particles = jittered_particles<3>(5, 84);
+    LongRangeScheme scheme{2.0, 0.2, {}};
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        scheme.charge.push_back(i % 3 == 0 ? -2.0 : 0.7);
+    ParticleModel<3> charged(particles);
+    auto& term = charged.add_term<LongRange<3>>(scheme);
+    auto y = random_state(charged, 85);
+    const State<3> state(charged.layout(), y);
+    for (int turn = 0; turn < 3; ++turn) {
+        const auto y_dot = rates_of(charged, y);
+        const ConstState<3> rate(charged.layout(), y_dot);
+        double energy = 0.0, worst = 0.0, largest = 0.0;
+        Point<3> total = Point<3>::Zero(), torque = total;
+        for (Eigen::Index i = 0; i < state.position().cols(); ++i) {
+            Point<3> force = Point<3>::Zero();
+            for (Eigen::Index j = 0; j < state.position().cols(); ++j) {
+                const Point<3> r = state.position().col(i) - state.position().col(j);
+                const double q = 2.0 * scheme.charge[static_cast<std::size_t>(i)] *
+                                 scheme.charge[static_cast<std::size_t>(j)];
+                if (i == j) continue;
+                force += q * std::pow(r.squaredNorm() + 0.04, -1.5) * r;
+                energy += 0.5 * q / std::sqrt(r.squaredNorm() + 0.04);
+            }
+            const Point<3> found =
+                particles.mass[static_cast<std::size_t>(i)] * rate.velocity().col(i);
+            worst = std::max(worst, (found - force).norm());
+            largest = std::max(largest, force.norm());
+            total += found;
+            torque += Point<3>(state.position().col(i)).cross(found);
+        }
+        BOOST_TEST(worst < 1e-13 * largest);
+        BOOST_TEST(total.norm() < 1e-13 * largest);
+        BOOST_TEST(torque.norm() < 1e-12 * largest * state.position().cwiseAbs().maxCoeff());
+        BOOST_TEST(charged.internal_energy(y) == energy, boost::test_tools::tolerance(1e-13));
+        state.position() *= 100.0;
+    }
+    BOOST_TEST(term.counts().list_builds == 1U);
+    BOOST_TEST(term.counts().pairs == particles.size() * (particles.size() - 1) / 2);
+}
+
+// Softening where particles attract each other; charges that are one for each particle.
+BOOST_AUTO_TEST_CASE(long_range_forces_that_make_no_sense) {
+    ParticleModel<2> model(jittered_particles<2>(4, 86));
+    std::vector<double> both(model.particles().size(), 1.0);
+    both[3] = -1.0;
+    for (const auto& wrong :
+         {LongRangeScheme{0.0, 0.1}, LongRangeScheme{-1.0, 0.0}, LongRangeScheme{1.0, -0.1},
+          LongRangeScheme{1.0, 0.0, both}, LongRangeScheme{1.0, 0.1, {1.0}}})
+        BOOST_CHECK_THROW(model.add_term<LongRange<2>>(wrong), InputError);
+    Box<2> box;
+    box.set_wall(0, false, {WallKind::mirror, -5.0});
+    ParticleModel<2> walled(jittered_particles<2>(4, 86), box);
+    BOOST_CHECK_THROW(walled.add_term<LongRange<2>>(LongRangeScheme{}), InputError);
 }
 
 // What [HH07] 13 says of it, and what its comment does.

@@ -137,9 +137,16 @@ struct Lanes {
     /// for it; x > 0.
     SPAM_INLINE friend Lanes sqrt_by_products(const Lanes& x) {
 #if defined(__AVX512F__)
-        if constexpr (W == 8) return Vector(products_for_root((__m512d)x.v));
+        if constexpr (W == 8) return Vector(products_for_root<false>((__m512d)x.v));
 #endif
         return sqrt(x);
+    }
+    /// 1/sqrt(x), likewise.
+    SPAM_INLINE friend Lanes inverse_sqrt_by_products(const Lanes& x) {
+#if defined(__AVX512F__)
+        if constexpr (W == 8) return Vector(products_for_root<true>((__m512d)x.v));
+#endif
+        return Lanes(1.0) / sqrt(x);
     }
 
     /// Nearest integers, halves to even.
@@ -186,13 +193,16 @@ struct Lanes {
     }
 
     // From an estimate y of 1/sqrt(x) to 14 bits, e = 1 - x y^2 and s = x y: sqrt(x) = s (1 - e)^(-1/2).
+    // Likewise 1/sqrt(x) = y (1 - e)^(-1/2).
+    template <bool Inverse>
     SPAM_INLINE static __m512d products_for_root(__m512d x) {
         const __m512d y = _mm512_maskz_rsqrt14_pd(0xff, x);
         const __m512d s = _mm512_mul_pd(x, y);
         const __m512d e = _mm512_fnmadd_pd(s, y, _mm512_set1_pd(1.0));
         const __m512d p = _mm512_fmadd_pd(_mm512_set1_pd(0.3125), e, _mm512_set1_pd(0.375));
         const __m512d q = _mm512_fmadd_pd(p, e, _mm512_set1_pd(0.5));
-        return _mm512_fmadd_pd(_mm512_mul_pd(s, e), q, s);
+        const __m512d first = Inverse ? y : s;
+        return _mm512_fmadd_pd(_mm512_mul_pd(first, e), q, first);
     }
 #endif
 };

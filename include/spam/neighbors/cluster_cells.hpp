@@ -33,6 +33,8 @@ class ClusterCells {
         double most_volume;  ///< ClusterBoxes::volume of a cluster that belongs to a cell
     };
     void build(const Input& in);
+    /// Without cells: `slots` and `count`.
+    void load(const Input& in);
 
     /// Some cells in a row in every direction: [from, to).
     struct Region {
@@ -71,7 +73,6 @@ class ClusterCells {
   private:
     void divide(const Input& in);
     void assign(const Input& in);
-    void load(const Input& in);
     void bound_chunks();
     std::size_t cell(std::size_t a, double at) const;
 

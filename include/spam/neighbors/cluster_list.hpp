@@ -22,14 +22,16 @@ namespace spam {
 /// adding an exact zero changes no bit, so a sum over the list depends on the particles alone: not on the
 /// skin, on when the list was built, nor on the number of threads (tests/rhs/list_order.cpp).
 ///
+/// Where the range is infinite all clusters share one list, of all slots, which serves for ever.
+///
 /// Slots are the particles' own numbers as long as these keep neighbours together, as in a solid. In a flow
 /// they are sorted into strips at every build.
 template <int Dim>
 class ClusterList {
   public:
-    /// `range` > 0, the range of the weight function; `skin` >= 0, how much further the list looks;
+    /// `range` > 0, the range of the weight function, or infinite; `skin` >= 0, how much further the list looks;
     /// `width` 1, 2, 4 or 8; `stride`: numbers in a record of the sweeps. Throws InputError when a
-    /// periodic length is so short that a particle would meet more than five images of another, or two
+    /// range is infinite in a periodic box, a periodic length is so short that a particle would meet more than five images of another, or two
     /// walls face each other within the range.
     ClusterList(double range, double skin, const Box<Dim>& box, int width, std::size_t stride = 1);
 
@@ -89,6 +91,7 @@ class ClusterList {
   private:
     class CellSearch;
     std::size_t search();
+    void list_all();
     void sort();
     void take_home();
     void gather();

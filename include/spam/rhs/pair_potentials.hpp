@@ -27,6 +27,22 @@ class Cohesion final : public PairTerm<Dim> {
     explicit Cohesion(const Selection<Dim>& among, const CohesivePotential& potential = {});
 };
 
+/// Forces without a range between all particles, by direct sums over N (N - 1)/2 pairs (physics/long_range.hpp):
+/// Phi = sum s q_i q_j/sqrt(r^2 + eps^2), in the plane too.
+struct LongRangeScheme {
+    double strength = -1.0;        ///< s: -G of gravity; above 0 like charges repel each other
+    double softening = 0.1;        ///< eps
+    std::vector<double> charge{};  ///< N; empty: the masses
+};
+
+template <int Dim>
+class LongRange final : public PairTerm<Dim> {
+  public:
+    /// Throws InputError for a strength of 0, for a softening below 0, or of 0 where some particles attract each
+    /// other, for charges that are not one for each particle, and for a periodic box.
+    LongRange(const Selection<Dim>& among, const LongRangeScheme& scheme);
+};
+
 /// Molecular dynamics with a weight function as pair potential, phi = a m_i m_j w(r); Lucy's in [HHM04] III.
 template <int Dim>
 class WeightPotential final : public PairTerm<Dim> {

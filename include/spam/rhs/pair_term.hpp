@@ -18,7 +18,8 @@ struct PairLaw {
     /// `force` and `energy` (half of each pair's); `density` where the law has one. Null: no potential. Their records
     /// begin with the columns of PointRecord, or of MotionRecord where velocities matter; behind these come `columns`.
     Sweeps<Dim> sweeps;
-    double range;             ///< no pair farther apart acts on each other
+    double
+        range;  ///< no pair farther apart acts on each other; infinite: every pair does, in no box with images
     std::string description;  ///< for the banner of a run
     PassConstants constants{};
     /// What the law needs of every particle besides position and mass, N numbers each (charges, sizes).
