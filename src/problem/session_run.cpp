@@ -101,6 +101,16 @@ void Session::describe(const Case<Dim>& one) {
         fmt::format("checkpoints every {:.6g}, and at the end", one.plan.checkpoint_every));
     terminal_.say(fmt::format("guard       {}", one.plan.guard.describe(drifts_at_start(
                                                     p, Dim, promise_limit(own, *one.model)))));
+    if (std::isinf(one.model->reach()) && particles.size() > 20000 && !one.y0.empty()) {
+        std::vector<double> y_dot(one.y0.size());
+        one.model->rates(0.0, one.y0, y_dot);  // makes its list
+        const auto begin = std::chrono::steady_clock::now();
+        one.model->rates(0.0, one.y0, y_dot);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        terminal_.say(fmt::format(
+            "note        all {:.1e} pairs act on each other: a right-hand side takes {:.1f} s here",
+            0.5 * std::pow(static_cast<double>(particles.size()), 2), took.count()));
+    }
     if (symplectic_step(own))
         terminal_.say(
             "note        the energy swings by what the step makes of accelerations, which goes "

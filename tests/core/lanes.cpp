@@ -51,6 +51,10 @@ void check() {
     BOOST_TEST((worst_difference<W>(root, root, 1e-250, 1e300)) <= unit);
     const auto products = [](const auto& x, const auto&) { return sqrt_by_products(x); };
     BOOST_TEST((worst_difference<W>(products, root, 1e-250, 1e300)) <= 2.0 * unit);
+    const auto inverse = [](const auto& x, const auto&) { return inverse_sqrt_by_products(x); };
+    BOOST_TEST((worst_difference<W>(
+                   inverse, [](double x, double) { return 1.0 / std::sqrt(x); }, 1e-250, 1e300)) <=
+               2.0 * unit);
     BOOST_TEST((worst_difference<W>(quotient, quotient, 1e-100, 1e100)) <= unit);
 
     using std::sqrt, std::max;

@@ -278,6 +278,7 @@ SPAM_INLINE T rounded(const T& x) {
 }
 
 SPAM_INLINE double sqrt_by_products(double x) { return std::sqrt(x); }
+SPAM_INLINE double inverse_sqrt_by_products(double x) { return 1.0 / std::sqrt(x); }
 SPAM_INLINE unsigned lanes_below(double a, double b) { return a < b ? 1U : 0U; }
 SPAM_INLINE double where_below(double a, double b, double x) { return a < b ? x : 0.0; }
 SPAM_INLINE double power_of_two(double shifted) {
