@@ -11,13 +11,13 @@
 //     W = -3/4 GM^2/R,   U = 1/4 GM^2/R,   W + 3 U = 0,   omega^2 = 0.38044 4 pi G rho_c
 //
 // Particles of equal mass begin on a cubic lattice that is stretched to the profile, and come to rest by friction.
-// Then each gets a velocity in proportion to its place, and the size sqrt(<r^2>) swings. The range is 2.2 with 1,200
+// Then each gets a velocity in proportion to its place, and the size sqrt(<r^2>) swings. The range is 2.6 with 1,200
 // particles in R = 6, and in proportion to their distance with others. A transform of the weight that is negative
 // somewhere, as Lucy's is in space, lets cold particles gather in pairs: w4 is positive.
 //
-// The weight makes the pressure of a wave of length 2 R weaker by k^2 <r^2>/6 = 4.4 %, k = pi/R, and softening its
-// gravity by (k eps)^2/2 (ln 2/(k eps) - 0.077). With eps = 0.38 the two are equal, and the ball has its size; with
-// 0.1 it is 4 % too small, and omega^2 12 % too high.
+// Both the weight and softening make long waves a little weaker, one their pressure and the other their gravity: a wave of
+// length 2 R, k = pi/R, by the transform of the weight and by k eps K_1(k eps). eps is chosen so that both are equal (0.46
+// with 1,200 particles), and the ball has its size; with an eps of 0.1 it is 4 % too small, and omega^2 12 % too high.
 //
 //     --compare       1,200 and 4,800 particles: all errors become smaller; 3 min
 #include "common.hpp"
@@ -26,6 +26,8 @@
 #include <spam/problem/remake.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/pair_potentials.hpp>
+
+#include <gsl/gsl_sf_bessel.h>
 
 namespace polytrope {
 namespace {
@@ -41,8 +43,9 @@ const double omega = std::sqrt(0.38044 * 4.0 * pi * G);
 struct Parameters {
     int particles = 1200;
     Kernel kernel = Kernel::w4;
-    double range = 2.2, softening = 0.38, damping = 0.3, amplitude = 0.02;
+    double range = 2.6, damping = 0.3, amplitude = 0.02;
     double relaxation_time = 60.0, periods = 6.0;
+    std::optional<double> softening{};
     bool compare = false;
 };
 
@@ -64,6 +67,23 @@ double stretched(double share) {
         ((std::sin(z) - z * std::cos(z)) / pi < share ? low : high) = z;
     }
     return low * star / pi;
+}
+
+/// The softening that makes the gravity of waves exp(i k r) as much weaker as the weight makes their pressure.
+double matching_softening(const AnyWeight<3>& weight, double range) {
+    const double k = pi / star;
+    constexpr int steps = 2000;
+    double transform = 0.0;
+    for (int n = 0; n < steps; ++n) {
+        const double r = (n + 0.5) * range / steps;
+        transform += 4.0 * pi * r * r * weight.value(r) * std::sin(k * r) / (k * r) * range / steps;
+    }
+    double low = 1e-9, high = range;
+    for (int n = 0; n < 60; ++n) {
+        const double eps = 0.5 * (low + high);
+        (gsl_sf_bessel_K1(k * eps) * k * eps > transform ? low : high) = eps;
+    }
+    return low;
 }
 
 /// The sites nearest to a point of no symmetry, so that there are as many as are asked for.
@@ -90,12 +110,15 @@ Star make_star(const Parameters& p, int count) {
     const double per_length = std::cbrt(1200.0 / count);  // distances, by those of 1,200 particles
     const auto particles = one_body(
         make_particles<3>(sites_of(count), mass / count, star * std::cbrt(4.0 * pi / 3.0 / count)));
+    const double range = p.range * per_length;
+    const double softening =
+        p.softening ? *p.softening
+                    : matching_softening(weight_function<3>(to_string(p.kernel), range), range);
     const auto build = [&](bool damped) {
         auto model = std::make_shared<ParticleModel<3>>(particles);
-        model->add_term<DensityPotentialTerm<3>>(DensityPotentials{
-            .state = LucyGas{}, .kernel = p.kernel, .range = p.range * per_length});
-        made.gravity =
-            &model->add_term<LongRange<3>>(LongRangeScheme{-G, p.softening * per_length});
+        model->add_term<DensityPotentialTerm<3>>(
+            DensityPotentials{.state = LucyGas{}, .kernel = p.kernel, .range = range});
+        made.gravity = &model->add_term<LongRange<3>>(LongRangeScheme{-G, softening});
         if (damped) model->add(std::make_unique<Friction<3>>(p.damping, FrictionOf::all_motion));
         model->layout().set_scale(Field::velocity, 0.1);
         return model;
@@ -253,7 +276,8 @@ int main(int argc, char** argv) {
         "range", p.range,
         "range of the weight with 1,200 particles; others in proportion to their distance",
         between(0.5, 6.0));
-    options.number("softening", p.softening, "eps of the gravity, in the same way",
+    options.number("softening", p.softening,
+                   "eps of the gravity (default: see above, 0.46 with 1,200 particles)",
                    between(1e-3, 3.0));
     options.number("damping", p.damping, "rate of the friction that brings the ball to rest",
                    between(1e-3, 100.0));

@@ -6,7 +6,9 @@
 
 namespace spam {
 
-enum class Ranges { fixed, density };
-inline std::string_view to_string(Ranges r) { return r == Ranges::fixed ? "fixed" : "density"; }
+enum class Ranges { fixed, density, ellipses };
+inline std::string_view to_string(Ranges r) {
+    return r == Ranges::fixed ? "fixed" : r == Ranges::density ? "density" : "ellipses";
+}
 
 }  // namespace spam

@@ -38,6 +38,10 @@ Sweeps<Dim> own_work_sweeps(const Scheme& scheme, Matter matter);
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> own_range_sweeps();
 
+/// Ellipses, of EllipseRecord.
+template <int Dim, InstructionSet Level>
+Sweeps<Dim> ellipse_sweeps();
+
 /// Potentials of the density, of SlopeRecord. With `shape`, for gradient and curvature as well.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> density_potential_sweeps(bool shape);
