@@ -2,6 +2,7 @@
 #include <spam/core/dimensions.hpp>
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <fmt/format.h>
@@ -23,6 +24,33 @@ template <int Dim>
 void Model<Dim>::fail(std::span<double> y_dot, std::string reason) {
     std::fill(y_dot.begin(), y_dot.end(), std::numeric_limits<double>::quiet_NaN());
     failure_ = std::move(reason);
+}
+
+template <int Dim>
+void Model<Dim>::tangent(double t, std::span<const double> y, std::span<const double> v,
+                         std::span<double> Jv) {
+    double largest = 0.0;
+    for (const auto& block : layout_.blocks())
+        for (std::size_t k = block.offset; k < std::min(block.offset + block.size, v.size()); ++k)
+            largest = std::max(largest, std::abs(v[k]) / block.scale);
+    largest = Parts::here().most(largest);
+    if (largest == 0.0) return std::fill(Jv.begin(), Jv.end(), 0.0);
+    const auto squared = [](double x) { return x * x; };
+    ExactSum squares;  // by the largest: none underflows
+    for (const auto& block : layout_.blocks())
+        for (std::size_t k = block.offset; k < std::min(block.offset + block.size, v.size()); ++k)
+            squares += squared(v[k] / block.scale / largest);
+    add_other_parts({&squares, 1});
+    const double step = 3e-6 / (largest * std::sqrt(static_cast<double>(squares)));
+    auto& [state, above, below] = beside_;
+    state.assign(y.begin(), y.end());
+    above.resize(y.size());
+    below.resize(y.size());
+    for (std::size_t k = 0; k < v.size(); ++k) state[k] = y[k] + step * v[k];
+    rates(t, state, above);
+    for (std::size_t k = 0; k < v.size(); ++k) state[k] = y[k] - step * v[k];
+    rates(t, state, below);
+    for (std::size_t k = 0; k < v.size(); ++k) Jv[k] = (above[k] - below[k]) / (2.0 * step);
 }
 
 template <int Dim>

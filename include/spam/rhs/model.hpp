@@ -6,6 +6,7 @@
 #include <spam/neighbors/box.hpp>
 #include <spam/physics/scheme.hpp>
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,12 @@ class Model {
     /// throws, never allocates after warm-up except for new lists. A state without physical meaning
     /// fills y_dot with NaN and leaves the reason in failure().
     virtual void rates(double t, std::span<const double> y, std::span<double> y_dot) = 0;
+
+    /// Jv = J v, J = df/dy at (t, y), by central differences of the rates over 3e-6 in the norm of y by the scales of the layout: to about
+    /// 1e-10 of its size, for two right-hand sides. v and Jv are of y without accounts, which no rate depends on. Where
+    /// the rates have no meaning Jv is NaN.
+    void tangent(double t, std::span<const double> y, std::span<const double> v,
+                 std::span<double> Jv);
 
     /// Sum of the energy that is not kinetic: internal (m e) or potential.
     virtual double internal_energy(std::span<const double> y) const = 0;
@@ -169,6 +176,8 @@ class Model {
     FieldLayout<Dim> layout_;
     double time_scale_ = 1.0;
     Gains gains_;
+    std::array<std::vector<double>, 3>
+        beside_;  ///< of tangent(): a state, and rates on either side
 
   protected:
     std::string failure_;
