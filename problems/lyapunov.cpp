@@ -93,7 +93,8 @@ std::vector<Measured> make_hexagons(const Parameters& p, int n) {
         one.options.interval = one.unit / 250.0;
         all.push_back(std::move(one));
     };
-    add("plain", "v", std::make_shared<SmoothParticleModel<2>>(particles, solid, Scheme{}));
+    add("plain", "plain velocity",
+        std::make_shared<SmoothParticleModel<2>>(particles, solid, Scheme{}));
     add("average", "averaged velocity",
         std::make_shared<SmoothParticleModel<2>>(particles, solid,
                                                  Scheme{.transport = Transport::average}));

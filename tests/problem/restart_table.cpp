@@ -81,7 +81,7 @@ const std::map<std::string, Words> runs{
 };
 /// Analyses, and studies that go on from their table.
 const std::set<std::string> without_checkpoints{
-    "algorithm_sweep",        "integrator_accuracy", "invariant_drift", "kernels",
+    "algorithm_sweep",        "integrator_accuracy", "invariant_drift", "kernels",       "lyapunov",
     "material_vectors_study", "thousand_turns",      "stability",       "turns_survived"};
 
 /// Tables, configurations and the result, by their names.
