@@ -288,6 +288,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"gas_cloud", {"--ranges", "ellipses", "--size", "3", "--time", "0.5"}},
     {"gas_cloud", {"--return", "--size", "3", "--time", "0.5", "--axes", "2,1,1"}},
     {"collapse", {}},
+    {"loaded_bar", {}},
     {"lyapunov", {}},
     {"lyapunov", {"--case", "hexagon"}},
     {"polytrope", {}},

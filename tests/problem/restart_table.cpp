@@ -81,8 +81,8 @@ const std::map<std::string, Words> runs{
 };
 /// Analyses, and studies that go on from their table.
 const std::set<std::string> without_checkpoints{
-    "algorithm_sweep",        "integrator_accuracy", "invariant_drift", "kernels",       "lyapunov",
-    "material_vectors_study", "thousand_turns",      "stability",       "turns_survived"};
+    "algorithm_sweep", "integrator_accuracy",    "invariant_drift", "kernels",   "loaded_bar",
+    "lyapunov",        "material_vectors_study", "thousand_turns",  "stability", "turns_survived"};
 
 /// Tables, configurations and the result, by their names.
 std::map<std::string, std::string> files_of(const fs::path& folder) {
