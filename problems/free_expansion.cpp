@@ -23,11 +23,16 @@
 // in place of its fluctuation (entropy_full_v2) streaming passes for heat: 0.4 before anything is mixed.
 // It ends below 1 for want of neighbours: each counts itself, and more so in the thin gas.
 //
-//     --compare          32 x 32, 64 x 64, 128 x 128 on one picture, [HH01] Fig. 3; 1 min
+//     --compare          32 x 32, 64 x 64, 128 x 128 on one picture, [HH01] Fig. 3; 1 min. In space
+//                        8^3, 12^3, 16^3
 //     --dimension 1      twofold expansion on a line, P = rho^3/3, e = rho^2/6, exercise 1
+//     --dimension 3      eightfold expansion in space: n^3 particles (16^3) into a box of side 2n,
+//                            P = 0.6 rho^(5/3),   e = 0.9 rho^(2/3),   S = N k <ln(e_int^(3/2)/rho)>
+//                        as a part of N k ln 8. Pictures show a cut: the layer of sites next to the middle
+//                        at the start, and particles within half a spacing of it later; files have all of space
 //     --particles 100    exercise 4. Text: from an area of 25 to 100; here from 100 to 400 in units of
 //                        half the length, mass 1/4, otherwise the same
-//     --ranges density   h = range/rho^(1/2): as many neighbours in the thin gas as in the dense one
+//     --ranges density   h = range/rho^(1/D): as many neighbours in the thin gas as in the dense one
 //     --cost             seconds against the number of particles, exercise 4
 //     --movie            frames, and a film where ffmpeg is installed
 #include "free_expansion/gas.hpp"
@@ -40,12 +45,15 @@ using namespace free_expansion;
 void settle_particles(Session& session, Parameters& p) {
     if (!p.particles) return;
     const int n = *p.particles;
-    const int edge =
-        p.dimension == 1 ? n : static_cast<int>(std::lround(std::sqrt(static_cast<double>(n))));
-    if (p.dimension == 2 && edge * edge != n)
-        refuse("particles: {} is not a square; near it are {} and {}", n,
-               static_cast<int>(std::pow(std::floor(std::sqrt(n)), 2)),
-               static_cast<int>(std::pow(std::floor(std::sqrt(n)) + 1.0, 2)));
+    const int edge = static_cast<int>(std::lround(std::pow(n, 1.0 / p.dimension)));
+    const auto of_edge = [&p](int cells) {
+        return static_cast<int>(std::lround(std::pow(cells, p.dimension)));
+    };
+    if (of_edge(edge) != n) {
+        const int below = of_edge(edge) < n ? edge : edge - 1;
+        refuse("particles: {} is not a {}; near it are {} and {}", n,
+               p.dimension == 2 ? "square" : "cube", of_edge(below), of_edge(below + 1));
+    }
     if (session.given("cells") && session.given("particles") && p.cells != edge)
         refuse("particles: {} and --cells {} contradict; leave one out", n, p.cells);
     p.cells = edge;
@@ -54,16 +62,19 @@ void settle_particles(Session& session, Parameters& p) {
 
 /// Options that have no meaning beside others.
 void add_rules(Options& options, const Parameters& p) {
-    options.exclude("compare", {"cells", "particles", "dimension", "movie"},
+    options.exclude("compare", {"cells", "particles", "movie"},
                     "has no effect with {by} (three sizes); leave one out");
     options.exclude("cost", {"compare"}, "has no effect with {by} (five sizes); leave one out",
                     true);
-    options.exclude("cost", {"cells", "particles", "dimension", "movie"},
+    options.exclude("cost", {"cells", "particles", "movie"},
                     "has no effect with {by} (five sizes); leave one out");
     options.exclude("cost", {"restart"},
                     "times that --cost measured are of one run; start it again without --restart");
     options.only_when(
-        {"movie"}, {}, [&p] { return p.dimension == 2; },
+        {"movie"}, {}, [&p] { return p.dimension > 1; },
+        "has no effect with --dimension 1; leave one out");
+    options.only_when(
+        {"compare", "cost"}, {}, [&p] { return p.dimension > 1 || !(p.compare || p.cost); },
         "has no effect with --dimension 1; leave one out");
     options.exclude("no-plots", {"movie"}, "has no effect with --no-plots; leave one out");
 }
@@ -84,10 +95,10 @@ Plan<Dim> plan_of(Session& session, Gas<Dim>& gas, const Parameters& p, double t
     plan.observe({.on_snapshot = [&gas, folder](double t, const Model<Dim>&,
                                                 Values y) { write_fields(folder(), gas, t, y); },
                   .memory = [&gas](Archive& archive) { archive(gas.field_times); }});
-    if constexpr (Dim == 2)
+    if constexpr (Dim > 1)
         if (p.movie)
             plan.observe({.on_row =
-                              [&gas, &session, folder](double t, const Model<2>&, Values y) {
+                              [&gas, &session, folder](double t, const Model<Dim>&, Values y) {
                                   session.note_drawn(draw_frame(folder(), gas, gas.frames++, t, y));
                               },
                           .memory = [&gas](Archive& archive) { archive(gas.frames); }});
@@ -98,14 +109,16 @@ template <int Dim>
 void run(Session& session, const Parameters& p) {
     const bool smoke = session.common().smoke;
     std::vector<int> sizes{p.cells};
-    if (p.compare) sizes = smoke ? std::vector{8, 12, 16} : std::vector{32, 64, 128};
+    if (p.compare) sizes = smoke || Dim == 3 ? std::vector{8, 12, 16} : std::vector{32, 64, 128};
     std::vector<Gas<Dim>> gases;
     for (const int cells : sizes) {
         gases.push_back(make_gas<Dim>(cells, p));
         if (!p.compare) continue;
         gases.back().call(fmt::format("n{}", cells));
     }
-    const double plateau = Dim == 1 ? 3.0 * sizes.back() : std::max(1.5 * sizes.back(), 60.0);
+    const double plateau = Dim == 1   ? 3.0 * sizes.back()
+                           : Dim == 3 ? 4.0 * sizes.back()
+                                      : std::max(1.5 * sizes.back(), 60.0);
     const double t_end = session.end(plateau, 24.0);
     const auto runs = run_all(session, gases, [&](Gas<Dim>& gas) {
         return plan_of(session, gas, p, t_end, sizes.back());
@@ -121,28 +134,38 @@ void run(Session& session, const Parameters& p) {
 
 int main(int argc, char** argv) {
     Problem problem("free_expansion", "free expansion of a gas and its entropy, [HH01]", 0.25,
-                    "0.25, on a line 0.125, or shorter where the range is short");
+                    "0.25, on a line 0.125, in space 0.2, or shorter where the range is short");
     problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();
-    options.integer("dimension", p.dimension,
-                    "2: fourfold expansion in the plane; 1: twofold expansion on a line",
-                    between(1, 2));
-    options.integer("cells", p.cells, "particles along an edge of the gas, at spacing 1",
+    options.integer(
+        "dimension", p.dimension,
+        "2: fourfold expansion in the plane; 1: twofold expansion on a line; 3: eightfold "
+        "expansion in space",
+        between(1, 3));
+    options.integer("cells", p.cells,
+                    "particles along an edge of the gas, at spacing 1 (default in space: 16)",
                     between(2, 4000));
-    options.integer("particles", p.particles,
-                    "number of particles, in the plane a square number; instead of --cells",
-                    between(4, 16000000));
+    options.integer(
+        "particles", p.particles,
+        "number of particles, in the plane a square number, in space a cube; instead of "
+        "--cells",
+        between(4, 16000000));
     options.choice<Walls>("walls", p.walls, {Walls::periodic, Walls::mirror},
                           "boundary of the box");
-    const Sides sides(options, {"walls", "walls", "walls", "walls"},
+    const Sides sides(options, {"walls", "walls", "walls", "walls", "walls", "walls"},
                       {.temperatures = false, .own = "walls", .stands_for = "what --walls says"});
     p.sides = &sides;
     options.only_when(
-        {"bottom", "top"}, {"dimension"}, [&p] { return p.dimension == 2; },
+        {"bottom", "top"}, {"dimension"}, [&p] { return p.dimension > 1; },
         "has no meaning with {by}; a line has a left and a right end");
+    options.only_when(
+        {"front", "back"}, {"dimension"}, [&p] { return p.dimension == 3; },
+        "has no meaning with {by}; these sides are of a box in space");
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
-    options.number("range", p.range, "range h: pairs farther apart do not interact", positive());
+    options.number("range", p.range,
+                   "range h: pairs farther apart do not interact (default in space: 4)",
+                   positive());
     options.choice<Ranges>("ranges", p.ranges, {Ranges::fixed, Ranges::density},
                            "range of a particle: the same for all, or range/rho^(1/dimension), "
                            "larger in the thin gas");
@@ -159,12 +182,23 @@ int main(int argc, char** argv) {
         p.only_described = session.common().dry_run;
         options.command_line_wins({"particles"}, {"cells"});
         options.command_line_wins({"cells"}, {"particles"});
+        const bool of_space = p.dimension == 3, follow = p.ranges == Ranges::density;
+        if (of_space && !session.given("range")) p.range = 4.0;
         // On a line of fewer, ranges that follow the density come to fill half of the box.
-        if (session.common().smoke && !session.given("cells") && !p.particles)
-            p.cells = p.dimension == 1 && p.ranges == Ranges::density ? 64 : 16;
+        if (!session.given("cells") && !p.particles && (of_space || session.common().smoke))
+            p.cells = of_space && session.common().smoke ? (follow ? 10 : 8)
+                      : p.dimension == 1 && follow       ? 64
+                                                         : 16;
         settle_particles(session, p);
-        session.prefer_step(p.dimension == 1 ? step_for<1>(p) : step_for<2>(p));
-        if (p.cost) return measure_cost(session, p);
-        p.dimension == 1 ? run<1>(session, p) : run<2>(session, p);
+        if (of_space && p.cells > 251)
+            refuse("cells: {} by {} by {} are too many particles; use at most 251 in space",
+                   p.cells, p.cells, p.cells);
+        session.prefer_step(p.dimension == 1   ? step_for<1>(p)
+                            : p.dimension == 2 ? step_for<2>(p)
+                                               : step_for<3>(p));
+        if (p.cost) return of_space ? measure_cost<3>(session, p) : measure_cost<2>(session, p);
+        p.dimension == 1   ? run<1>(session, p)
+        : p.dimension == 2 ? run<2>(session, p)
+                           : run<3>(session, p);
     });
 }

@@ -120,17 +120,9 @@ int main(int argc, char** argv) {
                    between(-1.0, 1.0));
     options.flag("memoryless", p.memoryless,
                  "material_vectors without their memory: vectors are renewed all the time");
-    options.integer("dimension", p.dimension,
-                    "2: the triangular lattice; 3: a cubic one, with stresses 0.01 and 0.02 unless "
-                    "--stress says another",
-                    between(2, 3));
-    options
-        .choice<CubicLattice>("lattice", p.lattice,
-                              {CubicLattice::sc, CubicLattice::fcc, CubicLattice::bcc},
-                              "simple, face-centred or body-centred cubic")
-        .only_when(
-            {"dimension"}, [&p] { return p.dimension == 3; },
-            "is of lattices in space; give --dimension 3, or leave it out");
+    add_lattice_options(
+        options, p.dimension, p.lattice,
+        "2: the triangular lattice; 3: a cubic one, with stresses 0.01 and 0.02 unless --stress says another");
     problem.use_scheme();
     add_rules(options, p);
 

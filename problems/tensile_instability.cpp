@@ -20,14 +20,18 @@
 // almost as fast as the fastest; 1 % would come too late.)
 // Without --stress and scheme options it draws the figure: tension 0.01 and 0.02, and
 // <v>_Monaghan at 0.02. Names in result.json without a prefix belong to plain velocities at 0.02.
-#include "common.hpp"
-#include <spam/analysis/kicked_lattice.hpp>
-#include <spam/analysis/periodic_solid.hpp>
-#include <spam/analysis/wave_vectors.hpp>
+//
+// --dimension 3 --lattice sc, fcc or bcc: a cubic lattice in space of cells^3 of its cells, one particle kicked
+// along z. The range is 2 unless --range says another: at 3 waves grow three to eight times more slowly, and with
+// averaged velocities at a fourteenth of the rate of plain ones, at 2 at 0.56 (sc) or 0.31 (fcc, bcc) of it. The run
+// ends where the slowest of plain velocities has left the linear motion, at 450 the latest. Components of the
+// fastest wave vector are in pi by the edge of a cell.
+#include "tensile_instability/sample.hpp"
 
 namespace {
 
 using namespace spam;
+using namespace tensile_instability;
 
 constexpr double taken_over = 0.03;  // d ln K/dt this near to its limit
 constexpr double linear = 0.02;      // largest displacement, in spacings
@@ -36,64 +40,10 @@ constexpr double linear = 0.02;      // largest displacement, in spacings
 constexpr double tiny = 5e-4;
 constexpr double grows = 1e-5;  // growth rates below are round-off
 
-struct Parameters {
-    double stress = 0.02;
-    int cells = 24;
-    double speed = 1e-10;
-};
-
-struct Sample : Variant<2, SmoothParticleModel<2>> {
-    double stress = 0.0;
-    std::unique_ptr<KickedLattice<2>> linear{};
-};
-
-Sample make_sample(const Parameters& p, double stress, const Scheme& scheme) {
-    Sample sample;
-    sample.stress = stress;
-    sample.title = fmt::format("s = {:g}, {}", stress, velocity_title(scheme.transport, "plain v"));
-    // at rest under tension
-    const auto solid = ElasticSolid::triangular_lattice();
-    const double density = triangular_density;
-    auto lattice = triangular_solid(p.cells, p.cells, solid, scheme, density, stress);
-    sample.model = std::move(lattice.model);
-    sample.y0 = std::move(lattice.y0);
-    auto& model = *sample.model;
-    const Box<2>& box = model.box();
-    const State<2> state(model.layout(), sample.y0);
-    // what the linear equations say
-    const Point<2> kick(0.0, p.speed);
-    const auto small = smallest_triangular_solid(solid, scheme, density, stress);
-    sample.linear = std::make_unique<KickedLattice<2>>(
-        LatticeModes<2>(*small.model, small.y0), allowed_wave_vectors<2>(box, {p.cells, p.cells}),
-        1.0, kick);
-    // the particle in the middle
-    const Point<2> middle(0.5 * box.length(0), 0.5 * box.length(1));
-    Eigen::Index nearest = 0;
-    (state.position().colwise() - middle).colwise().norm().minCoeff(&nearest);
-    state.velocity().col(nearest) = kick;
-    model.layout().set_scale(Field::velocity, p.speed);
-    model.layout().set_scale(Field::energy, p.speed * p.speed);
-    return sample;
-}
-
-std::vector<Sample> figure(const Parameters& p, const Scheme& scheme) {
-    std::vector<Sample> all;
-    const auto add = [&](double stress, Transport transport) {
-        Scheme other = scheme;
-        other.transport = transport;
-        all.push_back(make_sample(p, stress, other));
-        all.back().call(fmt::format("{}_{:g}", to_string(transport), stress));
-    };
-    add(0.01, Transport::plain);
-    add(0.02, Transport::plain);
-    all.back().prefix = "";
-    add(0.02, Transport::monaghan);
-    return all;
-}
-
-Column<2> largest_displacement_column() {
-    return {"largest_displacement", [](const Model<2>& model, std::span<const double> y) {
-                const auto moved = ConstState<2>(model.layout(), y).position() -
+template <int Dim>
+Column<Dim> largest_displacement_column() {
+    return {"largest_displacement", [](const Model<Dim>& model, std::span<const double> y) {
+                const auto moved = ConstState<Dim>(model.layout(), y).position() -
                                    model.particles().reference_position;
                 return moved.colwise().norm().maxCoeff() / model.particles().spacing;
             }};
@@ -108,7 +58,8 @@ struct Window {
     bool long_enough() const { return last >= fastest + 5; }
 };
 
-Window window_of(const Sample& sample, const History& h) {
+template <int Dim>
+Window window_of(const Sample<Dim>& sample, const History& h) {
     const auto t = h.column("t"), moved = h.column("largest_displacement");
     Window window{0, 0};
     while (window.last < t.size() && moved[window.last] < linear) ++window.last;
@@ -127,7 +78,9 @@ double slope_of_log(const std::vector<double>& t, std::vector<double> K, const W
         .slope;
 }
 
-void report(Session& session, const Parameters& p, const Sample& sample, const RunRecord& run) {
+template <int Dim>
+void report(Session& session, const Parameters& p, const Sample<Dim>& sample,
+            const RunRecord& run) {
     const Findings findings(session, sample.prefix);
     const History& h = run.history;
     const auto t = h.column("t"), K = h.column("kinetic"), moved = h.column("largest_displacement");
@@ -165,20 +118,21 @@ void report(Session& session, const Parameters& p, const Sample& sample, const R
     for (std::size_t r = 0; r < t.size(); ++r)
         if (t[r] <= 400.0) ratio = std::max(ratio, K[r] / K.front());
     const Scheme& scheme = sample.model->scheme();
-    if (scheme == Scheme{.transport = Transport::monaghan} && p.cells == 24 &&
+    if (Dim == 2 && scheme == Scheme{.transport = Transport::monaghan} && p.cells == 24 &&
         sample.stress == 0.02 && t.back() >= 400.0)
         check("largest_kinetic_ratio", ratio, 2.5, 0.5,
               "[HHM04] Fig. 1: no instability to t = 400");
     else
         findings.measure("largest_kinetic_ratio", ratio);
     if (limit > grows) findings.measure("growth_time", 2.0 / limit);
-    const Point<2> k = first_zone(sample.linear->fastest());
-    findings.measure("fastest_k_x", limit > grows ? k.x() : 0.0);
-    findings.measure("fastest_k_y", limit > grows ? k.y() : 0.0);
+    const Point<Dim> k = shortest(p, sample.linear->fastest());
+    for (int a = 0; a < Dim; ++a)
+        findings.measure(fmt::format("fastest_k_{}", "xyz"[a]), limit > grows ? k[a] : 0.0);
 }
 
 /// Measured and foretold side by side.
-void write_comparison(const RunFolder& folder, const std::vector<Sample>& samples,
+template <int Dim>
+void write_comparison(const RunFolder& folder, const std::vector<Sample<Dim>>& samples,
                       const std::vector<RunRecord>& runs) {
     std::vector<std::string> names{"t"};
     for (std::size_t n = 0; n < runs.size(); ++n)
@@ -197,7 +151,8 @@ void write_comparison(const RunFolder& folder, const std::vector<Sample>& sample
 }
 
 /// K(t) and the straight line of the fastest wave, which touches it where the linear motion ends.
-void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int own) {
+template <int Dim>
+void add_kinetic(CurvePanel& panel, const Sample<Dim>& sample, const History& h, int own) {
     const auto t = h.column("t"), K = h.column("kinetic");
     panel.curves.push_back({sample.title, t, K});
     const std::size_t end = std::max<std::size_t>(window_of(sample, h).last, 1) - 1;
@@ -212,10 +167,13 @@ void add_kinetic(CurvePanel& panel, const Sample& sample, const History& h, int 
 }
 
 /// d ln K/dt between rows, and its limit.
-void add_rate(CurvePanel& panel, const Sample& sample, const History& h, int own) {
+template <int Dim>
+void add_rate(CurvePanel& panel, const Sample<Dim>& sample, const History& h, int own) {
     const auto t = h.column("t"), K = h.column("kinetic");
     Curve rate{sample.title, {}, {}}, limit{"", {}, {}, Mark::line, 0, own};
-    for (std::size_t r = 1; r < t.size(); ++r) {
+    // At the short range of space what clumps rebounds, and would hide the rest.
+    const std::size_t end = Dim == 2 ? t.size() : window_of(sample, h).last;
+    for (std::size_t r = 1; r < end; ++r) {
         add_point(rate, 0.5 * (t[r] + t[r - 1]), std::log(K[r] / K[r - 1]) / (t[r] - t[r - 1]));
         add_point(limit, rate.x.back(), 2.0 * sample.linear->fastest_rate());
     }
@@ -223,7 +181,8 @@ void add_rate(CurvePanel& panel, const Sample& sample, const History& h, int own
     panel.curves.push_back(std::move(limit));
 }
 
-void draw(Session& session, const std::vector<Sample>& samples,
+template <int Dim>
+void draw(Session& session, const std::vector<Sample<Dim>>& samples,
           const std::vector<RunRecord>& runs) {
     CurvePanel kinetic{"kinetic energy (dashed: growth of the fastest wave)", "t", "K", true, {}};
     CurvePanel rate{"its growth (dashed: fastest wave)", "t", "d ln K/dt", false, {}};
@@ -242,6 +201,35 @@ void draw(Session& session, const std::vector<Sample>& samples,
                 panels);
 }
 
+template <int Dim>
+void compute(Session& session, const Parameters& p, bool single) {
+    // What is pulled as hard as it is stiff falls apart the faster, and short ranges make high frequencies.
+    const double step = (Dim == 3 ? 0.05 : 0.1) * (std::abs(p.stress) > 0.5 ? 0.5 : 1.0);
+    if (step < 0.1) session.prefer_step(step);
+    Scheme scheme = session.scheme();
+    if (Dim == 3 && !session.given("range")) {
+        scheme.range = 2.0;
+        session.leave_out_of_case({"range"});
+    }
+    std::vector<Sample<Dim>> samples;
+    if (single)
+        samples.push_back(make_sample<Dim>(p, p.stress, scheme));
+    else
+        samples = figure<Dim>(p, scheme);
+    const double fastest = samples.front().linear->fastest_rate();
+    const auto runs = run_all(session, samples, [&](const Sample<Dim>&) {
+        Plan<Dim> plan;
+        // In space rates differ by more: until the slowest of plain velocities have moved by spacings.
+        const double growth = Dim == 2 ? HUGE_VAL : std::log1p(10.0 / p.speed) / fastest;
+        plan.t_end = session.end(std::min(450.0, growth), 20.0);
+        plan.record({largest_displacement_column<Dim>(), closest_pair_column<Dim>()});
+        return plan;
+    });
+    for (std::size_t n = 0; n < runs.size(); ++n) report(session, p, samples[n], runs[n]);
+    write_comparison(session.folder(), samples, runs);
+    if (session.plots()) draw(session, samples, runs);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -252,34 +240,30 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.number("stress", p.stress, "hydrostatic stress; tension is positive",
                    between(-1.0, 1.0));
-    options.integer("cells", p.cells, "cells x cells particles (an even number)", between(2, 400));
+    options.integer(
+        "cells", p.cells,
+        "cells x cells particles (an even number); in space cells of the lattice along each axis "
+        "(default 8; fcc and bcc 6)",
+        between(2, 400));
     options.number(
         "speed", p.speed, "initial speed of the one moving particle",
         {[](double v) { return v >= 1e-12; }, "at least 1e-12 (round-off gives the others 1e-15)"});
+    add_lattice_options(options, p.dimension, p.lattice,
+                        "2: the triangular lattice; 3: a cubic one");
     problem.use_scheme();
     auto of_one = Problem::scheme_option_names();  // without any of these the figure is drawn
     of_one.emplace_back("stress");
     options.only_when(of_one, {}, [&] { return !options.first_given(of_one).empty(); }, {});
 
     return problem.main(argc, argv, [&](Session& session) {
-        session.smoke_default("cells", p.cells, 10);
+        if (p.dimension == 2)
+            session.smoke_default("cells", p.cells, 10);
+        else if (!session.given("cells"))
+            p.cells = p.lattice == CubicLattice::sc ? 8 : 6;
+        if (p.dimension == 3 && p.cells > 40)
+            refuse("cells: {} is above 40, too many wave vectors in space; 6 to 12 are usual",
+                   p.cells);
         const bool single = !options.first_given(of_one).empty();
-        // What is pulled as hard as it is stiff falls apart the faster.
-        if (std::abs(p.stress) > 0.5) session.prefer_step(0.05);
-        std::vector<Sample> samples;
-        if (single)
-            samples.push_back(make_sample(p, p.stress, session.scheme()));
-        else
-            samples = figure(p, session.scheme());
-
-        const auto runs = run_all(session, samples, [&](const Sample&) {
-            Plan<2> plan;
-            plan.t_end = session.end(450.0, 20.0);
-            plan.record({largest_displacement_column(), closest_pair_column<2>()});
-            return plan;
-        });
-        for (std::size_t n = 0; n < runs.size(); ++n) report(session, p, samples[n], runs[n]);
-        write_comparison(session.folder(), samples, runs);
-        if (session.plots()) draw(session, samples, runs);
+        p.dimension == 3 ? compute<3>(session, p, single) : compute<2>(session, p, single);
     });
 }

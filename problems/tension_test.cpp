@@ -19,20 +19,31 @@
 //                            behind, and parts into three. --stretch-limit and --stress-limit make it brittle
 //     --model elements       finite elements of the same solid, drawn out at their ends: necks in the middle
 //     --model all            the first three, each with a step of its own
+//     --dimension 3          a bar of square section in space: 30 layers of 8 x 8 rows (`columns`, `rows`) of a
+//                            face-centred cubic lattice, along the edge of its cells, with every second place
+//                            taken, so that neighbours are 1 and layers sqrt(1/2) apart: 960 particles. All models
+//                            but elements; pictures show the layer of sites that is next to the middle
 //
 // A bar of molecules that is loaded slowly parts where its rows are torn: bonds bear 5.30, a load f pulls with
 // 15 f on each row of the middle, f = 0.353. It takes a while to move apart: at 0.364 with load-rate 1/1500 (the
 // bar of the lecture parts at t = 620), at 0.41 with 1/200, which is the default. The others flow, and part at
 // lower loads when these grow more slowly; motion is chaotic, and --seed changes loads by a tenth. Without
 // a core smooth particles clump before they part.
+//
+// In space 2 rows (rows - 1) bonds join two layers, at 45 degrees to the bar. While layers are drawn apart as they are
+// each bears up to 4.06 along it, the largest F(r) x/r with r^2 = x^2 + 1/2, at x = 0.846. A load f pulls with
+// columns rows^2 f/8 on the middle: f = 65 (1 - 1/rows)/columns = 1.894. Molecules part at 1.93 with load-rate 0.005,
+// at 1.99 with 0.025, which is the default. Embedded atoms lose their lattice and flow; smooth particles part between
+// layers, which come together in pairs under tension; material vectors neck and part in two.
 #include "tension_test/bar.hpp"
 
 namespace {
 
 using namespace tension_test;
 
-Plan<2> plan_of(const Session& session, PulledBar& bar, bool several) {
-    Plan<2> plan;
+template <int Dim>
+Plan<Dim> plan_of(const Session& session, PulledBar<Dim>& bar, bool several) {
+    Plan<Dim> plan;
     plan.t_end = bar.t_end;
     plan.output_every = plan.t_end / (session.common().smoke ? 200.0 : 1000.0);
     plan.snapshot_every = plan.t_end / 40.0;
@@ -44,36 +55,46 @@ Plan<2> plan_of(const Session& session, PulledBar& bar, bool several) {
             return t && h.last("t") >= 1.03 * *t;
         }});
     if (several)
-        bar.drawn = states_at<2>({0.6}, plan.t_end);
+        bar.drawn = states_at<Dim>({0.6}, plan.t_end);
     else if (bar.load_rate > 0.0)
-        bar.drawn = states_at<2>({0.0, 0.4, 0.6}, plan.t_end);
+        bar.drawn = states_at<Dim>({0.0, 0.4, 0.6}, plan.t_end);
     else
-        bar.drawn = states_at<2>({0.0, 0.2, 0.4}, plan.t_end);
-    plan.observe(keep_nearest<2>(bar.drawn));
+        bar.drawn = states_at<Dim>({0.0, 0.2, 0.4}, plan.t_end);
+    plan.observe(keep_nearest<Dim>(bar.drawn));
     return plan;
 }
 
+template <int Dim>
 void compute(Session& session, const Parameters& p) {
-    std::vector<PulledBar> bars;
+    std::vector<PulledBar<Dim>> bars;
     const auto kinds = kinds_of(p.matter.kind);
     const bool several = kinds.size() > 1;
     for (const MatterKind kind : kinds) {
         Matter matter = p.matter;
         matter.kind = kind;
-        bars.push_back(make_bar(session, p, matter));
+        bars.push_back(make_bar<Dim>(session, p, matter));
         if (several) bars.back().call(std::string(to_string(kind)));
     }
     if (!several) session.prefer_step(bars.front().step);
     const auto runs =
-        run_all(session, bars, [&](PulledBar& bar) { return plan_of(session, bar, several); });
+        run_all(session, bars, [&](PulledBar<Dim>& bar) { return plan_of(session, bar, several); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, bars[k], runs[k]);
-    if (session.plots()) draw(session, bars, runs);
+    if (session.plots()) draw(session, p, bars, runs);
 }
 
 void add_options(Problem& problem, Parameters& p) {
     Options& options = problem.options();
-    options.integer("columns", p.columns, "particles along the bar", between(8, 2000));
-    options.integer("rows", p.rows, "particles across the bar (default: 14, or 12 elements)",
+    options.integer("dimension", p.dimension,
+                    "2: a bar in the plane; 3: of square section, in space", between(2, 3));
+    options.only_when(
+        {"dimension"}, {"model"},
+        [&p] { return p.dimension == 2 || p.matter.kind != MatterKind::elements; },
+        "has no meaning with {by}, which are of the plane; leave one out");
+    options.integer("columns", p.columns,
+                    "particles along the bar; in space layers, sqrt(1/2) apart (default there: 30)",
+                    between(8, 2000));
+    options.integer("rows", p.rows,
+                    "particles across the bar (default: 14, or 12 elements; in space 8)",
                     between(4, 200));
     options.number("taper", p.taper, "how much lower the bar is at its middle, by its height",
                    between(0.0, 0.5));
@@ -112,11 +133,12 @@ int main(int argc, char** argv) {
     Parameters p;
     add_options(problem, p);
     return problem.main(argc, argv, [&](Session& session) {
+        if (p.dimension == 3 && !session.given("columns")) p.columns = 30;
         session.smoke_default("columns", p.columns, 16);
         session.smoke_default("rows", p.rows, 6);
         if (p.matter.kind == breaking::MatterKind::elements)
             compute_elements(session, p);
         else
-            compute(session, p);
+            p.dimension == 2 ? compute<2>(session, p) : compute<3>(session, p);
     });
 }

@@ -14,30 +14,43 @@ namespace {
 constexpr Kernel kernel_of_atoms = Kernel::w5;  // a curvature needs a smoother one than Lucy's
 constexpr double range_of_atoms = 2.5;
 
+template <int Dim>
+constexpr double lattice_density = Dim == 2 ? triangular_density : std::numbers::sqrt2;
+
 /// Of the lattice: what there is at a site, by the weight function.
+template <int Dim>
 double site_density(Kernel kernel, double range) {
-    const auto weight = weight_function<2>(spam::to_string(kernel), range);
-    return kernels::relative_density<2>(kernels::triangular(), weight, Point<2>::Zero()) /
-           kernels::triangular().volume();
+    const auto weight = weight_function<Dim>(spam::to_string(kernel), range);
+    if constexpr (Dim == 2) {
+        return kernels::relative_density<2>(kernels::triangular(), weight, Point<2>::Zero()) /
+               kernels::triangular().volume();
+    } else {
+        double sum = 0.0;
+        const Points<Dim> sites = lattice_ball<Dim>(range);
+        for (const auto& site : sites.colwise()) sum += weight.value(site.norm());
+        return sum;
+    }
 }
 
+template <int Dim>
 DensityPotentials potentials_of(const Session& session, const Matter& matter) {
     DensityPotentials potentials;
     potentials.kernel = session.given("kernel") ? session.scheme().kernel : kernel_of_atoms;
     potentials.range = session.given("range") ? session.scheme().range : range_of_atoms;
-    potentials.state = EmbeddedAtom{1.0, site_density(potentials.kernel, potentials.range)};
+    potentials.state = EmbeddedAtom{1.0, site_density<Dim>(potentials.kernel, potentials.range)};
     potentials.surface_tension = matter.surface_tension;
     potentials.strength = matter.strength;
     if (matter.core > 0.0) potentials.core = {matter.core, matter.core_range};
     return potentials;
 }
 
-Material<2> yielding_solid(const Matter& matter) {
+template <int Dim>
+Material<Dim> yielding_solid(const Matter& matter) {
     const auto elastic = ElasticSolid::triangular_lattice();
     Failure failure;
     if (matter.failure_strain) failure.plastic_strain = *matter.failure_strain;
     return YieldingSolid(
-        PlaneVonMises{elastic.lambda, elastic.eta},
+        RadialVonMises<Dim>{elastic.lambda, elastic.eta},
         LinearHardening{matter.yield_stress.value_or(usual_yield_stress), matter.hardening},
         failure);
 }
@@ -48,34 +61,37 @@ FlowingSolid flowing_solid(const Matter& matter) {
             matter.tension_limit.value_or(yield_stress)};
 }
 
+template <int Dim>
 MaterialVectorScheme vectors_of(const Session& session, const Matter& matter) {
-    MaterialVectorScheme scheme{triangular_density, session.scheme().range, matter.penalty};
+    MaterialVectorScheme scheme{lattice_density<Dim>, session.scheme().range, matter.penalty};
     matter.bonds.apply(scheme);
     return scheme;
 }
 
-void add_terms_among(const Session& session, const Matter& matter, ParticleModel<2>& model,
+template <int Dim>
+void add_terms_among(const Session& session, const Matter& matter, ParticleModel<Dim>& model,
                      std::size_t first, std::size_t count) {
     switch (matter.kind) {
         case MatterKind::pair_md:
-            model.add_term_among<Cohesion<2>>(first, count);
+            model.template add_term_among<Cohesion<Dim>>(first, count);
             return;
         case MatterKind::embedded_atom:
-            model.add_term_among<DensityPotentialTerm<2>>(first, count,
-                                                          potentials_of(session, matter));
+            model.template add_term_among<DensityPotentialTerm<Dim>>(
+                first, count, potentials_of<Dim>(session, matter));
             return;
         case MatterKind::material_vectors:
-            model.add_term_among<MaterialVectors<2>>(first, count, flowing_solid(matter),
-                                                     vectors_of(session, matter));
+            model.template add_term_among<MaterialVectors<Dim>>(first, count, flowing_solid(matter),
+                                                                vectors_of<Dim>(session, matter));
             break;
         case MatterKind::spam:
         case MatterKind::elements:
         case MatterKind::all:
-            model.add_term_among<SmoothParticles<2>>(first, count, yielding_solid(matter),
-                                                     session.scheme());
+            model.template add_term_among<SmoothParticles<Dim>>(
+                first, count, yielding_solid<Dim>(matter), session.scheme());
     }
     if (matter.core > 0.0)
-        model.add_term_among<Core<2>>(first, count, CorePotential{matter.core, matter.core_range});
+        model.template add_term_among<Core<Dim>>(first, count,
+                                                 CorePotential{matter.core, matter.core_range});
 }
 
 void refuse_impossible(const Matter& matter) {
@@ -182,31 +198,53 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         options.only_when({name}, {}, [&options, name] { return options.given(name); }, {});
 }
 
-void disturb(Points<2>& position, const Matter& matter) {
-    displace(position, matter.disorder, matter.seed);
+template <int Dim>
+Points<Dim> lattice_ball(double radius) {
+    if constexpr (Dim == 2) {
+        return triangular_disk(radius);
+    } else {
+        const double edge = cubic_edge(CubicLattice::fcc);
+        const int half = static_cast<int>(std::ceil(radius / edge));
+        const int cells = 2 * half + 1;
+        const Points<3> sites = cubic_lattice(CubicLattice::fcc, {cells, cells, cells});
+        return ball_of(sites.array() - half * edge, radius);
+    }
 }
 
-std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
-                                             const std::vector<Particles<2>>& bodies,
-                                             const std::optional<ContactScheme>& contact) {
+template <int Dim>
+std::shared_ptr<ParticleModel<Dim>> make_model(const Session& session, const Matter& matter,
+                                               const std::vector<Particles<Dim>>& bodies,
+                                               const std::optional<ContactScheme>& contact) {
     refuse_impossible(matter);
-    auto model = std::make_shared<ParticleModel<2>>(joined(bodies));
+    auto model = std::make_shared<ParticleModel<Dim>>(joined(bodies));
     std::size_t first = 0;
-    for (const Particles<2>& body : bodies) {
+    for (const Particles<Dim>& body : bodies) {
         const std::size_t count = contact ? body.size() : model->particles().size();
-        add_terms_among(session, matter, *model, first, count);
+        add_terms_among<Dim>(session, matter, *model, first, count);
         if (!contact) break;
         first += count;
     }
-    if (contact) model->add_term<Contact<2>>(*contact);
+    if (contact) model->template add_term<Contact<Dim>>(*contact);
     return model;
 }
 
-std::vector<double> start(ParticleModel<2>& model, const Points<2>& position, double speed) {
-    auto y = lattice_state(model, at_rest<2>());
-    State<2>(model.layout(), y).position() = position;
+template <int Dim>
+std::vector<double> start(ParticleModel<Dim>& model, const Points<Dim>& position, double speed) {
+    auto y = initial_state<Dim>(model, lattice_density<Dim>, triangular_modulus, at_rest<Dim>());
+    State<Dim>(model.layout(), y).position() = position;
     model.layout().set_scale(Field::velocity, speed);
     return y;
 }
+
+template Points<2> lattice_ball<2>(double);
+template Points<3> lattice_ball<3>(double);
+template std::shared_ptr<ParticleModel<2>> make_model(const Session&, const Matter&,
+                                                      const std::vector<Particles<2>>&,
+                                                      const std::optional<ContactScheme>&);
+template std::shared_ptr<ParticleModel<3>> make_model(const Session&, const Matter&,
+                                                      const std::vector<Particles<3>>&,
+                                                      const std::optional<ContactScheme>&);
+template std::vector<double> start(ParticleModel<2>&, const Points<2>&, double);
+template std::vector<double> start(ParticleModel<3>&, const Points<3>&, double);
 
 }  // namespace breaking

@@ -50,17 +50,27 @@ constexpr double usual_yield_stress = 0.05;
 /// where it means nothing.
 void add_matter_options(Problem& problem, Matter& matter, const std::vector<MatterKind>& kinds);
 
+/// All sites of the lattice not farther than `radius` from the one at the origin, nearest neighbours 1 apart: of the
+/// triangular one or, in space, of the face-centred cubic one.
+template <int Dim>
+Points<Dim> lattice_ball(double radius);
+
 /// A lattice that is not perfect: each coordinate moved by up to `disorder`, the same on every computer.
-void disturb(Points<2>& position, const Matter& matter);
+template <int Dim>
+void disturb(Points<Dim>& position, const Matter& matter) {
+    displace(position, matter.disorder, matter.seed);
+}
 
 /// Bodies one after the other, stored in this order. With `contact` they act on each other by that alone,
 /// else as particles of one body do. Throws InputError where the constants make no sense.
-std::shared_ptr<ParticleModel<2>> make_model(const Session& session, const Matter& matter,
-                                             const std::vector<Particles<2>>& bodies,
-                                             const std::optional<ContactScheme>& contact = {});
+template <int Dim = 2>
+std::shared_ptr<ParticleModel<Dim>> make_model(const Session& session, const Matter& matter,
+                                               const std::vector<Particles<Dim>>& bodies,
+                                               const std::optional<ContactScheme>& contact = {});
 
 /// y of a model that is whole: places of `position`, in the order of the model's particles, at rest, of the density
 /// of the lattice, without stress or energy. `speed`: how fast things will be, for tolerances.
-std::vector<double> start(ParticleModel<2>& model, const Points<2>& position, double speed);
+template <int Dim>
+std::vector<double> start(ParticleModel<Dim>& model, const Points<Dim>& position, double speed);
 
 }  // namespace breaking

@@ -35,7 +35,8 @@ bool is_standard(const Session& session, const Parameters& p, const Box<Dim>& bo
         for (const bool upper : {false, true})
             if (!box.periodic(a) && box.wall(a, upper).kind != WallKind::mirror) return false;
     const auto& integrator = session.integrator();
-    const bool lucy = (p.kernel == Kernel::lucy || p.kernel == Kernel::w3) && p.range >= 5.0;
+    const bool lucy =
+        (p.kernel == Kernel::lucy || p.kernel == Kernel::w3) && p.range >= (Dim == 3 ? 4.0 : 5.0);
     return lucy && p.ranges == Ranges::fixed && integrator.method == "rk4" &&
            *integrator.dt <= 0.25;
 }
@@ -43,7 +44,8 @@ bool is_standard(const Session& session, const Parameters& p, const Box<Dim>& bo
 /// Largest change of the momentum of all.
 double momentum_change(const History& h) {
     double largest = h.largest_change("momentum_x");
-    if (h.has("momentum_y")) largest = std::hypot(largest, h.largest_change("momentum_y"));
+    for (const char* name : {"momentum_y", "momentum_z"})
+        if (h.has(name)) largest = std::hypot(largest, h.largest_change(name));
     return largest;
 }
 
@@ -95,10 +97,19 @@ std::vector<Plateau> plateaus(const Gas<1>& gas, bool standard, double range) {
     return all;
 }
 
+std::vector<Plateau> plateaus(const Gas<3>& gas, bool standard, double range) {
+    std::vector<Plateau> all{{"entropy_sum"}, {"entropy_grid"}, {"entropy_full_v2"}};
+    const char* source = "another program";
+    if (standard && range == 4.0 && gas.cells == 12) all[0] = {"entropy_sum", 0.74, 0.01, source};
+    if (standard && range == 4.0 && gas.cells == 16) all[0] = {"entropy_sum", 0.766, 0.01, source};
+    return all;
+}
+
 /// From when to when the gas has filled its box and the entropy grows no more, in cells. (Later it falls
 /// again, slowly.)
 std::pair<double, double> plateau_of(int dim, int cells) {
     if (dim == 1) return {2.5, 3.0};
+    if (dim == 3) return {2.0, 4.0};
     return cells < 32 ? std::pair{2.0, 6.0} : std::pair{1.25, 1.5};
 }
 
@@ -116,14 +127,15 @@ void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const Run
     const double n = gas.cells, end = run.complete ? h.last("t") : 0.0;
     if (standard) {
         say("energy_drift_per_particle",
-            h.largest_change("energy") / static_cast<double>(gas.particles()), 0.0, 5e-6,
-            "to the error of RK4 with dt = 0.25");
+            h.largest_change("energy") / static_cast<double>(gas.particles()), 0.0,
+            Dim == 3 ? 1e-5 : 5e-6,
+            Dim == 3 ? "to the error of RK4 with dt = 0.2" : "to the error of RK4 with dt = 0.25");
         if (!h.has("impulse_x"))  // mirrors push back
             say("momentum_change", momentum_change(h), 0.0, 1e-10, "pairwise forces");
     } else {
         findings.check_promises(run);
     }
-    // On the line, where P/rho^2 is not the same for all, pairs share their work out otherwise.
+    // On the line and in space, where P/rho^2 is not the same for all, pairs share their work out otherwise.
     const bool same_energy = standard && Dim == 2;
     say("energy_against_density", energy_against_density(gas, run),
         same_energy ? 0.0 : std::optional<double>{}, 1e-3,
@@ -149,9 +161,13 @@ void check(Session& session, const Parameters& p, const Gas<Dim>& gas, const Run
                 say(fmt::format("{}_at_{:g}", one.column, one.time * n),
                     h.at(one.time * n, one.column), one.value, one.tolerance,
                     "[HH01] Fig. 3; recorded value");
+    if (Dim == 3 && standard && p.range == 4.0 && (n == 12.0 || n == 16.0) && n <= end)
+        say(fmt::format("entropy_sum_at_{:g}", n), h.at(n, "entropy_sum"),
+            n == 12.0 ? 0.764 : 0.8135, 0.01, "another program");
 }
 
 template void check(Session&, const Parameters&, const Gas<1>&, const RunRecord&);
 template void check(Session&, const Parameters&, const Gas<2>&, const RunRecord&);
+template void check(Session&, const Parameters&, const Gas<3>&, const RunRecord&);
 
 }  // namespace free_expansion

@@ -26,17 +26,20 @@ struct Clock {
     }
 };
 
-std::vector<Gas<2>> gases_of(const Parameters& p, bool smoke) {
-    const std::vector<int> sizes = smoke ? std::vector{10, 16} : std::vector{10, 32, 64, 128, 256};
-    std::vector<Gas<2>> gases;
+template <int Dim>
+std::vector<Gas<Dim>> gases_of(const Parameters& p, bool smoke) {
+    const std::vector<int> sizes = smoke      ? std::vector{10, 16}
+                                   : Dim == 3 ? std::vector{10, 12, 16, 24, 32}
+                                              : std::vector{10, 32, 64, 128, 256};
+    std::vector<Gas<Dim>> gases;
     for (const int n : sizes) {
-        gases.push_back(make_gas<2>(n, p));
+        gases.push_back(make_gas<Dim>(n, p));
         gases.back().call(fmt::format("n{}", n));
     }
     return gases;
 }
 
-void draw_cost(Session& session, const LogLogCurve& seconds) {
+void draw_cost(Session& session, const LogLogCurve& seconds, int dim) {
     LogLogCurve linear{1, true, seconds.x, {}};
     for (const double n : seconds.x) linear.y.push_back(seconds.y.back() * n / seconds.x.back());
     draw_log_log(session, "cost",
@@ -44,24 +47,25 @@ void draw_cost(Session& session, const LogLogCurve& seconds) {
                   {{"", "particles", "processor seconds", {seconds, linear}}},
                   1,
                   {"measured", "proportional to N"},
-                  "RK4, dt = 0.25: 16 right-hand sides; Lucy's weight, h = 6"});
+                  dim == 3 ? "RK4, dt = 0.2: 20 right-hand sides; Lucy's weight, h = 4"
+                           : "RK4, dt = 0.25: 16 right-hand sides; Lucy's weight, h = 6"});
 }
 
 }  // namespace
 
+template <int Dim>
 void measure_cost(Session& session, const Parameters& p) {
     session.prefer_one_thread();  // whose processor time is what work costs
-    auto gases = gases_of(p, session.common().smoke);
+    auto gases = gases_of<Dim>(p, session.common().smoke);
     const double t_end = session.end(length, 2.0);
-    std::vector<Case<2>> cases;
+    std::vector<Case<Dim>> cases;
     std::vector<Clock> clocks(gases.size());
     for (auto& gas : gases) {
         Clock& clock = clocks[cases.size()];
-        Plan<2> plan;
+        Plan<Dim> plan;
         plan.t_end = plan.output_every = plan.snapshot_every = t_end;
-        plan.observe({.on_snapshot = [&clock](double t, const Model<2>&, std::span<const double>) {
-            clock.read(t);
-        }});
+        plan.observe({.on_snapshot = [&clock](double t, const Model<Dim>&,
+                                              std::span<const double>) { clock.read(t); }});
         cases.push_back({gas.model, gas.y0, std::move(plan), gas.label});
     }
     const auto runs = session.run_all(std::move(cases));
@@ -82,7 +86,10 @@ void measure_cost(Session& session, const Parameters& p) {
         session.measure(gases[k].prefix + "nanoseconds_per_pair", 1e9 * seconds * s.t_end / pairs);
         add_point(curve, n, seconds);
     }
-    if (session.plots()) draw_cost(session, curve);
+    if (session.plots()) draw_cost(session, curve, Dim);
 }
+
+template void measure_cost<2>(Session&, const Parameters&);
+template void measure_cost<3>(Session&, const Parameters&);
 
 }  // namespace free_expansion

@@ -55,6 +55,7 @@ std::pair<std::unique_ptr<Model<Dim>>, std::vector<double>> begun(Particles<Dim>
 
 AnyEquationOfState law_of(int dim) {
     if (dim == 1) return IsentropicGas{1.0 / 3.0, 1.0, 3.0};
+    if (dim == 3) return IsentropicGas{0.6, 1.0, 5.0 / 3.0};
     return LucyGas{};
 }
 
@@ -63,9 +64,9 @@ double step_for(const Parameters& p) {
     const auto steepest = [](Kernel kernel, double range) {
         return steepest_wave<Dim>(weight_function<Dim>(to_string(kernel), range));
     };
-    const double longest = Dim == 1 ? 0.125 : 0.25;
-    const double wanted =
-        1.001 * longest * steepest(Kernel::lucy, 6.0) / steepest(p.kernel, p.range);
+    const double longest = Dim == 1 ? 0.125 : Dim == 2 ? 0.25 : 0.2;
+    const double wanted = 1.001 * longest * steepest(Kernel::lucy, Dim == 3 ? 4.0 : 6.0) /
+                          steepest(p.kernel, p.range);
     double step = longest;
     while (step > wanted) step *= 0.5;
     return step;
@@ -79,7 +80,8 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
             "twice --range {2:g}; "
             "use at least --cells {3}, or a shorter range",
             2 * cells, cells, p.range, static_cast<int>(std::floor(p.range)) + 1);
-    // The one at a corner has few neighbours: about half of the density on a line, a quarter in the plane.
+    // The one at a corner has few neighbours: about half of the density on a line, a quarter in the plane, an eighth
+    // in space.
     if (p.ranges == Ranges::density && !(cells > 2.0 * p.range))
         refuse(
             "cells: with --ranges density particles at corners reach twice as far as "
@@ -154,7 +156,8 @@ std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas) {
 }
 
 template <int Dim>
-Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position, const Points<Dim>& v) {
+Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position, const Points<Dim>& v,
+                      bool of_cut) {
     const auto images = images_behind_walls<Dim>(gas.model->box(), gas.weight.range(), position, v);
     Points<Dim> all(Dim, v.cols() + images.count());
     all << position, images.position;
@@ -164,8 +167,11 @@ Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position, const Po
     carried.row(0).setOnes();
     carried.template bottomRows<Dim>() << v, images.velocity;
     carried.row(1) = carried.template bottomRows<Dim>().colwise().squaredNorm();
-    // Smooth contours of small gases, too.
-    Fields<Dim> fields{grid_of(gas, std::min(1.0, gas.side() / 96.0)), {}, {}, {}, {}};
+    // Smooth contours of small gases, too; all of space by no more nodes than the entropy needs.
+    const double fine = std::min(1.0, gas.side() / 96.0);
+    Fields<Dim> fields{
+        grid_of(gas, Dim < 3 || of_cut ? fine : gas.weight.range() / 3.0), {}, {}, {}, {}};
+    if (Dim == 3 && of_cut) fields.grid.origin[2] = gas.cut(), fields.grid.nodes[2] = 1;
     const FieldInterpolation<Dim> interpolation(gas.weight, mass, all, gas.model->box());
     const std::size_t nodes = fields.grid.size();
     fields.velocity.setZero(Dim, static_cast<Eigen::Index>(nodes));
@@ -217,13 +223,18 @@ void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<co
 
 template double step_for<1>(const Parameters&);
 template double step_for<2>(const Parameters&);
+template double step_for<3>(const Parameters&);
 template Gas<1> make_gas(int, const Parameters&);
 template Gas<2> make_gas(int, const Parameters&);
+template Gas<3> make_gas(int, const Parameters&);
 template std::vector<Column<1>> entropy_columns(const Gas<1>&);
 template std::vector<Column<2>> entropy_columns(const Gas<2>&);
-template Fields<1> fields_of(const Gas<1>&, const Points<1>&, const Points<1>&);
-template Fields<2> fields_of(const Gas<2>&, const Points<2>&, const Points<2>&);
+template std::vector<Column<3>> entropy_columns(const Gas<3>&);
+template Fields<1> fields_of(const Gas<1>&, const Points<1>&, const Points<1>&, bool);
+template Fields<2> fields_of(const Gas<2>&, const Points<2>&, const Points<2>&, bool);
+template Fields<3> fields_of(const Gas<3>&, const Points<3>&, const Points<3>&, bool);
 template void write_fields(const RunFolder&, Gas<1>&, double, std::span<const double>);
 template void write_fields(const RunFolder&, Gas<2>&, double, std::span<const double>);
+template void write_fields(const RunFolder&, Gas<3>&, double, std::span<const double>);
 
 }  // namespace free_expansion

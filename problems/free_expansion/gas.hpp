@@ -37,12 +37,14 @@ struct Gas : Variant<Dim, Model<Dim>> {
     int frames = 0;                     ///< of a film
 
     double side() const { return 2.0 * cells; }
+    /// z of the layer of sites that is next to the middle: of pictures of what is in space.
+    double cut() const { return cells % 2 == 1 ? cells : cells + 0.5; }
     std::size_t particles() const { return this->model->particles().size(); }
 };
 
 /// n^Dim particles of mass and spacing 1, at rest, each off its site by 0.1 (u - 1/2), u even between 0
 /// and 1; in the plane P = rho^2/2 (gamma = 2, [HH01] eq 20), on the line P = rho^3/3 (gamma = 3,
-/// exercise 1): both are isentropes of the ideal gas with c = 1 at the start.
+/// exercise 1), in space P = 0.6 rho^(5/3): isentropes of the ideal gas with c = 1 at the start.
 /// Ranges by density: h = range/rho^(1/Dim), for as many neighbours in the thin gas as in the dense.
 template <int Dim>
 Gas<Dim> make_gas(int cells, const Parameters& p);
@@ -51,7 +53,8 @@ AnyEquationOfState law_of(int dim);
 
 /// A step with which RK4 keeps the energy to 1e-6: 0.25 with Lucy's weight of range 6 in the plane; half
 /// of it, a quarter, ... with weights that feel shorter waves, in proportion to these. On the line, where
-/// every particle meets every other, 12,000 steps of 0.25 change the energy by 2e-6: half of it.
+/// every particle meets every other, 12,000 steps of 0.25 change the energy by 2e-6: half of it. In space
+/// 0.2 with Lucy's weight of range 4.
 template <int Dim>
 double step_for(const Parameters& p);
 
@@ -59,7 +62,7 @@ double step_for(const Parameters& p);
 template <int Dim>
 std::vector<Column<Dim>> entropy_columns(const Gas<Dim>& gas);
 
-/// Fields of one state on a regular grid over the box.
+/// Fields of one state on a regular grid over the box; in space of its cut alone where asked.
 template <int Dim>
 struct Fields {
     FieldGrid<Dim> grid;
@@ -69,8 +72,8 @@ struct Fields {
     std::vector<double> hidden;   ///< (<v^2> - <v>^2)/2 per mass
 };
 template <int Dim>
-Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position,
-                      const Points<Dim>& velocity);
+Fields<Dim> fields_of(const Gas<Dim>& gas, const Points<Dim>& position, const Points<Dim>& velocity,
+                      bool of_cut = false);
 
 /// fields_0000.vti, ... beside the snapshots, and fields.pvd, the list of them with their times.
 template <int Dim>
@@ -89,11 +92,12 @@ inline const std::vector<double> drawn_at{0.25, 0.5, 0.75, 1.25};
 template <int Dim>
 void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
                   const std::vector<RunRecord>& runs);
-void draw(Session& session, const Gas<2>& gas);
-void draw(Session& session, const Gas<1>& gas);
+template <int Dim>
+void draw(Session& session, const Gas<Dim>& gas);
 
 /// A frame of a film in <folder>/frames; false where it could not be drawn.
-bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
+template <int Dim>
+bool draw_frame(const RunFolder& folder, const Gas<Dim>& gas, int number, double t,
                 std::span<const double> y);
 /// Puts them together, or says why not.
 void make_movie(Session& session, const RunFolder& folder);
@@ -101,6 +105,7 @@ void make_movie(Session& session, const RunFolder& folder);
 // ---- cost.cpp ----
 
 /// Seconds a unit of time against the number of particles, [HH01] exercise 4.
+template <int Dim>
 void measure_cost(Session& session, const Parameters& p);
 
 }  // namespace free_expansion

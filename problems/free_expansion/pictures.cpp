@@ -21,23 +21,36 @@ std::vector<const NearestState<Dim>*> reached(const Gas<Dim>& gas) {
     return states;
 }
 
-ContourRoom room_of(const Gas<2>& gas) {
+template <int Dim>
+ContourRoom room_of(const Gas<Dim>& gas) {
     return {Point<2>::Zero(), Point<2>::Constant(gas.side())};
 }
 
-ContourPanel dots(const Gas<2>& gas, const Points<2>& position) {
-    return {.title = "", .grid = {}, .particles = gas.model->box().wrapped(position), .dot = 0.8};
+/// In space those within half a spacing of the cut.
+template <int Dim>
+ContourPanel dots(const Gas<Dim>& gas, const Points<Dim>& position) {
+    const Points<Dim> all = gas.model->box().wrapped(position);
+    std::vector<Eigen::Index> shown;
+    for (Eigen::Index i = 0; i < all.cols(); ++i)
+        if (Dim == 2 || std::abs(all(Dim - 1, i) - gas.cut()) < 0.5) shown.push_back(i);
+    const Points<2> places = all.template topRows<2>()(Eigen::all, shown);
+    return {.title = "", .grid = {}, .particles = places, .dot = 0.8};
 }
 
-ContourPanel tones(const FieldGrid<2>& grid, const std::vector<double>& values) {
-    return {.title = "", .grid = grid, .values = values, .particles = {}, .level = mean(values)};
+template <int Dim>
+ContourPanel tones(const FieldGrid<Dim>& grid, const std::vector<double>& values) {
+    const FieldGrid<2> plane{grid.origin.template head<2>(),
+                             grid.spacing.template head<2>(),
+                             {grid.nodes[0], grid.nodes[1]}};
+    return {.title = "", .grid = plane, .values = values, .particles = {}, .level = mean(values)};
 }
 
 /// [HH01] Fig. 2: rows of particles, density and kinetic energy.
-void draw_fields(Session& session, const Gas<2>& gas) {
+template <int Dim>
+void draw_fields(Session& session, const Gas<Dim>& gas) {
     std::vector<ContourPanel> rows[3];
     for (const auto* state : reached(gas)) {
-        const auto fields = fields_of(gas, state->position, state->velocity);
+        const auto fields = fields_of(gas, state->position, state->velocity, true);
         const bool first = rows[0].empty();
         rows[0].push_back(dots(gas, state->position));
         rows[0].back().title = fmt::format("t = {:.4g}", state->t);
@@ -52,13 +65,14 @@ void draw_fields(Session& session, const Gas<2>& gas) {
     std::vector<ContourPanel> panels;
     for (const auto& row : rows) panels.insert(panels.end(), row.begin(), row.end());
     draw_contours(session, "expansion",
-                  fmt::format("Free expansion of {} smooth particles; white: above the average",
-                              gas.particles()),
+                  fmt::format("Free expansion of {} smooth particles{}; white: above the average",
+                              gas.particles(), Dim == 3 ? ", a cut through the middle" : ""),
                   panels, rows[0].size(), room_of(gas));
 }
 
 /// How the density fluctuates, wave length by wave length.
-void draw_spectrum(Session& session, const Gas<2>& gas) {
+template <int Dim>
+void draw_spectrum(Session& session, const Gas<Dim>& gas) {
     LogLogPicture picture{fmt::format("Density of {} smooth particles by waves", gas.particles()),
                           {{"", "wave number k", "part of <ρ²> in a shell of |k|", {}}},
                           1,
@@ -70,7 +84,9 @@ void draw_spectrum(Session& session, const Gas<2>& gas) {
         const WaveSpectrum spectrum = wave_spectrum(fields.grid, fields.density);
         LogLogCurve curve{picture.key.size(), false, {}, {}};
         const double all = std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
-        for (std::size_t k = 1; k < spectrum.k.size() && spectrum.k[k] < 3.0; ++k)
+        const double shortest = std::numbers::pi / fields.grid.spacing.maxCoeff();
+        for (std::size_t k = 1; k < spectrum.k.size() && spectrum.k[k] < std::min(3.0, shortest);
+             ++k)
             add_point(curve, spectrum.k[k], spectrum.power[k] / all);
         picture.panels[0].curves.push_back(std::move(curve));
         picture.key.push_back(fmt::format("t = {:.4g}", state->t));
@@ -102,7 +118,7 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
     double last = 0.0;
     for (std::size_t k = 0; k < runs.size(); ++k)
         last = std::max(last, runs[k].history.last("t") / gases[k].cells);
-    if (several) last = std::min(last, 1.5);
+    if (several) last = std::min(last, Dim == 3 ? 4.0 : 1.5);
     for (std::size_t c = 0; c < columns.size(); ++c) {
         if (several || panels.empty())
             panels.push_back(frame(several ? title_of(columns[c], false) : "",
@@ -128,12 +144,14 @@ void draw_entropy(Session& session, const std::vector<Gas<Dim>>& gases,
     draw_curves(session, "entropy", fmt::format("Entropy of {} expanding freely", of), panels);
 }
 
-void draw(Session& session, const Gas<2>& gas) {
+template <int Dim>
+void draw(Session& session, const Gas<Dim>& gas) {
     draw_fields(session, gas);
     draw_spectrum(session, gas);
 }
 
 /// Density and velocity along the line.
+template <>
 void draw(Session& session, const Gas<1>& gas) {
     std::vector<CurvePanel> panels{frame("density", "x / N", "ρ"),
                                    frame("velocity", "x / N", "<v>"),
@@ -155,10 +173,11 @@ void draw(Session& session, const Gas<1>& gas) {
                 panels);
 }
 
-bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t,
+template <int Dim>
+bool draw_frame(const RunFolder& folder, const Gas<Dim>& gas, int number, double t,
                 std::span<const double> y) {
-    const ConstState<2> state(gas.model->layout(), y);
-    const auto fields = fields_of<2>(gas, state.position(), state.velocity());
+    const ConstState<Dim> state(gas.model->layout(), y);
+    const auto fields = fields_of<Dim>(gas, state.position(), state.velocity(), true);
     ContourPanel density = tones(fields.grid, fields.density), kinetic = density;
     density.colours = ContourPanel::Colours{0.0, 1.0, "density"};
     kinetic.values = fields.kinetic;
@@ -166,7 +185,7 @@ bool draw_frame(const RunFolder& folder, const Gas<2>& gas, int number, double t
     const RunFolder frames = folder.inside("frames");
     const std::string name = fmt::format("frame_{:04}", number);
     if (!draw_contours(frames, name, fmt::format("t = {:.1f}", t),
-                       {dots(gas, state.position()), density, kinetic}, 3, room_of(gas)))
+                       {dots<Dim>(gas, state.position()), density, kinetic}, 3, room_of(gas)))
         return false;
     for (const char* part : {".dat", ".gp"}) {  // a hundred scripts help nobody
         std::error_code ignored;
@@ -184,5 +203,10 @@ void make_movie(Session& session, const RunFolder& folder) {
 
 template void draw_entropy(Session&, const std::vector<Gas<1>>&, const std::vector<RunRecord>&);
 template void draw_entropy(Session&, const std::vector<Gas<2>>&, const std::vector<RunRecord>&);
+template void draw_entropy(Session&, const std::vector<Gas<3>>&, const std::vector<RunRecord>&);
+template void draw(Session&, const Gas<2>&);
+template void draw(Session&, const Gas<3>&);
+template bool draw_frame(const RunFolder&, const Gas<2>&, int, double, std::span<const double>);
+template bool draw_frame(const RunFolder&, const Gas<3>&, int, double, std::span<const double>);
 
 }  // namespace free_expansion

@@ -2,7 +2,7 @@
 // What plane_wave is asked for, and what it refuses.
 #pragma once
 
-#include "../common.hpp"
+#include "../lattice_choice.hpp"
 #include <spam/analysis/plane_wave.hpp>
 
 namespace plane_wave {
@@ -15,12 +15,16 @@ struct Parameters {
     double amplitude = 0.25;
     double block = 3.0;  // d
     bool compare_sizes = false;
+    int dimension = 2;
+    CubicLattice lattice = CubicLattice::sc;
+    /// Of one of the cells along the wave.
+    double height() const { return dimension == 2 ? std::sqrt(0.75) : cubic_edge(lattice); }
 };
 
 /// Blocks are of the transverse wave, and a part of one bulge of it.
-/// Turning is measured in a transverse wave of one size.
+/// Turning is measured in a transverse wave of one size in the plane.
 inline bool has_blocks(const Options& options, const Parameters& p) {
-    return !p.compare_sizes &&
+    return p.dimension == 2 && !p.compare_sizes &&
            !(options.given("polarization") && p.polarization == Polarization::longitudinal);
 }
 
@@ -35,8 +39,8 @@ inline void refuse_blocks(const Options& options, const Parameters& p) {
 /// The smallest of three lattices has half the cells; it must be wider than twice the range.
 inline void refuse_small(const Parameters& p, double range) {
     const int half = p.cells / 4 * 2;
-    if (!p.compare_sizes || half * std::sqrt(0.75) > 2.0 * range) return;
-    const int least = static_cast<int>(2.0 * range / std::sqrt(0.75)) + 1;
+    if (!p.compare_sizes || half * p.height() > 2.0 * range) return;
+    const int least = static_cast<int>(2.0 * range / p.height()) + 1;
     refuse(
         "cells: {} are too few for --compare-sizes with --range {}: half of them make "
         "a lattice not "

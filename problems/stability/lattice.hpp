@@ -2,17 +2,9 @@
 // What the parts of stability share.
 #pragma once
 
-#include "../common.hpp"
+#include "../lattice_choice.hpp"
 #include <spam/analysis/bonded_lattice.hpp>
 #include <spam/analysis/wave_vectors.hpp>
-
-namespace spam {
-
-inline std::string_view to_string(CubicLattice lattice) {
-    return lattice == CubicLattice::sc ? "sc" : lattice == CubicLattice::fcc ? "fcc" : "bcc";
-}
-
-}  // namespace spam
 
 namespace stability {
 

@@ -10,14 +10,16 @@ using namespace breaking;
 
 struct Parameters {
     Matter matter;
-    int columns = 60;
-    std::optional<int> rows;  ///< 14, or 12 elements
+    int dimension = 2;
+    int columns = 60;         ///< in space 30 layers
+    std::optional<int> rows;  ///< 14, or 12 elements; in space 8 layers either way
     double taper = 0.1;
     std::optional<double> load_rate, damping;
     std::optional<double> end_speed;  ///< in place of a load
 };
 
-struct PulledBar : Variant<2> {
+template <int Dim>
+struct PulledBar : Variant<Dim> {
     MatterKind kind;
     double load_rate;  ///< the load at the ends is load_rate t; 0 where there is none
     double step;       ///< of classical Runge-Kutta
@@ -25,18 +27,24 @@ struct PulledBar : Variant<2> {
 };
 
 /// `matter`: that of p, of one kind.
-PulledBar make_bar(const Session& session, const Parameters& p, const Matter& matter);
+template <int Dim>
+PulledBar<Dim> make_bar(const Session& session, const Parameters& p, const Matter& matter);
 
 /// `pieces`: of a twentieth of the particles or more; `largest_piece`, `second_piece`: their particles;
 /// `length`, `closest_pair`.
-std::vector<Column<2>> columns_of(const PulledBar& bar);
+template <int Dim>
+std::vector<Column<Dim>> columns_of(const PulledBar<Dim>& bar);
 
 /// Time of the first of the last rows that all have more than one piece; none where the last has one.
 std::optional<double> parted_at(const History& h);
 
-void report(Session& session, const Parameters& p, const PulledBar& bar, const RunRecord& run);
-/// The states kept of one bar, or of several how they were before and have ended.
-void draw(Session& session, const std::vector<PulledBar>& bars, const std::vector<RunRecord>& runs);
+template <int Dim>
+void report(Session& session, const Parameters& p, const PulledBar<Dim>& bar, const RunRecord& run);
+/// The states kept of one bar, or of several how they were before and have ended; in space the layer of sites that is
+/// next to the middle.
+template <int Dim>
+void draw(Session& session, const Parameters& p, const std::vector<PulledBar<Dim>>& bars,
+          const std::vector<RunRecord>& runs);
 
 /// The run of the finite-element twin, and what it came to.
 void compute_elements(Session& session, const Parameters& p);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that rotate in space: balanced torques keep the vector L, and a block tumbles as Jacobi says. A cloud of gas
-// that flies apart.
+// that flies apart, and one that fills a box. A bar that is torn.
 #include "problem/found.hpp"
+#include "problem/refused.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -87,4 +88,150 @@ BOOST_AUTO_TEST_CASE(the_fastest_wave_of_a_cubic_lattice_is_found) {
         {"--dimension", "3", "--transport", "plain", "--stress", "0.01", "--range", "2"},
         "plain_0.01_growth_rate");
     BOOST_TEST(one.claims == 1U);
+}
+
+namespace {
+
+/// A run stopped by a limit of steps and gone on with leaves the rows of one that was left alone.
+void check_goes_on(const std::string& name, const Words& arguments) {
+    const Scratch folder;
+    const auto ran = [&](Words words) {
+        words.insert(words.end(), {"--no-plots", "--quiet"});
+        return Child(problem(name, words), {folder.path()}).finish(Child::Seconds(240)).status;
+    };
+    const auto to = [&](Words more) {
+        more.insert(more.end(), arguments.begin(), arguments.end());
+        return more;
+    };
+    BOOST_TEST(ran(to({"--out", "whole"})) == 0);
+    BOOST_TEST(ran(to({"--out", "stopped", "--max-steps", "60"})) == 3);
+    BOOST_TEST(ran({"--restart", "stopped", "--max-steps", "1000000"}) == 0);
+    BOOST_TEST(contents_of(folder / "stopped/invariants.csv") ==
+               contents_of(folder / "whole/invariants.csv"));
+}
+
+}  // namespace
+
+/// One particle that was kicked: as long as the motion is linear K(t) is the sum over the waves of the sample, which
+/// must be the right ones, one a particle, and then grows as the fastest. That one is an infinite lattice's too.
+BOOST_AUTO_TEST_CASE(tensile_instability_in_space_grows_as_its_fastest_wave) {
+    for (const auto& [lattice, cells, rate] :
+         {std::tuple{"sc", "6", 0.3492}, {"fcc", "4", 0.1953}, {"bcc", "4", 0.2004}}) {
+        const Results found("tensile_instability",
+                            {"--dimension", "3", "--lattice", lattice, "--cells", cells, "--stress",
+                             "0.02", "--range", "2"},
+                            "kinetic_growth_rate");
+        BOOST_TEST(found.claims == 1U);
+        BOOST_TEST(found.value.at("kinetic_error_against_all_modes") < 2e-3);
+        BOOST_TEST(std::abs(found.value.at("kinetic_growth_rate_predicted") / (2.0 * rate) - 1.0) <
+                   5e-4);
+        BOOST_TEST(std::abs(found.value.at("kinetic_growth_rate") / (2.0 * rate) - 1.0) < 0.01);
+        BOOST_TEST(found.value.at("window_end") - found.value.at("window_begin") > 30.0);
+    }
+    const Results still("tensile_instability",
+                        {"--smoke", "--dimension", "3", "--stress", "0", "--cells", "6"},
+                        "kinetic_growth_rate");
+    BOOST_TEST(still.claims == 0U);
+    BOOST_TEST(still.value.at("largest_kinetic_ratio") <= 1.0);
+    check_goes_on("tensile_instability", {"--smoke", "--dimension", "3", "--lattice", "bcc",
+                                          "--stress", "0.02", "--checkpoint-every", "1.3"});
+}
+
+/// Sums over neighbours are the same for both waves, and so is what they do to the period: moduli are eta and 3 eta.
+BOOST_AUTO_TEST_CASE(plane_wave_in_space_keeps_the_period_of_its_lattice) {
+    for (const auto& [lattice, range] : {std::pair{"sc", "3"}, {"fcc", "2"}, {"bcc", "2.6"}}) {
+        const Results found(
+            "plane_wave",
+            {"--dimension", "3", "--lattice", lattice, "--range", range, "--cells", "8"}, "period");
+        BOOST_TEST(found.claims == 1U);
+        for (const std::string prefix : {"", "longitudinal_"})
+            BOOST_TEST(std::abs(found.value.at(prefix + "period_shift")) < 1e-4);
+        BOOST_TEST(
+            found.value.at("period") / found.value.at("longitudinal_period") == std::sqrt(3.0),
+            boost::test_tools::tolerance(1e-4));
+        BOOST_TEST(found.value.at("period_error") > 0.03);  // not that of elasticity
+    }
+    check_goes_on("plane_wave", {"--smoke", "--dimension", "3", "--polarization", "transverse",
+                                 "--checkpoint-every", "3.3"});
+    const Scratch folder;
+    const auto refused = run_in(folder, "plane_wave", {"--dimension", "3", "--block", "3"});
+    BOOST_TEST(refused.status == 2);
+    BOOST_TEST(refused.err.find("--dimension 3, where no turning") != std::string::npos);
+}
+
+/// Another program's entropy of 12 x 12 x 12 particles, and none of streaming before they meet the box.
+BOOST_AUTO_TEST_CASE(a_gas_in_space_gains_the_entropy_it_should) {
+    const Results found("free_expansion", {"--dimension", "3", "--cells", "12"},
+                        "entropy_sum_plateau");
+    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(std::abs(found.value.at("entropy_sum_at_12") - 0.764) < 0.01);
+    BOOST_TEST(found.value.at("energy_drift_per_particle") < 1e-6);
+    const Results early("free_expansion", {"--dimension", "3", "--t-end", "4"}, "entropy_sum");
+    BOOST_TEST(std::abs(early.value.at("entropy_sum")) < 0.05);
+    BOOST_TEST(early.value.at("entropy_full_v2") > 0.2);
+}
+
+/// What a user may ask of it: mirrors, ranges of their own, three sizes, the cost.
+BOOST_AUTO_TEST_CASE(a_gas_in_space_takes_the_options_of_the_plane) {
+    for (const Words& more : {Words{"--walls", "mirror", "--front", "no-slip", "--t-end", "4"},
+                              Words{"--ranges", "density", "--t-end", "4"},
+                              Words{"--particles", "729", "--t-end", "2"}}) {
+        Words words{"--smoke", "--dimension", "3"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Results found("free_expansion", words, "entropy_sum");
+        BOOST_TEST(std::isfinite(found.value.at("entropy_grid")));
+    }
+    const Results cost("free_expansion", {"--smoke", "--dimension", "3", "--cost"},
+                       "n10_pairs_per_particle");
+    BOOST_TEST(cost.value.at("n16_pairs_per_particle") > cost.value.at("n10_pairs_per_particle"));
+    const Results three("free_expansion",
+                        {"--smoke", "--dimension", "3", "--compare", "--t-end", "2"},
+                        "n8_entropy_sum");
+    BOOST_TEST(three.value.contains("n16_entropy_sum"));
+}
+
+/// Molecules part at what the bonds of a section bear, 65 (1 - 1/rows)/columns, and a little later.
+BOOST_AUTO_TEST_CASE(a_bar_in_space_parts_where_its_bonds_tear) {
+    const Results molecules("tension_test", {"--dimension", "3", "--model", "pair_md"},
+                            "load_at_parting");
+    BOOST_TEST(molecules.claims == 1U);
+    BOOST_TEST(molecules.value.at("load_at_parting") > 1.894);
+    BOOST_TEST(molecules.value.at("second_piece") > 440.0);
+    const Results other(
+        "tension_test",
+        {"--smoke", "--dimension", "3", "--model", "pair_md", "--columns", "20", "--rows", "6"},
+        "load_at_parting");
+    BOOST_TEST(other.claims == 0U);
+    BOOST_TEST(std::abs(other.value.at("load_at_parting") / (65.0 * (1.0 - 1.0 / 6.0) / 20.0) -
+                        1.05) < 0.05);
+    const Results smooth("tension_test", {"--smoke", "--dimension", "3"}, "load_at_parting");
+    BOOST_TEST(smooth.value.at("pieces") >= 2.0);
+}
+
+BOOST_AUTO_TEST_CASE(elements_are_refused_in_space) {
+    check_refused("tension_test", {{{"--dimension", "3", "--model", "elements"},
+                                    {"dimension", "--model elements", "plane"}}});
+}
+
+/// Pieces keep their angular momentum from when they have parted.
+BOOST_AUTO_TEST_CASE(a_ball_in_space_breaks_a_plate) {
+    const char* const kept = "angular_momentum_change_of_pieces";
+    const Words small{"--dimension", "3", "--model", "pair_md", "--radius", "3", "--columns", "12"};
+    const auto hit = [&](const char* speed, const char* seed) {
+        Words words = small;
+        words.insert(words.end(), {"--rows", "4", "--speed", speed, "--seed", seed});
+        const Results found("ball_plate", words, kept);
+        BOOST_TEST(found.claims == 1U);
+        return found.value;
+    };
+    auto slow = hit("1", "1"), fast = hit("8", "1"), other = hit("8", "2");
+    BOOST_TEST(slow["pieces"] == 1.0);
+    BOOST_TEST(fast["pieces"] > 40.0);
+    BOOST_TEST(fast[kept] > 0.0);
+    BOOST_TEST(fast["ball_speed"] != other["ball_speed"]);
+    check_goes_on("ball_plate", {"--smoke", "--dimension", "3", "--model", "pair_md", "--speed",
+                                 "8", "--checkpoint-every", "0.13"});
+    check_refused("ball_plate",
+                  {{{"--dimension", "3", "--model", "elements"}, {"dimension", "elements"}},
+                   {{"--dimension", "3", "--model", "embedded_atom"}, {"dimension", "at rest"}}});
 }
