@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) 
         {"free_expansion", {"--range", "-1"}, {"range", "-1", "above 0"}},
         {"free_expansion", {"--kernel", "gauss"}, {"kernel", "gauss", "lucy"}},
         {"free_expansion", {"--walls", "rigid"}, {"walls", "rigid", "periodic"}},
-        {"free_expansion", {"--dimension", "3"}, {"dimension", "3", "between 1 and 2"}},
+        {"free_expansion", {"--dimension", "4"}, {"dimension", "4", "between 1 and 3"}},
         {"free_expansion", {"--particles", "101"}, {"particles", "101", "100 and 121"}},
         {"free_expansion", {"--particles", "100", "--cells", "12"}, {"particles", "contradict"}},
         {"free_expansion", {"--compare", "--cells", "12"}, {"cells", "--compare"}},
