@@ -13,8 +13,6 @@
 #include <spam/material/smooth_hencky_solid.hpp>
 #include <spam/material/smooth_yield.hpp>
 #include <spam/material/van_der_waals.hpp>
-#include <spam/rhs/ellipses.hpp>
-#include <spam/rhs/reaction.hpp>
 
 namespace spam::test {
 
@@ -151,34 +149,6 @@ inline const std::map<std::string, Build> more_laws{
              0.03 * u * s.of("l^2"), CorePotential{s.energy(0.1), s.length(1.1)}, Kernel::w5,
              s.length(3.0)});
      }},
-    {"Contact of two bodies", [](Sample& s, const Scheme&) { add_contact(s); }},
-    {"LongRange in a gas",
-     [](Sample& s, const Scheme& scheme) {
-         add_fluid(s, {IdealGas{}}, scheme);
-         s.model.add_term<LongRange<2>>(
-             LongRangeScheme{-0.05 * s.of("l^3/t^2") / s.units.mass, s.length(0.3)});
-     }},
-    {"Reaction in a gas",
-     [](Sample& s, const Scheme& scheme) {
-         add_fluid(s, {IdealGas{}}, scheme);
-         s.model.add_term<Reaction<2>>(ReactionScheme{.diffusivity = 0.3 * s.of("l^2/t"),
-                                                      .rate = 0.7 / s.units.time,
-                                                      .heat = s.temperature(0.4),
-                                                      .range = s.length(3.0)});
-         s.fluid = [&s, before = s.fluid](const Points<2>& x, const Points<2>& v) {
-             auto y = before(x, v);
-             double* const c = State<2>(s.model.layout(), y).find(field_kind::concentration);
-             for (Eigen::Index i = 0; i < x.cols(); ++i)
-                 c[i] = 0.5 + 0.4 * std::sin(x(0, i) / s.units.length);
-             return y;
-         };
-     }},
-    {"Ellipses", [](Sample& s, const Scheme&) {
-         auto& law = s.model.add_term<Ellipses<2>>(
-             Fluid{GammaGas{1.4}}, EllipseScheme{.range = s.length(3.0), .largest_aspect = 1.2});
-         s.fluid = [&law, T = s.temperature(0.2)](const Points<2>& x, const Points<2>& v) {
-             return law.start(x, v, T);
-         };
-     }}};
+    {"Contact of two bodies", [](Sample& s, const Scheme&) { add_contact(s); }}};
 
 }  // namespace spam::test

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any model cut into parts gives the bytes of the whole: laws with schemes, walls, externals, periodic boxes, a fixed
 // and an adaptive method; particles move between the parts on the way.
-#include "rhs/more_laws.hpp"
 #include "rhs/walled.hpp"
 #include "support/parts_in_threads.hpp"
 #include "support/refusal.hpp"
@@ -248,16 +247,6 @@ BOOST_AUTO_TEST_CASE(every_external) {
                     walled_by(walls.at("rigid")), *options, counts, 3);
         }
     BOOST_TEST(counts.ran == 2 * static_cast<int>(externals.size()));
-}
-
-BOOST_AUTO_TEST_CASE(forces_of_any_range_reactions_and_ellipses) {
-    Counts counts;
-    for (const char* law : {"LongRange in a gas", "Reaction in a gas", "Ellipses"})
-        for (const auto* options : {&fixed, &adaptive}) BOOST_TEST_CONTEXT(law) {
-                compare([&](Sample& s) { more_laws.at(law)(s, Scheme{}); }, {}, *options, counts,
-                        3);
-            }
-    BOOST_TEST(counts.ran == 6);
 }
 
 // The test can fail: images that are not refreshed, and sums of parts that are rounded before they are added.
