@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spam-list: error against work: many integrators on eight systems; 2 min on 2 cores
+// spam-list: error against work: many integrators on eight systems, or one in space; 2 min on 2 cores
 //
 // Which integrator for which accuracy? Every method integrates every system with smaller and smaller
 // steps, fixed ones and those it chooses itself; the error at the end is that against a reference
@@ -12,8 +12,11 @@
 //                               the second derivative of y' errs by h^3, whatever the method
 // A force that jumps:           torque_particle: order one
 // Velocities that jump:         reflection: found in time, so that orders stay
+// In space, with --problem cube alone (all others are in the plane): a cube that turns and rings, orders claimed
 #include "common.hpp"
 #include <spam/study/work_precision.hpp>
+
+#include <Eigen/Geometry>
 
 namespace {
 
@@ -59,6 +62,28 @@ std::vector<Trial<2>> systems(const Parameters& p) {
     };
 }
 
+/// The same in space, the range between two shells of the simple cubic lattice.
+Trial<3> cube(const Parameters& p) {
+    const auto start = [n = p.size, v = p.speed] {
+        const Scheme scheme{.transport = Transport::monaghan, .range = 2.63};
+        const auto solid = ElasticSolid::triangular_lattice();
+        auto particles = make_particles<3>(centred<3>(square_lattice<3>({n, n, n})), 1.0);
+        const Point<3> omega =
+            v / particles.reference_position.col(0).norm() * Point<3>(1, 2, 2) / 3;
+        Start<3> begun{
+            std::make_unique<SmoothParticleModel<3>>(std::move(particles), solid, scheme), {}};
+        begun.y0 = initial_state<3>(
+            *begun.model, 1.0, solid.eta, [=, turning = rigid_rotation(omega)](const Point<3>& x) {
+                const Point<3> ringing(std::sin(7 * x.y()), std::sin(8 * x.z()),
+                                       std::sin(9 * x.x()));
+                return Point<3>(turning(x) + 0.2 * v * ringing);
+            });
+        return begun;
+    };
+    return {"cube", "Cube of smooth particles in space, averaged velocities, range 2.63", start,
+            20.0};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,18 +94,23 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     std::vector<std::string> names;
     for (const auto& system : systems(p)) names.push_back(system.name);
+    names.emplace_back("cube");
     add_system_option(options, names, p.problem);
-    options.integer("size", p.size, "n of the hexagons, which have 1 + 3n + 3n^2 particles",
-                    between(2, 50));
-    options.number("speed", p.speed, "speed of the corners of the hexagons", between(1e-6, 1e3));
+    options.integer(
+        "size", p.size,
+        "n of the hexagons, which have 1 + 3n + 3n^2 particles, and of the cube, which has n^3",
+        between(2, 50));
+    options.number("speed", p.speed, "speed of the corners of the hexagons and of the cube",
+                   between(1e-6, 1e3));
     options.only_when(
         {"size", "speed"}, {"problem"},
         [&p] { return p.problem != "wave" && p.problem != "expansion"; },
-        "is of the hexagons, there are none with {by}; leave it out");
+        "is of the hexagons and the cube, there are none with {by}; leave it out");
     study.add_options(options);
 
     return problem.main(argc, argv, [&](Session& session) {
         session.smoke_default("problem", p.problem, "md");
+        if (p.problem == "cube") return study.run<3>(session, {cube(p)});
         auto trials = systems(p);
         if (p.problem != "all")
             std::erase_if(trials, [&](const auto& trial) { return trial.name != p.problem; });

@@ -252,17 +252,18 @@ void compute(Session& session, const Parameters& p) {
         if (smoke) one.options.duration *= 0.01;
         if (p.time) one.options.duration = *p.time;
     }
+    const double step = hexagon ? 0.5 : p.system == System::soft_disks ? 0.005 : 0.05;
+    const IntegratorOptions integrator{.method = hexagon ? "rk4" : "leapfrog", .dt = step};
     RunStatistics& statistics = session.begin_analysis(
         {fmt::format("system      {}, {} particles", to_string(p.system),
                      all.front().model->particles().size()),
          fmt::format("model       {}", all.front().model->describe()),
          fmt::format("exponents   {}, to t = {:g}", all.front().options.exponents,
-                     all.front().options.duration)});
+                     all.front().options.duration)},
+        integrator.describe());
     const bool standard = !smoke && !p.time && size == (hexagon ? 4 : 6) &&
                           session.at_default({"speed", "exponents", "interval"});
     for (Measured& one : all) {
-        const double step = hexagon ? 0.5 : p.system == System::soft_disks ? 0.005 : 0.05;
-        const IntegratorOptions integrator{.method = hexagon ? "rk4" : "leapfrog", .dt = step};
         one.spectrum = lyapunov_spectrum<2>(*one.model, one.y0, integrator, one.options);
         statistics.rhs_evaluations += one.spectrum.rhs_evaluations;
         statistics.particles = one.model->particles().size();
@@ -303,6 +304,6 @@ int main(int argc, char** argv) {
                     between(0, 1000000000));
     options.only_when(
         {"speed"}, {"case"}, [&p] { return p.system == System::hexagon; },
-        "has a meaning with --case hexagon alone");
+        "has a meaning with --case hexagon alone; leave it out");
     return problem.main(argc, argv, [&](Session& session) { compute(session, p); });
 }

@@ -231,10 +231,11 @@ void compute(Session& session, const Parameters& p) {
         stars.push_back(make_star(p, count));
         if (p.compare) stars.back().call(std::to_string(count));
     }
+    const auto step_of = [](double particles) { return 0.15 * std::cbrt(1200.0 / particles); };
+    session.prefer_step(step_of(p.particles));
     std::vector<Case<3>> cases;
     for (Star& one : stars) {
-        const double step =
-            0.15 * std::cbrt(1200.0 / static_cast<double>(one.model->particles().size()));
+        const double step = step_of(static_cast<double>(one.model->particles().size()));
         Plan<3> rest, swing;
         rest.t_end = p.relaxation_time;
         rest.own_end = true;
@@ -265,7 +266,9 @@ void compute(Session& session, const Parameters& p) {
 
 int main(int argc, char** argv) {
     using namespace polytrope;
-    Problem problem("polytrope", "a ball of gas held together by its own gravity", 0.1);
+    Problem problem(
+        "polytrope", "a ball of gas held together by its own gravity", 0.15,
+        "0.15 with 1,200 particles, in proportion to their distance; half of that of leapfrog");
     problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();

@@ -188,20 +188,26 @@ if(NOT SPAM_LEVELS STREQUAL "generic" AND CMAKE_BUILD_TYPE STREQUAL "Release"
   find_program(VALGRIND NAMES valgrind)
   add_executable(instructions rhs/instructions.cpp)
   target_link_libraries(instructions PRIVATE spam::spam spam_flags)
-  # spam_instructions_test(<name> <scheme> <most per pair>)
-  function(spam_instructions_test name scheme most)
+  target_include_directories(instructions PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  # spam_instructions_test(<name> <dimensions> <scheme> <most per pair>)
+  function(spam_instructions_test name dimensions scheme most)
     add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -DVALGRIND=${VALGRIND}
-      -DPROGRAM=$<TARGET_FILE:instructions> -DSCHEME=${scheme} -DMOST=${most}
-      -P ${CMAKE_CURRENT_SOURCE_DIR}/rhs/instructions.cmake)
+      -DPROGRAM=$<TARGET_FILE:instructions> -DDIMENSIONS=${dimensions} -DSCHEME=${scheme}
+      -DMOST=${most} -P ${CMAKE_CURRENT_SOURCE_DIR}/rhs/instructions.cmake)
     set_tests_properties(${name} PROPERTIES LABELS property TIMEOUT ${timeout})
     if(NOT VALGRIND)
       set_tests_properties(${name} PROPERTIES DISABLED TRUE)
     endif()
   endfunction()
-  spam_instructions_test(rhs.instructions one_sweep 65)
-  spam_instructions_test(rhs.instructions_two_sweeps two_sweeps 85)
-  spam_instructions_test(rhs.instructions_total_lagrangian total_lagrangian 145)  # three sweeps
-  spam_instructions_test(rhs.instructions_gate one_sweep 50)  # it fails where there are too many
+  spam_instructions_test(rhs.instructions 2 one_sweep 65)
+  spam_instructions_test(rhs.instructions_two_sweeps 2 two_sweeps 85)
+  spam_instructions_test(rhs.instructions_fluid 2 fluid 136)
+  spam_instructions_test(rhs.instructions_total_lagrangian 2 total_lagrangian 145)  # three sweeps
+  spam_instructions_test(rhs.instructions_in_space 3 one_sweep 95)
+  spam_instructions_test(rhs.instructions_in_space_two_sweeps 3 two_sweeps 113)
+  spam_instructions_test(rhs.instructions_in_space_fluid 3 fluid 153)
+  spam_instructions_test(rhs.instructions_in_space_total_lagrangian 3 total_lagrangian 156)
+  spam_instructions_test(rhs.instructions_gate 2 one_sweep 50)  # it fails where there are too many
   set_tests_properties(rhs.instructions_gate PROPERTIES WILL_FAIL TRUE)
 endif()
 

@@ -51,8 +51,10 @@ RootFound find_root(const Residual& residual, std::span<const double> start,
     void* const kinsol = memory.get();
     const auto check = [&](int flag, const char* what) {
         if (flag < 0)
-            throw GuardStop(fmt::format("equilibrium: KINSOL's {} failed ({}): {}", what, flag,
-                                        messages.text()));
+            throw GuardStop(fmt::format(
+                "equilibrium: no state at rest was found; let the load grow in smaller steps, or "
+                "choose a smaller one (KINSOL's {}: {} {})",
+                what, flag, messages.text()));
     };
 #if SUNDIALS_VERSION_MAJOR < 7
     check(KINSetErrHandlerFn(kinsol, &SundialsMessages::handler, &messages), "SetErrHandlerFn");

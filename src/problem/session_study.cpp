@@ -73,7 +73,8 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
     statistics_.back().units = problem_.units_;
 }
 
-RunStatistics& Session::begin_analysis(const std::vector<std::string>& description) {
+RunStatistics& Session::begin_analysis(const std::vector<std::string>& description,
+                                       const std::string& steps) {
     std::vector<std::string> of_runs{"t-end", "output-every", "snapshot-every", "checkpoint-every",
                                      "restart"};
     const auto& of_integrator = IntegratorSettings::names();
@@ -82,13 +83,16 @@ RunStatistics& Session::begin_analysis(const std::vector<std::string>& descripti
     of_runs.insert(of_runs.end(), of_guard.begin(), of_guard.end());
     if (const auto name = problem_.options_.first_given(of_runs); !name.empty())
         throw InputError(
-            fmt::format("{}: {} integrates nothing; leave it out", name, problem_.name_));
+            fmt::format("{}: {} {}; leave it out", name, problem_.name_,
+                        steps.empty() ? "integrates nothing" : "chooses its own steps and end"));
     leave_out_of_case(of_runs);
     if (given("balance"))
         throw InputError("balance: both choices are the same for one body; leave it out");
     leave_out_of_case({"balance"});
     integrator();
-    begin(description, nullptr);
+    auto lines = description;
+    if (!steps.empty()) lines.push_back("integrator  " + steps);
+    begin(lines, nullptr, !steps.empty());
     return statistics_.back();
 }
 

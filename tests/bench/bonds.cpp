@@ -25,13 +25,6 @@ struct BondedSystem {
     void rates() { model.rates(0.0, y, y_dot); }
 };
 
-template <class Body>
-double least_seconds(double least, const Body& body) {
-    const Stopwatch watch;
-    body();
-    return std::min(least, watch.seconds());
-}
-
 /// Counters over_elastic (times the plain right-hand side) and ns_per_particle.
 void material_vectors_over_elastic(benchmark::State& state) {
     set_threads(1);

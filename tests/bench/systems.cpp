@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "systems.hpp"
 
+#include "support/measured_systems.hpp"
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -13,21 +14,13 @@ namespace spam::bench {
 namespace {
 
 Points<2> hexagon(std::int64_t n, Given given) {
-    int r = 1;
-    while (1 + 3L * r * (r + 1) < n) ++r;
-    Points<2> x = triangular_hexagon(r);
+    Points<2> x = test::round_body<2>(n);
     if (given == Given::shuffled) {
         std::mt19937_64 random(2);
         for (Eigen::Index k = x.cols() - 1; k > 0; --k)
             x.col(k).swap(x.col(std::uniform_int_distribution<Eigen::Index>(0, k)(random)));
     }
     return x;
-}
-
-void jitter(std::span<double> values) {
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> u(-0.01, 0.01);
-    for (double& value : values) value += u(random);
 }
 
 struct Block {
@@ -46,7 +39,7 @@ ElasticSystem::ElasticSystem(std::int64_t n, const Scheme& scheme, Given given)
     : model(make_particles<2>(hexagon(n, given), 1.0), ElasticSolid::triangular_lattice(), scheme) {
     y = initial_state<2>(model, std::sqrt(4.0 / 3.0), 0.433, rigid_rotation(1e-3));
     y_dot.resize(y.size());
-    jitter(y);
+    test::jitter(y);
 }
 
 GasSystem::GasSystem(std::int64_t n, double speed)
@@ -59,7 +52,7 @@ GasSystem::GasSystem(std::int64_t n, double speed)
         return speed > 0.0 ? Point<2>(component(random), component(random)) : Point<2>(0.0, 0.0);
     });
     y_dot.resize(y.size());
-    jitter({y.data(), 2 * model.particles().size()});
+    test::jitter({y.data(), 2 * model.particles().size()});
 }
 
 double neighbours_in_range(const Model<2>& model, std::span<const double> y) {

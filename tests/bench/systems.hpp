@@ -8,7 +8,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <vector>
 
 namespace spam::bench {
@@ -38,6 +40,12 @@ struct GasSystem {
     void rates() { model.rates(0.0, y, y_dot); }
 };
 
+inline double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 class Stopwatch {
   public:
     double seconds() const {
@@ -47,6 +55,14 @@ class Stopwatch {
   private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// The least of `least` and the processor's seconds that body() takes, of all threads.
+template <class Body>
+double least_seconds(double least, const Body& body) {
+    const double begin = processor_seconds();
+    body();
+    return std::min(least, processor_seconds() - begin);
+}
 
 /// Neighbours of a particle that are within the range, on average.
 double neighbours_in_range(const Model<2>& model, std::span<const double> y);

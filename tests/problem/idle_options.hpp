@@ -73,7 +73,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"tensile_instability", {"--stress", "0.01", "--speed", "0.01"}},
     {"tensile_instability",
      {"--dimension", "3", "--stress", "0.02", "--cells", "6", "--speed", "0.01"}},
-    {"plane_wave", {"--dimension", "3", "--cells", "8", "--range", "2", "--amplitude", "0.5"}},
+    {"plane_wave", {"--dimension", "3", "--cells", "8", "--range", "2"}},
     {"stability", {}},
     {"stability", {"--transport", "monaghan"}},
     {"stability", {"--formulation", "material_vectors"}},

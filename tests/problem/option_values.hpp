@@ -10,6 +10,14 @@ namespace spam::test {
 
 /// A value that is the default nowhere.
 inline const std::map<std::string, std::string> another_value{
+    {"load", "0.004"},
+    {"case", "lucy_gas"},
+    {"softening", "0.2"},
+    {"threshold", "0.3"},
+    {"tolerance", "1e-7"},
+    {"exponents", "2"},
+    {"interval", "0.05"},
+    {"heat", "0.3"},
     {"front", "mirror@1.5"},
     {"back", "mirror@1.5"},
     {"t-end", "7.3"},
@@ -194,6 +202,12 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"stability", "formulation"}, "material_vectors"},
     {{"mesh_modes", "speed"}, "1e-5"},
     {{"tension_test", "dimension"}, "3"},
+    {{"loaded_bar", "columns"}, "14"},
+    {{"loaded_bar", "steps"}, "3"},
+    {{"lyapunov", "time"}, "2"},
+    {{"lyapunov", "interval"}, "0.02"},
+    {{"polytrope", "amplitude"}, "0.05"},
+    {{"polytrope", "periods"}, "2.5"},
     {{"tensile_instability", "dimension"}, "3"},
     {{"tensile_instability", "lattice"}, "fcc"},
     {{"plane_wave", "dimension"}, "3"},

@@ -2,6 +2,7 @@
 // The second right-hand side allocates nothing. malloc is counted by a wrapper of our own, which
 // sanitizers and other C libraries do not allow: there the test only runs the code.
 #include "support/element_mesh.hpp"
+#include "support/plane_and_space.hpp"
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -49,7 +50,8 @@ using namespace spam::test;
 
 namespace {
 
-long allocations_of_second_call(Model<2>& model, int threads) {
+template <int Dim>
+long allocations_of_second_call(Model<Dim>& model, int threads) {
     set_threads(threads);
     const auto y = random_state(model, 62);
     std::vector<double> y_dot(y.size());
@@ -61,17 +63,24 @@ long allocations_of_second_call(Model<2>& model, int threads) {
     return count;
 }
 
+template <int Dim>
 long allocations_of_second_call(int cells, const Scheme& scheme, int threads) {
-    SmoothParticleModel<2> model(jittered_particles<2>(cells, 61), ElasticSolid{0.7, 0.4}, scheme);
+    SmoothParticleModel<Dim> model(jittered_particles<Dim>(cells, 61), ElasticSolid{0.7, 0.4},
+                                   scheme);
     return allocations_of_second_call(model, threads);
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_second_right_hand_side_allocates_nothing) {
-    for (const Scheme& scheme : all_schemes<2>()) {
-        BOOST_TEST(allocations_of_second_call(8, scheme, 1) == 0, scheme.describe());
-        BOOST_TEST(allocations_of_second_call(40, scheme, 2) == 0, scheme.describe());
+BOOST_AUTO_TEST_CASE_TEMPLATE(the_second_right_hand_side_allocates_nothing, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    for (const Scheme& scheme : all_schemes<Dim>()) {
+        // But for the bodies' own rates in TorqueFactors<3>::balance(), a vector of one for each body.
+        const long most = Dim == 3 && scheme.balances_torques() ? 1 : 0;
+        BOOST_TEST(allocations_of_second_call<Dim>(Dim == 2 ? 8 : 4, scheme, 1) <= most,
+                   scheme.describe());
+        BOOST_TEST(allocations_of_second_call<Dim>(Dim == 2 ? 40 : 12, scheme, 2) <= most,
+                   scheme.describe());
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rhs/combined_laws.hpp"
+#include "support/plane_and_space.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/problem/motion.hpp>
@@ -22,11 +23,12 @@ struct Row {
 
 /// The derivatives of p - impulse, L - angular impulse and E - work - heat along the rates, as in
 /// accounts.cpp, at a state on the way.
-inline Row run(Sample& sample) {
+template <int Dim>
+Row run(Sample<Dim>& sample) {
     Row row;
     IntegratorOptions rk4;
     rk4.dt = 0.1;
-    Motion<2> motion(sample.model, sample.start(), rk4);
+    Motion<Dim> motion(sample.model, sample.start(), rk4);
     motion.advance_to(0.2);
     std::vector<double> y(motion.y().begin(), motion.y().end());
     std::vector<double> y_dot(y.size());
@@ -34,28 +36,29 @@ inline Row run(Sample& sample) {
     BOOST_TEST_REQUIRE(sample.model.failure().empty(), sample.model.failure());
     // A little on: what has just been settled is at the kink between loading and unloading.
     for (std::size_t k = 0; k < y.size(); ++k) y[k] += 0.02 * y_dot[k];
-    sample.model.rates(0.2, y, y_dot);
+    sample.model.rates(0.22, y, y_dot);
     constexpr double h = 1e-3;
-    std::vector<Invariants<2>> at;
+    std::vector<Invariants<Dim>> at;
     for (const double step : {h, -h, 2.0 * h, -2.0 * h}) {
         std::vector<double> z = y;
         for (std::size_t k = 0; k < z.size(); ++k) z[k] += step * y_dot[k];
-        at.push_back(measure_invariants<2>(sample.model, z));
+        at.push_back(measure_invariants<Dim>(sample.model, z));
     }
-    const auto slope = [&](const auto& f) {
-        return std::abs((8.0 * (f(at[0]) - f(at[1])) - (f(at[2]) - f(at[3]))) / (12.0 * h));
+    const auto slope = [&](const auto& f) -> decltype(f(at[0])) {
+        return (8.0 * (f(at[0]) - f(at[1])) - (f(at[2]) - f(at[3]))) / (12.0 * h);
     };
-    row.momentum = std::max(slope([](const auto& i) { return i.momentum_balance()[0]; }),
-                            slope([](const auto& i) { return i.momentum_balance()[1]; }));
-    row.angular_momentum = slope([](const auto& i) { return i.angular_momentum_balance()[0]; });
-    row.energy = slope([](const auto& i) { return i.energy_balance(); });
+    row.momentum = slope([](const auto& i) { return i.momentum_balance(); }).cwiseAbs().maxCoeff();
+    row.angular_momentum =
+        slope([](const auto& i) { return i.angular_momentum_balance(); }).cwiseAbs().maxCoeff();
+    row.energy = std::abs(slope([](const auto& i) { return i.energy_balance(); }));
     row.turns = sample.model.promises().angular_momentum != Promise::not_kept;
     return row;
 }
 
-inline Row combine(const Build& law, const std::function<void(Sample&)>& more, const Scheme& scheme,
-                   const std::function<void(Sample&)>& external, const Box<2>& box = {}) {
-    Sample sample(box);
+template <int Dim>
+Row combine(const Build<Dim>& law, const Add<Dim>& more, const Scheme& scheme,
+            const Add<Dim>& external, const Box<Dim>& box = {}) {
+    Sample<Dim> sample(box);
     try {
         law(sample, scheme);
         more(sample);
@@ -78,6 +81,38 @@ inline void judge(const Row& row) {
     BOOST_TEST(row.momentum < 1e-10);
     BOOST_TEST(row.energy < 1e-8);
     if (row.turns) BOOST_TEST(row.angular_momentum < 1e-9);
+}
+
+/// What became of combinations, by name: the option that refuses it, or whether it keeps L.
+struct Tally {
+    std::size_t ran = 0, losing = 0;  ///< losing: without a promise for L, and it changes
+    std::map<std::string, std::string> fate{};
+
+    void count(const std::string& name, const Row& row) {
+        BOOST_TEST_CONTEXT(name) judge(row);
+        fate[name] = row.refused.substr(0, row.refused.find(':'));
+        if (!row.refused.empty()) return;
+        ++ran;
+        if (row.turns) fate[name] = "keeps L";
+        losing += !row.turns && row.angular_momentum > 1e-9;
+    }
+    std::size_t refused() const { return fate.size() - ran; }
+};
+
+/// In space the same is refused and kept as in the plane, which alone has elements.
+inline void compare(const Tally& plane, const Tally& space) {
+    for (const Tally* all : {&plane, &space}) {
+        BOOST_TEST_MESSAGE(all->ran << " combinations run, " << all->losing << " lose L, "
+                                    << all->refused() << " are refused");
+        BOOST_TEST(10 * all->losing > all->ran);  // they can
+    }
+    std::size_t of_elements = 0;
+    for (const auto& [name, fate] : plane.fate)
+        if (name.find("Elements") != std::string::npos)
+            ++of_elements;
+        else
+            BOOST_TEST((space.fate.contains(name) && space.fate.at(name) == fate), name);
+    BOOST_TEST(space.fate.size() + of_elements == plane.fate.size());
 }
 
 template <class F>

@@ -4,13 +4,13 @@
 
 #include "support/own_part.hpp"
 #include <spam/core/dimensions.hpp>
+#include <spam/core/parallel.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/external/distributed_load.hpp>
 #include <spam/external/drag.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/external/load.hpp>
-#include <spam/external/rigid_velocity.hpp>
 #include <spam/external/rigid_wall.hpp>
 #include <spam/external/thermostat.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -39,34 +39,61 @@
 
 namespace spam::test {
 
-inline const double site_density = 2.0 / std::sqrt(3.0);
+/// The last number is for space alone.
+template <int Dim>
+Point<Dim> point(double x, double y, double z) {
+    return Point<3>(x, y, z).template head<Dim>();
+}
+
+/// The triangular lattice, and in space the face-centred cubic one.
+template <int Dim>
+inline const double site_density = Dim == 2 ? 2.0 / std::sqrt(3.0) : std::sqrt(2.0);
+template <int Dim>
+Points<Dim> block(bool periodic = false, double spacing = 1.0) {
+    if constexpr (Dim == 2)
+        return triangular_block(8, periodic ? 6 : 5, spacing);
+    else
+        return cubic_lattice(CubicLattice::fcc, {3, 2, 2}, spacing).array() +
+               (periodic ? 0.3 * spacing : 0.0);  // none at a border
+}
+/// The periodic box of that block.
+template <int Dim>
+Box<Dim> full_box(double spacing = 1.0) {
+    const double edge = spacing * cubic_edge(CubicLattice::fcc);
+    if constexpr (Dim == 2)
+        return triangular_box(8, 6, spacing);
+    else
+        return Box<3>({3.0 * edge, 2.0 * edge, 2.0 * edge});
+}
 
 /// A model on the way, and how its y begins. Numbers of laws are those of units in which particles have mass
 /// and spacing 1; of `units` they are given in others.
+template <int Dim>
 struct Sample {
     /// In a periodic box particles fill it.
-    explicit Sample(const Box<2>& box = {}, const Units& in = {})
+    explicit Sample(const Box<Dim>& box = {}, const Units& in = {})
         : units(in),
-          model(own_part(make_particles<2>(triangular_block(8, box.periodic() ? 6 : 5, in.length),
-                                           in.mass, in.length, box)),
-                box) {}
+          model(own_part(make_particles<Dim>(block<Dim>(box.periodic(), in.length), in.mass,
+                                             in.length, box)),
+                box) {
+        set_threads(1);  // images behind walls count, and two would wait for each other
+    }
     Units units;
-    ParticleModel<2> model;
-    std::function<std::vector<double>(const Points<2>&, const Points<2>&)> fluid{};
+    ParticleModel<Dim> model;
+    std::function<std::vector<double>(const Points<Dim>&, const Points<Dim>&)> fluid{};
     double speed = 1.0;  ///< times the velocities at the start
 
-    double of(const char* unit) const { return units.of(unit, 2); }
+    double of(const char* unit) const { return units.of(unit, Dim); }
     double length(double x) const { return x * units.length; }
     double time(double x) const { return x * units.time; }
     double velocity(double x) const { return x * of("l/t"); }
     double acceleration(double x) const { return x * of("l/t^2"); }
-    double stress(double x) const { return x * of("m/t^2"); }
-    double viscosity(double x) const {
-        return x * of("m/t");
-    }  ///< and kappa, where T is energy by mass
+    double stress(double x) const { return x * of("m l^(2-D)/t^2"); }
+    /// And kappa, where T is energy by mass.
+    double viscosity(double x) const { return x * of("m l^(2-D)/t"); }
     double energy(double x) const { return x * of("m l^2/t^2"); }
     double temperature(double x) const { return x * of("l^2/t^2"); }
-    double density() const { return site_density * of("m/l^2"); }
+    double density(double x = site_density<Dim>) const { return x * of("m/l^D"); }
     Scheme scheme(Scheme s) const {
         s.range = length(s.range);
         s.closest_approach = length(s.closest_approach);
@@ -74,63 +101,96 @@ struct Sample {
     }
 
     std::vector<double> start() {
-        const Points<2>& x = model.particles().reference_position;
-        Points<2> v(2, x.cols());
+        const Points<Dim>& x = model.particles().reference_position;
+        Points<Dim> v = Points<Dim>::Zero(Dim, x.cols());
         for (Eigen::Index i = 0; i < x.cols(); ++i) {
-            const Point<2> X = x.col(i) / units.length;
-            v(0, i) = X[0] < 1.2 ? 0.0 : 0.02 * std::sin(0.7 * X[0]) - 0.01 * X[1];
-            v(1, i) = X[0] < 1.2 ? 0.0 : 0.01 * X[0] + 0.02 * std::cos(0.9 * X[1]);
+            Point<3> X = Point<3>::Zero();
+            X.head<Dim>() = x.col(i) / units.length;
+            if (X[0] >= 1.2)
+                v.col(i) = point<Dim>(0.02 * std::sin(0.7 * X[0]) - 0.01 * X[1] + 0.02 * X[2],
+                                      0.01 * X[0] + 0.02 * std::cos(0.9 * X[1]) - 0.03 * X[2],
+                                      -0.06 * std::sin(0.8 * X[2]) - 0.02 * X[0] + 0.03 * X[1]);
         }
         v *= velocity(speed);
         if (fluid) return fluid(x, v);
-        auto y = initial_state<2>(model, density(), stress(0.43),
-                                  [](const Point<2>&) { return Point<2>::Zero().eval(); });
-        State<2>(model.layout(), y).velocity() = v;
+        auto y = initial_state<Dim>(model, density(), stress(0.43), at_rest<Dim>());
+        State<Dim>(model.layout(), y).velocity() = v;
         return y;
     }
 };
 
-using Build = std::function<void(Sample&, const Scheme&)>;
+template <int Dim>
+using Build = std::function<void(Sample<Dim>&, const Scheme&)>;
+template <int Dim>
+using Laws = std::map<std::string, Build<Dim>>;
+template <int Dim>
+using Add = std::function<void(Sample<Dim>&)>;
 
-inline void add_fluid(Sample& s, const Fluid& fluid, const Scheme& scheme) {
-    auto& law = s.model.add_term<SmoothParticles<2>>(fluid, scheme);
-    s.fluid = [&law, T = s.temperature(0.2)](const Points<2>& x, const Points<2>& v) {
+template <class Term, int Dim, class... Arguments>
+Term& add_term(Sample<Dim>& s, Arguments&&... arguments) {
+    return s.model.template add_term<Term>(std::forward<Arguments>(arguments)...);
+}
+template <class External, int Dim, class... Arguments>
+void add_external(Sample<Dim>& s, Arguments&&... arguments) {
+    s.model.add(std::make_unique<External>(std::forward<Arguments>(arguments)...));
+}
+template <int Dim>
+void add_fluid(Sample<Dim>& s, const Fluid& fluid, const Scheme& scheme) {
+    auto& law = add_term<SmoothParticles<Dim>>(s, fluid, scheme);
+    s.fluid = [&law, T = s.temperature(0.2)](const Points<Dim>& x, const Points<Dim>& v) {
         return law.start(x, v, T);
     };
 }
 
+/// The surface of three directions: plane strain, or in space.
+template <int Dim>
+using StrainedVonMises = RadialVonMises<Dim, Dim == 2>;
+/// 0.43 and 0.43, or another lambda.
+template <class Solid, int Dim>
+Solid elastic(const Sample<Dim>& s, double lambda = 0.43) {
+    return {s.stress(lambda), s.stress(0.43)};
+}
+template <int Dim>
+LinearHardening hardening(const Sample<Dim>& s) {
+    return {s.stress(1e-3), s.stress(0.1)};
+}
+
 /// Laws that a scheme belongs to.
-inline const std::map<std::string, Build> with_scheme{
+template <int Dim>
+inline const Laws<Dim> with_scheme{
     {"SmoothParticles, solid",
-     [](Sample& s, const Scheme& scheme) {
-         s.model.add_term<SmoothParticles<2>>(ElasticSolid{s.stress(0.43), s.stress(0.43)}, scheme);
+     [](Sample<Dim>& s, const Scheme& scheme) {
+         add_term<SmoothParticles<Dim>>(s, elastic<ElasticSolid>(s), scheme);
      }},
     {"SmoothParticles, solid that yields",
-     [](Sample& s, const Scheme& scheme) {
-         s.model.add_term<SmoothParticles<2>>(
-             YieldingSolid<PlaneStrainVonMises>({s.stress(0.43), s.stress(0.43)},
-                                                LinearHardening{s.stress(1e-3), s.stress(0.1)}),
+     [](Sample<Dim>& s, const Scheme& scheme) {
+         add_term<SmoothParticles<Dim>>(
+             s,
+             YieldingSolid<StrainedVonMises<Dim>>(elastic<StrainedVonMises<Dim>>(s), hardening(s)),
              scheme);
      }},
     {"SmoothParticles, gas",
-     [](Sample& s, const Scheme& scheme) { add_fluid(s, {IdealGas{}}, scheme); }},
+     [](Sample<Dim>& s, const Scheme& scheme) { add_fluid(s, {IdealGas{Dim}}, scheme); }},
     {"SmoothParticles, gas, friction and work of its own stress",
-     [](Sample& s, Scheme scheme) {
+     [](Sample<Dim>& s, Scheme scheme) {
          scheme.work = Work::own;
-         add_fluid(s, {IdealGas{}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}}, scheme);
+         add_fluid(s, {IdealGas{Dim}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}}, scheme);
      }},
-    {"SmoothParticles, fluid with friction and conduction", [](Sample& s, const Scheme& scheme) {
+    {"SmoothParticles, fluid with friction and conduction",
+     [](Sample<Dim>& s, const Scheme& scheme) {
          add_fluid(s,
-                   {IdealGas{}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)},
+                   {IdealGas{Dim}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)},
                     FourierConduction{s.viscosity(0.2)}},
                    scheme);
      }}};
 
-inline void add_lucy(Sample& s, double range) {
-    s.model.add_term<WeightPotential<2>>(s.length(range), s.of("l^4/t^2") / s.units.mass);
+template <int Dim>
+void add_lucy(Sample<Dim>& s, double range) {
+    add_term<WeightPotential<Dim>>(s, s.length(range), s.of("l^2 l^D/t^2 m"));
 }
-inline void add_springs(Sample& s) {
-    s.model.add_term<Springs<2>>(HarmonicSpring{s.stress(1.0), s.length(1.0)});
+template <int Dim>
+void add_springs(Sample<Dim>& s) {
+    add_term<Springs<Dim>>(s, HarmonicSpring{s.of("m/t^2"), s.length(1.0)});
 }
 
 /// Between the rows of triangular_block(8, ...), whose numbers are the ids.
@@ -146,132 +206,145 @@ inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
 }
 
 /// Laws that make a body by themselves.
-inline const std::map<std::string, Build> without_scheme{
+template <int Dim>
+inline const Laws<Dim> without_scheme{
     {"OwnRanges",
-     [](Sample& s, const Scheme&) {
-         auto& law = s.model.add_term<OwnRanges<2>>(Fluid{IdealGas{}}, VariableRangeScheme{});
-         s.fluid = [&law, T = s.temperature(0.2)](const Points<2>& x, const Points<2>& v) {
+     [](Sample<Dim>& s, const Scheme&) {
+         auto& law = add_term<OwnRanges<Dim>>(s, Fluid{IdealGas{Dim}}, VariableRangeScheme{});
+         s.fluid = [&law, T = s.temperature(0.2)](const Points<Dim>& x, const Points<Dim>& v) {
              return law.start(x, v, T);
          };
      }},
     {"DensityPotentialTerm",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<DensityPotentialTerm<2>>(DensityPotentials{
-             .state = EmbeddedAtom{s.stress(1.0), s.density()}, .range = s.length(3.0)});
-     }},
-    {"Elements",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<Elements>(
-             mesh_of(s.model.particles()),
-             std::vector<Elements::Material>{
-                 {YieldingSolid<PlaneVonMises>({s.stress(0.43), s.stress(0.43)},
-                                               LinearHardening{s.stress(1e-3), s.stress(0.1)}),
-                  s.density(),
-                  {0.1, 0.1}}});
+     [](Sample<Dim>& s, const Scheme&) {
+         add_term<DensityPotentialTerm<Dim>>(
+             s, DensityPotentials{.state = EmbeddedAtom{s.stress(1.0), s.density()},
+                                  .range = s.length(3.0)});
      }},
     {"Cohesion",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<Cohesion<2>>(CohesivePotential{s.energy(1.0), s.length(1.0)});
+     [](Sample<Dim>& s, const Scheme&) {
+         add_term<Cohesion<Dim>>(s, CohesivePotential{s.energy(1.0), s.length(1.0)});
      }},
-    {"WeightPotential", [](Sample& s, const Scheme&) { add_lucy(s, 3.0); }},
+    {"WeightPotential", [](Sample<Dim>& s, const Scheme&) { add_lucy(s, 3.0); }},
     {"TotalLagrangian",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<TotalLagrangian<2>>(StVenantKirchhoff{s.stress(0.43), s.stress(0.43)},
-                                              TotalLagrangianScheme{s.density(), s.length(3.0)});
+     [](Sample<Dim>& s, const Scheme&) {
+         add_term<TotalLagrangian<Dim>>(s, elastic<StVenantKirchhoff>(s),
+                                        TotalLagrangianScheme{s.density(), s.length(3.0)});
      }},
     {"TotalLagrangian, solid that yields",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<TotalLagrangian<2>>(
-             HenckySolid<PlaneVonMises>({s.stress(0.43), s.stress(0.43)},
-                                        LinearHardening{s.stress(1e-3), s.stress(0.1)}),
+     [](Sample<Dim>& s, const Scheme&) {
+         add_term<TotalLagrangian<Dim>>(
+             s, HenckySolid<RadialVonMises<Dim>>(elastic<RadialVonMises<Dim>>(s), hardening(s)),
              TotalLagrangianScheme{s.density(), s.length(3.0)});
      }},
     {"TotalLagrangian, stress by its rate, yields",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<TotalLagrangian<2>>(
-             StressInReference<YieldingSolid<PlaneStrainVonMises>, 2>(
-                 {{s.stress(0.43), s.stress(0.43)}, LinearHardening{s.stress(1e-3), s.stress(0.1)}},
-                 s.density(), s.stress(0.43)),
+     [](Sample<Dim>& s, const Scheme&) {
+         add_term<TotalLagrangian<Dim>>(
+             s,
+             StressInReference<YieldingSolid<StrainedVonMises<Dim>>, Dim>(
+                 {elastic<StrainedVonMises<Dim>>(s), hardening(s)}, s.density(), s.stress(0.43)),
              TotalLagrangianScheme{s.density(), s.length(3.0)});
      }},
     {"MaterialVectors",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<MaterialVectors<2>>(PolynomialSolid{s.stress(0.43), s.stress(0.43)},
-                                              MaterialVectorScheme{s.density(), s.length(3.0)});
+     [](Sample<Dim>& s, const Scheme&) {
+         add_term<MaterialVectors<Dim>>(s, elastic<PolynomialSolid>(s),
+                                        MaterialVectorScheme{s.density(), s.length(3.0)});
      }},
-    {"Springs", [](Sample& s, const Scheme&) { add_springs(s); }}};
+    {"Springs", [](Sample<Dim>& s, const Scheme&) { add_springs(s); }}};
 
-/// What is put on top.
-inline const std::map<std::string, std::function<void(Sample&)>> further{
-    {"", [](Sample&) {}},
-    {"Core",
-     [](Sample& s) {
-         s.model.add_term<Core<2>>(CorePotential{s.energy(0.1), s.length(1.1)});
-     }},
-    {"Contact",
-     [](Sample& s) {
-         s.model.add_term<Contact<2>>(ContactScheme{s.energy(0.2), s.length(1.0), s.length(1.2)});
-     }},
-    {"Springs", [](Sample& s) { add_springs(s); }},
-    {"ArtificialViscosity",
-     [](Sample& s) {
-         s.model.add_term<ArtificialViscosity<2>>(
-             ArtificialViscosity<2>::Constants{.range = s.length(3.0),
-                                               .density = s.density(),
-                                               .sound_speed = s.velocity(1.2),
-                                               .kernel = Kernel::w4});
-     }},
-    {"ReflectedPairs", [](Sample& s) { s.model.add_term<ReflectedPairs<2>>(s.length(0.5)); }},
-    {"WeightPotential", [](Sample& s) { add_lucy(s, 2.5); }},
-    {"DensityPotentialTerm", [](Sample& s) {
-         s.model.add_term<DensityPotentialTerm<2>>(
-             DensityPotentials{.surface_tension = 0.02 * s.of("l^8/t^2") / s.units.mass,
-                               .kernel = Kernel::w4,
-                               .range = s.length(3.0)});
+/// Those that there are in the plane alone.
+inline const Laws<2> plane_laws{
+    {"Elements", [](Sample<2>& s, const Scheme&) {
+         add_term<Elements>(
+             s, mesh_of(s.model.particles()),
+             std::vector<Elements::Material>{
+                 {YieldingSolid<PlaneVonMises>(elastic<PlaneVonMises>(s), hardening(s)),
+                  s.density(),
+                  {0.1, 0.1}}});
      }}};
 
-inline const std::map<std::string, std::function<void(Sample&)>> externals{
-    {"", [](auto&) {}},
-    {"Gravity",
-     [](Sample& s) {
-         s.model.add(std::make_unique<Gravity<2>>(s.acceleration(1.0) * Point<2>(0.003, -0.01)));
+template <int Dim>
+Laws<Dim> merged(Laws<Dim> all, const Laws<Dim>& more, [[maybe_unused]] const Laws<2>& plane) {
+    all.insert(more.begin(), more.end());
+    if constexpr (Dim == 2) all.insert(plane.begin(), plane.end());
+    return all;
+}
+template <int Dim>
+Laws<Dim> all_laws() {
+    return merged(with_scheme<Dim>, without_scheme<Dim>, plane_laws);
+}
+
+/// What is put on top.
+template <int Dim>
+inline const std::map<std::string, Add<Dim>> further{
+    {"", [](Sample<Dim>&) {}},
+    {"Core",
+     [](Sample<Dim>& s) {
+         add_term<Core<Dim>>(s, CorePotential{s.energy(0.1), s.length(1.1)});
      }},
-    {"Friction", [](Sample& s) { s.model.add(std::make_unique<Friction<2>>(0.1 / s.units.time)); }},
+    {"Contact",
+     [](Sample<Dim>& s) {
+         add_term<Contact<Dim>>(s, ContactScheme{s.energy(0.2), s.length(1.0), s.length(1.2)});
+     }},
+    {"Springs", [](Sample<Dim>& s) { add_springs(s); }},
+    {"ArtificialViscosity",
+     [](Sample<Dim>& s) {
+         add_term<ArtificialViscosity<Dim>>(
+             s, typename ArtificialViscosity<Dim>::Constants{.range = s.length(3.0),
+                                                             .density = s.density(),
+                                                             .sound_speed = s.velocity(1.2),
+                                                             .kernel = Kernel::w4});
+     }},
+    {"ReflectedPairs", [](Sample<Dim>& s) { add_term<ReflectedPairs<Dim>>(s, s.length(0.5)); }},
+    {"WeightPotential", [](Sample<Dim>& s) { add_lucy(s, 2.5); }},
+    {"DensityPotentialTerm", [](Sample<Dim>& s) {
+         add_term<DensityPotentialTerm<Dim>>(
+             s, DensityPotentials{.surface_tension = 0.02 * s.of("l^4 l^D l^D/t^2 m"),
+                                  .kernel = Kernel::w4,
+                                  .range = s.length(3.0)});
+     }}};
+
+template <int Dim>
+inline const std::map<std::string, Add<Dim>> externals{
+    {"", [](Sample<Dim>&) {}},
+    {"Gravity",
+     [](Sample<Dim>& s) {
+         add_external<Gravity<Dim>>(s, s.acceleration(1.0) * point<Dim>(0.003, -0.01, 0.007));
+     }},
+    {"Friction", [](Sample<Dim>& s) { add_external<Friction<Dim>>(s, 0.1 / s.units.time); }},
     {"Drag",
-     [](Sample& s) {
-         s.model.add(std::make_unique<Drag<2>>(0.5 / s.units.length, s.velocity(1.0),
-                                               s.velocity(1.0) * Point<2>(0.1, 0.0)));
+     [](Sample<Dim>& s) {
+         add_external<Drag<Dim>>(s, 0.5 / s.units.length, s.velocity(1.0),
+                                 s.velocity(1.0) * point<Dim>(0.1, 0.0, 0.05));
      }},
     {"Thermostat",
-     [](Sample& s) {
-         s.model.add(std::make_unique<Thermostat<2>>(s.energy(1e-3), 0.3 / s.units.time));
-     }},
+     [](Sample<Dim>& s) { add_external<Thermostat<Dim>>(s, s.energy(1e-3), 0.3 / s.units.time); }},
     {"Load",
-     [](Sample& s) {
-         s.model.add(
-             std::make_unique<Load<2>>([a = s.acceleration(1.0), T = s.units.time](double t) {
-                 return Point<2>(a * Point<2>(0.01 * t / T, 0.02));
-             }));
+     [](Sample<Dim>& s) {
+         add_external<Load<Dim>>(s, [a = s.acceleration(1.0), T = s.units.time](double t) {
+             return Point<Dim>(a * point<Dim>(0.01 * t / T, 0.02, -0.01));
+         });
      }},
     {"DistributedLoad",
-     [](Sample& s) {
-         s.model.add(std::make_unique<DistributedLoad<2>>(
+     [](Sample<Dim>& s) {
+         add_external<DistributedLoad<Dim>>(
+             s,
              [a = 1.0 / (s.units.time * s.units.time), T = s.units.time](double t) {
                  return a * (0.01 + 0.02 * t / T);
              },
-             s.model.particles().reference_position));
+             s.model.particles().reference_position);
      }},
     {"RigidWall",
-     [](Sample& s) {
-         s.model.add(std::make_unique<RigidWall<2>>(
-             Point<2>(0.9, 0.4),
+     [](Sample<Dim>& s) {
+         add_external<RigidWall<Dim>>(
+             s, point<Dim>(0.9, 0.4, 0.3),
              [L = s.units.length, T = s.units.time](double t) { return L * (0.1 * t / T - 0.2); },
-             s.energy(0.2), s.length(1.0)));
+             s.energy(0.2), s.length(1.0));
      }},
-    {"Clamp", [](Sample& s) {
-         s.model.add(std::make_unique<Clamp<2>>(
-             select<2>(s.model.particles(),
-                       [most = s.length(1.2)](const Point<2>& x) { return x.x() < most; })));
+    {"Clamp", [](Sample<Dim>& s) {
+         add_external<Clamp<Dim>>(
+             s, select<Dim>(s.model.particles(),
+                            [most = s.length(1.2)](const Point<Dim>& x) { return x.x() < most; }));
      }}};
 
 }  // namespace spam::test

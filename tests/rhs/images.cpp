@@ -2,6 +2,7 @@
 // Periodic boxes by images: a box narrower than twice the range is the same as its repetition in a wide one,
 // whatever the formulation reads of neighbours; momentum across a border is kept to round-off.
 #include "support/every_potential.hpp"
+#include "support/plane_and_space.hpp"
 #include "support/random_state.hpp"
 #include <spam/core/exact_sum.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -33,7 +34,9 @@ Box<Dim> cube(double L) {
 }
 
 template <int Dim>
-constexpr Eigen::Index all_copies = Dim == 2 ? copies* copies : copies;
+constexpr Eigen::Index all_copies = copies* all_copies<Dim - 1>;
+template <>
+constexpr Eigen::Index all_copies<0> = 1;
 
 template <int Dim>
 Particles<Dim> patch(unsigned seed) {
@@ -118,14 +121,15 @@ double narrow_against_wide(const Build<Dim>& build, double deform = 0.05) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(solids) {
-    for (Scheme scheme : all_schemes<2>()) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(solids, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    for (Scheme scheme : all_schemes<Dim>()) {
         if (scheme.angular_momentum == AngularMomentum::gauss) continue;  // not in periodic boxes
-        const Build<2> build = [&](Particles<2> particles, const Box<2>& box) {
-            return std::make_unique<SmoothParticleModel<2>>(std::move(particles),
-                                                            ElasticSolid{0.7, 0.4}, scheme, box);
+        const Build<Dim> build = [&](Particles<Dim> particles, const Box<Dim>& box) {
+            return std::make_unique<SmoothParticleModel<Dim>>(std::move(particles),
+                                                              ElasticSolid{0.7, 0.4}, scheme, box);
         };
-        BOOST_TEST(narrow_against_wide<2>(build) < 2e-14, scheme.describe());
+        BOOST_TEST(narrow_against_wide<Dim>(build) < 2e-14, scheme.describe());
     }
 }
 

@@ -2,6 +2,7 @@
 // Flows: neighbours are summed in ascending number, whatever slots a list has given them, so that rates have
 // the same bits with a list of any age, whatever the formulation reads of neighbours.
 #include "support/every_potential.hpp"
+#include "support/plane_and_space.hpp"
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -152,14 +153,15 @@ BOOST_AUTO_TEST_CASE(potentials) {
 }
 
 // With balanced torques the sums over a body are in the order of particles.
-BOOST_AUTO_TEST_CASE(solids_in_pieces) {
-    for (Scheme scheme : all_schemes<2>()) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(solids_in_pieces, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    for (Scheme scheme : all_schemes<Dim>()) {
         scheme.range = 3.0;
-        const Build<2> build = [&](Particles<2> particles, const Box<2>& box) {
-            return std::make_unique<SmoothParticleModel<2>>(std::move(particles),
-                                                            ElasticSolid{0.7, 0.4}, scheme, box);
+        const Build<Dim> build = [&](Particles<Dim> particles, const Box<Dim>& box) {
+            return std::make_unique<SmoothParticleModel<Dim>>(std::move(particles),
+                                                              ElasticSolid{0.7, 0.4}, scheme, box);
         };
-        any_list_does<2>(build, shuffled<2>(17), {}, scheme.describe());
+        any_list_does<Dim>(build, shuffled<Dim>(Dim == 2 ? 17 : 7), {}, scheme.describe());
     }
 }
 

@@ -13,35 +13,31 @@
 #include <spam/material/smooth_hencky_solid.hpp>
 #include <spam/material/smooth_yield.hpp>
 #include <spam/material/van_der_waals.hpp>
+#include <spam/rhs/ellipses.hpp>
+#include <spam/rhs/reaction.hpp>
 
 namespace spam::test {
 
-/// 0.43 and 0.43, or another lambda.
-template <class Solid>
-Solid elastic(const Sample& s, double lambda = 0.43) {
-    return {s.stress(lambda), s.stress(0.43)};
-}
-inline LinearHardening hardening(const Sample& s) { return {s.stress(1e-3), s.stress(0.1)}; }
-
-template <class MakeLaw>
-Build solid_of(const MakeLaw& make) {
-    return [make](Sample& s, const Scheme& scheme) {
-        s.model.add_term<SmoothParticles<2>>(make(s), scheme);
+template <int Dim, class MakeLaw>
+Build<Dim> solid_of(const MakeLaw& make) {
+    return [make](Sample<Dim>& s, const Scheme& scheme) {
+        add_term<SmoothParticles<Dim>>(s, make(s), scheme);
     };
 }
-template <class MakeLaw>
-Build lagrangian_of(const MakeLaw& make) {
-    return [make](Sample& s, const Scheme&) {
-        s.model.add_term<TotalLagrangian<2>>(make(s),
-                                             TotalLagrangianScheme{s.density(), s.length(3.0)});
+template <int Dim, class MakeLaw>
+Build<Dim> lagrangian_of(const MakeLaw& make) {
+    return [make](Sample<Dim>& s, const Scheme&) {
+        add_term<TotalLagrangian<Dim>>(s, make(s),
+                                       TotalLagrangianScheme{s.density(), s.length(3.0)});
     };
 }
-template <class MakeLaw>
-Build fluid_of(const MakeLaw& make) {
-    return [make](Sample& s, const Scheme& scheme) { add_fluid(s, {make(s)}, scheme); };
+template <int Dim, class MakeLaw>
+Build<Dim> fluid_of(const MakeLaw& make) {
+    return [make](Sample<Dim>& s, const Scheme& scheme) { add_fluid(s, {make(s)}, scheme); };
 }
 
-inline JohnsonCook johnson_cook(const Sample& s) {
+template <int Dim>
+JohnsonCook johnson_cook(const Sample<Dim>& s) {
     JohnsonCook law{s.stress(1e-3), s.stress(0.1), 0.5};
     law.C = 0.1;
     law.rate_0 = 1e-3 / s.units.time;
@@ -52,103 +48,141 @@ inline JohnsonCook johnson_cook(const Sample& s) {
 }
 
 /// Between two bodies, a column apart.
-inline void add_contact(Sample& s) {
+template <int Dim>
+void add_contact(Sample<Dim>& s) {
     std::vector<std::int32_t> body;
     const auto& x = s.model.particles().reference_position;
-    for (Eigen::Index i = 0; i < x.cols(); ++i) body.push_back(x(0, i) < s.length(3.9) ? 0 : 1);
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        body.push_back(x(0, i) < s.length(Dim == 2 ? 3.9 : 1.9) ? 0 : 1);
     s.model.set_bodies(body);
-    s.model.add_term<Contact<2>>(ContactScheme{s.energy(0.2), s.length(1.0)});
+    add_term<Contact<Dim>>(s, ContactScheme{s.energy(0.2), s.length(1.0)});
 }
 
-inline const std::map<std::string, Build> more_laws{
-    {"PlaneVonMises, which breaks", solid_of([](const Sample& s) {
-         return YieldingSolid<PlaneVonMises>(
-             elastic<PlaneVonMises>(s), hardening(s),
+template <int Dim>
+inline const Laws<Dim> more_laws{
+    {"VonMises, which breaks", solid_of<Dim>([](const Sample<Dim>& s) {
+         return YieldingSolid<RadialVonMises<Dim>>(
+             elastic<RadialVonMises<Dim>>(s), hardening(s),
              {.plastic_strain = 0.01, .largest_stress = s.stress(3e-3), .tension = s.stress(2e-3)});
      })},
-    {"PlaneStressVonMises", solid_of([](const Sample& s) {
-         return YieldingSolid<PlaneStressVonMises>(elastic<PlaneStressVonMises>(s), hardening(s));
+    {"JohnsonCook", solid_of<Dim>([](const Sample<Dim>& s) {
+         return YieldingSolid<StrainedVonMises<Dim>, JohnsonCook>(elastic<StrainedVonMises<Dim>>(s),
+                                                                  johnson_cook(s));
      })},
-    {"JohnsonCook", solid_of([](const Sample& s) {
-         return YieldingSolid<PlaneStrainVonMises, JohnsonCook>(elastic<PlaneStrainVonMises>(s),
-                                                                johnson_cook(s));
+    {"Perzyna", solid_of<Dim>([](const Sample<Dim>& s) {
+         return YieldingSolid<RadialVonMises<Dim>, Perzyna>(elastic<RadialVonMises<Dim>>(s),
+                                                            {hardening(s), s.time(0.3)});
      })},
-    {"Perzyna", solid_of([](const Sample& s) {
-         return YieldingSolid<PlaneVonMises, Perzyna>(elastic<PlaneVonMises>(s),
-                                                      {hardening(s), s.time(0.3)});
+    {"SmoothYield", solid_of<Dim>([](const Sample<Dim>& s) {
+         return SmoothYield<StrainedVonMises<Dim>>(elastic<StrainedVonMises<Dim>>(s), hardening(s));
      })},
-    {"SmoothYield", solid_of([](const Sample& s) {
-         return SmoothYield<PlaneStrainVonMises>(elastic<PlaneStrainVonMises>(s), hardening(s));
+    {"HenckySolid", lagrangian_of<Dim>([](const Sample<Dim>& s) {
+         return HenckySolid<StrainedVonMises<Dim>>(elastic<StrainedVonMises<Dim>>(s), hardening(s));
      })},
-    {"HenckySolid, plane strain", lagrangian_of([](const Sample& s) {
-         return HenckySolid<PlaneStrainVonMises>(elastic<PlaneStrainVonMises>(s), hardening(s));
-     })},
-    {"SmoothHenckySolid", lagrangian_of([](const Sample& s) {
-         return SmoothHenckySolid<PlaneStrainVonMises>(elastic<PlaneStrainVonMises>(s),
-                                                       hardening(s));
+    {"SmoothHenckySolid", lagrangian_of<Dim>([](const Sample<Dim>& s) {
+         return SmoothHenckySolid<StrainedVonMises<Dim>>(elastic<StrainedVonMises<Dim>>(s),
+                                                         hardening(s));
      })},
     {"PolynomialSolid, lagrangian",
-     lagrangian_of([](const Sample& s) { return elastic<PolynomialSolid>(s); })},
+     lagrangian_of<Dim>([](const Sample<Dim>& s) { return elastic<PolynomialSolid>(s); })},
     {"StVenantKirchhoff, auxetic",
-     lagrangian_of([](const Sample& s) { return elastic<StVenantKirchhoff>(s, -0.1); })},
+     lagrangian_of<Dim>([](const Sample<Dim>& s) { return elastic<StVenantKirchhoff>(s, -0.1); })},
     {"FlowingSolid, which breaks",
-     [](Sample& s, const Scheme&) {
+     [](Sample<Dim>& s, const Scheme&) {
          MaterialVectorScheme scheme{s.density(), s.length(2.5)};
          scheme.bond_yield = 3.0;
          scheme.stretch_limit = 1.02;
          scheme.stress_limit = s.stress(1e-3);
-         s.model.add_term<MaterialVectors<2>>(
-             FlowingSolid{elastic<PolynomialSolid>(s), s.stress(1e-3), s.stress(2e-3)}, scheme);
+         add_term<MaterialVectors<Dim>>(
+             s, FlowingSolid{elastic<PolynomialSolid>(s), s.stress(1e-3), s.stress(2e-3)}, scheme);
      }},
-    {"SmoothYield of elements",
-     [](Sample& s, const Scheme&) {
-         s.model.add_term<Elements>(
-             mesh_of(s.model.particles()),
-             std::vector<Elements::Material>{
-                 {SmoothYield<PlaneStrainVonMises>(elastic<PlaneStrainVonMises>(s), hardening(s)),
-                  s.density(),
-                  {0.1, 0.3}}});
-     }},
-    {"GammaGas", fluid_of([](const Sample&) { return GammaGas{1.4}; })},
-    {"IsentropicGas", fluid_of([](const Sample& s) {
+    {"GammaGas", fluid_of<Dim>([](const Sample<Dim>&) { return GammaGas{1.4}; })},
+    {"IsentropicGas", fluid_of<Dim>([](const Sample<Dim>& s) {
          return IsentropicGas{s.stress(0.7), s.density(), 1.7};
      })},
-    {"LucyGas", fluid_of([](const Sample& s) { return LucyGas{s.of("l^4/t^2") / s.units.mass}; })},
-    {"VanDerWaals", fluid_of([](const Sample& s) {
-         const double b = s.of("l^2") / s.units.mass;
+    {"LucyGas", fluid_of<Dim>([](const Sample<Dim>& s) { return LucyGas{s.of("l^2 l^D/t^2 m")}; })},
+    {"VanDerWaals", fluid_of<Dim>([](const Sample<Dim>& s) {
+         const double b = s.of("l^D/m");
          return VanDerWaals{0.3 * s.temperature(1.0) * b, 0.4 * b};
      })},
-    {"EmbeddedAtom", fluid_of([](const Sample& s) {
+    {"EmbeddedAtom", fluid_of<Dim>([](const Sample<Dim>& s) {
          return EmbeddedAtom{s.stress(1.0), s.density()};
      })},
-    {"Cavitating", fluid_of([](const Sample& s) {
+    {"Cavitating", fluid_of<Dim>([](const Sample<Dim>& s) {
          return Cavitating<EmbeddedAtom>{{s.stress(1.0), s.density()}, s.stress(1e-3)};
      })},
     {"CavitatingEmbeddedAtom, friction by pairs",
-     [](Sample& s, const Scheme& scheme) {
+     [](Sample<Dim>& s, const Scheme& scheme) {
          Fluid fluid{CavitatingEmbeddedAtom({s.stress(1.0), s.density()}, s.stress(1e-3)),
                      NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}};
          fluid.by_pairs = true;
          add_fluid(s, fluid, scheme);
      }},
     {"OwnRanges of VanDerWaals",
-     [](Sample& s, const Scheme&) {
-         const double b = s.of("l^2") / s.units.mass;
-         auto& law = s.model.add_term<OwnRanges<2>>(
-             Fluid{VanDerWaals{0.3 * s.temperature(1.0) * b, 0.4 * b}},
-             VariableRangeScheme{2.5, Kernel::w5, true});
-         s.fluid = [&law, T = s.temperature(0.2)](const Points<2>& x, const Points<2>& v) {
+     [](Sample<Dim>& s, const Scheme&) {
+         const double b = s.of("l^D/m");
+         auto& law =
+             add_term<OwnRanges<Dim>>(s, Fluid{VanDerWaals{0.3 * s.temperature(1.0) * b, 0.4 * b}},
+                                      VariableRangeScheme{2.5, Kernel::w5, true});
+         s.fluid = [&law, T = s.temperature(0.2)](const Points<Dim>& x, const Points<Dim>& v) {
              return law.start(x, v, T);
          };
      }},
     {"DensityPotentialTerm with all of its parts",
-     [](Sample& s, const Scheme&) {
-         const double u = s.of("l^8/t^2") / s.units.mass;
-         s.model.add_term<DensityPotentialTerm<2>>(DensityPotentials{
-             CavitatingEmbeddedAtom({s.stress(1.0), s.density()}, s.stress(1e-3)), 0.02 * u,
-             0.03 * u * s.of("l^2"), CorePotential{s.energy(0.1), s.length(1.1)}, Kernel::w5,
-             s.length(3.0)});
+     [](Sample<Dim>& s, const Scheme&) {
+         const double u = s.of("l^4 l^D l^D/t^2 m");
+         add_term<DensityPotentialTerm<Dim>>(
+             s, DensityPotentials{
+                    CavitatingEmbeddedAtom({s.stress(1.0), s.density()}, s.stress(1e-3)), 0.02 * u,
+                    0.03 * u * s.of("l^2"), CorePotential{s.energy(0.1), s.length(1.1)}, Kernel::w5,
+                    s.length(3.0)});
      }},
-    {"Contact of two bodies", [](Sample& s, const Scheme&) { add_contact(s); }}};
+    {"Contact of two bodies", [](Sample<Dim>& s, const Scheme&) { add_contact(s); }},
+    {"LongRange in a gas",
+     [](Sample<Dim>& s, const Scheme& scheme) {
+         add_fluid(s, {IdealGas{}}, scheme);
+         add_term<LongRange<Dim>>(s, LongRangeScheme{-0.05 * s.of("l^3/t^2 m"), s.length(0.3), {}});
+     }},
+    {"Reaction in a gas",
+     [](Sample<Dim>& s, const Scheme& scheme) {
+         add_fluid(s, {IdealGas{}}, scheme);
+         add_term<Reaction<Dim>>(s, ReactionScheme{.diffusivity = 0.3 * s.of("l^2/t"),
+                                                   .rate = 0.7 / s.units.time,
+                                                   .heat = s.temperature(0.4),
+                                                   .range = s.length(3.0)});
+         s.fluid = [&s, before = s.fluid](const Points<Dim>& x, const Points<Dim>& v) {
+             auto y = before(x, v);
+             double* const c = State<Dim>(s.model.layout(), y).find(field_kind::concentration);
+             for (Eigen::Index i = 0; i < x.cols(); ++i)
+                 c[i] = 0.5 + 0.4 * std::sin(x(0, i) / s.units.length);
+             return y;
+         };
+     }},
+    {"Ellipses", [](Sample<Dim>& s, const Scheme&) {
+         auto& law = add_term<Ellipses<Dim>>(
+             s, Fluid{GammaGas{1.4}}, EllipseScheme{.range = s.length(3.0), .largest_aspect = 1.2});
+         s.fluid = [&law, T = s.temperature(0.2)](const Points<Dim>& x, const Points<Dim>& v) {
+             return law.start(x, v, T);
+         };
+     }}};
+
+inline const Laws<2> more_plane_laws{
+    {"PlaneStressVonMises", solid_of<2>([](const Sample<2>& s) {
+         return YieldingSolid<PlaneStressVonMises>(elastic<PlaneStressVonMises>(s), hardening(s));
+     })},
+    {"SmoothYield of elements", [](Sample<2>& s, const Scheme&) {
+         add_term<Elements>(
+             s, mesh_of(s.model.particles()),
+             std::vector<Elements::Material>{
+                 {SmoothYield<PlaneStrainVonMises>(elastic<PlaneStrainVonMises>(s), hardening(s)),
+                  s.density(),
+                  {0.1, 0.3}}});
+     }}};
+
+/// Every law there is, by name.
+template <int Dim>
+Laws<Dim> every_law() {
+    return merged(all_laws<Dim>(), more_laws<Dim>, more_plane_laws);
+}
 
 }  // namespace spam::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any model cut into parts gives the bytes of the whole: laws with schemes, walls, externals, periodic boxes, a fixed
 // and an adaptive method; particles move between the parts on the way.
+#include "rhs/more_laws.hpp"
 #include "rhs/walled.hpp"
 #include "support/parts_in_threads.hpp"
 #include "support/refusal.hpp"
@@ -14,17 +15,16 @@ using namespace spam::test;
 
 namespace {
 
-using Run = std::function<void(Sample&)>;  ///< makes a model
-
 constexpr int segments = 3, steps_in_each = 5;
 
 /// Strips across x, then across y, then ...; one in 13 goes to another part, far from its neighbours.
+template <int Dim>
 std::vector<std::uint32_t> own_numbers(std::size_t count, std::size_t own, int segment,
-                                       const Points<2>& x) {
+                                       const Points<Dim>& x) {
     std::vector<std::uint32_t> order(static_cast<std::size_t>(x.cols())), numbers;
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return std::pair(x(segment % 2, i), i) < std::pair(x(segment % 2, j), j);
+        return std::pair(x(segment % Dim, i), i) < std::pair(x(segment % Dim, j), j);
     });
     for (std::size_t k = 0; k < order.size(); ++k) {
         std::size_t part = k * count / order.size();
@@ -36,8 +36,8 @@ std::vector<std::uint32_t> own_numbers(std::size_t count, std::size_t own, int s
 }
 
 /// f(where in the whole, where in the part, how many numbers): of all entries of a part's y.
-template <class F>
-void for_each_entry(const FieldLayout<2>& layout, std::span<const std::uint32_t> numbers,
+template <int Dim, class F>
+void for_each_entry(const FieldLayout<Dim>& layout, std::span<const std::uint32_t> numbers,
                     std::size_t n, const F& f) {
     std::size_t whole = 0;
     for (const auto& block : layout.blocks()) {
@@ -53,7 +53,8 @@ void for_each_entry(const FieldLayout<2>& layout, std::span<const std::uint32_t>
     }
 }
 
-std::vector<double> gathered(const FieldLayout<2>& layout, std::span<const double> y,
+template <int Dim>
+std::vector<double> gathered(const FieldLayout<Dim>& layout, std::span<const double> y,
                              std::size_t n) {
     Parts& parts = Parts::here();
     const auto numbers = parts.gather(parts.numbers());
@@ -81,17 +82,20 @@ std::vector<double> gathered(const FieldLayout<2>& layout, std::span<const doubl
     return whole;
 }
 
-std::vector<double> moved(Sample& sample, const std::vector<double>& y0,
+template <int Dim>
+std::vector<double> moved(Sample<Dim>& sample, const std::vector<double>& y0,
                           const IntegratorOptions& options) {
-    Motion<2> motion(sample.model, y0, options);
+    Motion<Dim> motion(sample.model, y0, options);
     for (int step = 0; step < steps_in_each; ++step) motion.step(1.0);
     return {motion.y().begin(), motion.y().end()};
 }
 
-std::vector<double> whole(const Run& make, const Box<2>& box, const IntegratorOptions& options) {
+template <int Dim>
+std::vector<double> whole(const Add<Dim>& make, const Box<Dim>& box,
+                          const IntegratorOptions& options) {
     std::vector<double> y;
     for (int segment = 0; segment < segments; ++segment) {
-        Sample sample(box);
+        Sample<Dim> sample(box);
         make(sample);
         sample.model.events();
         const std::vector<double> start = sample.start();  // it tells scales as well
@@ -100,18 +104,19 @@ std::vector<double> whole(const Run& make, const Box<2>& box, const IntegratorOp
     return y;
 }
 
-std::vector<double> in_parts(std::size_t count, const Run& make, const Box<2>& box,
+template <int Dim>
+std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<Dim>& box,
                              const IntegratorOptions& options, Wrong wrong = Wrong::nothing) {
-    const Points<2> X = Sample(box).model.particles().reference_position;
+    const Points<Dim> X = Sample<Dim>(box).model.particles().reference_position;
     const auto n = static_cast<std::size_t>(X.cols());
     std::vector<double> result;
     const auto work = [&] {
         Parts& parts = Parts::here();
         std::vector<double> all;
-        Points<2> x = X;
+        Points<Dim> x = X;
         for (int segment = 0; segment < segments; ++segment) {
             parts.set_numbers(own_numbers(count, parts.own(), segment, x));
-            Sample sample(box);
+            Sample<Dim> sample(box);
             make(sample);
             sample.model.events();
             std::vector<double> y = sample.start();
@@ -122,7 +127,7 @@ std::vector<double> in_parts(std::size_t count, const Run& make, const Box<2>& b
                                });
             y = moved(sample, y, options);
             all = gathered(sample.model.layout(), y, n);
-            x = Eigen::Map<const Points<2>>(all.data(), 2, X.cols());
+            x = Eigen::Map<const Points<Dim>>(all.data(), Dim, X.cols());
         }
         if (parts.own() == 0) result = all;
     };
@@ -147,21 +152,23 @@ struct Counts {
 };
 
 /// Refused as a whole, or the same bytes in 2 to 4 parts; where parts refuse it they say why.
-void compare(const Run& make, const Box<2>& box, const IntegratorOptions& options, Counts& counts,
-             std::size_t most = 4) {
+template <int Dim>
+void compare(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions& options,
+             Counts& counts, std::size_t most = 4) {
     std::vector<double> right;
     try {
-        right = whole(make, box, options);
+        right = whole<Dim>(make, box, options);
     } catch (const InputError&) {
         return;
     } catch (const GuardStop& stop) {
         BOOST_TEST_MESSAGE("whole: " << stop.what());
         return;
     }
+    if (Dim == 3) most = 2;  // more of them only wait for each other
     for (std::size_t count = 2; count <= most; ++count) {
         std::vector<double> found;
         try {
-            found = in_parts(count, make, box, options);
+            found = in_parts<Dim>(count, make, box, options);
         } catch (const InputError& refused) {
             BOOST_TEST(std::string(refused.what()).find("in one part") != std::string::npos,
                        refused.what());
@@ -174,44 +181,46 @@ void compare(const Run& make, const Box<2>& box, const IntegratorOptions& option
 }
 
 /// Every law that needs no scheme, with a further one, and every law that needs one, in the default.
-template <class F>
+template <int Dim, class F>
 void for_each_law(const F& f) {
-    for (const auto* laws : {&with_scheme, &without_scheme})
-        for (const auto& [law, build] : *laws)
-            for (const auto& [more, add] : further)
-                if (more != "ReflectedPairs")  // watched in one part
-                    f(law + (more.empty() ? "" : " + " + more),
-                      [&law_of = build, &more_of = add](Sample& s) {
-                          law_of(s, Scheme{});
-                          more_of(s);
-                      });
+    for (const auto& [law, build] : all_laws<Dim>())
+        for (const auto& [more, add] : further<Dim>)
+            if (more != "ReflectedPairs")  // watched in one part
+                f(law + (more.empty() ? "" : " + " + more),
+                  [&law_of = build, &more_of = add](Sample<Dim>& s) {
+                      law_of(s, Scheme{});
+                      more_of(s);
+                  });
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_law_between_every_kind_of_walls) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_between_every_kind_of_walls, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
     Counts counts;
-    for (const auto& [kind, wall] : walls)
-        for_each_law(
-            [&, name = kind, box = walled_by(wall)](const std::string& law, const Run& make) {
-                BOOST_TEST_CONTEXT(name << ": " << law) {
-                    compare(make, box, fixed, counts, law.find('+') == std::string::npos ? 4 : 2);
-                }
-            });
+    for (const auto& [kind, wall] : walls<Dim>)
+        for_each_law<Dim>([&, name = kind, box = walled_by(wall)](const std::string& law,
+                                                                  const Add<Dim>& make) {
+            BOOST_TEST_CONTEXT(name << ": " << law) {
+                compare<Dim>(make, box, fixed, counts, law.find('+') == std::string::npos ? 4 : 2);
+            }
+        });
     BOOST_TEST_MESSAGE(counts.ran << " laws between walls have the bytes of the whole, "
                                   << counts.refused << " cannot be parted");
     BOOST_TEST(counts.ran > 100);
     BOOST_TEST(counts.refused < 30);
 }
 
-BOOST_AUTO_TEST_CASE(every_law_in_open_and_periodic_space_with_a_fixed_and_an_adaptive_method) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(
+    every_law_in_open_and_periodic_space_with_a_fixed_and_an_adaptive_method, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
     Counts counts;
-    for (const auto& box : {Box<2>(), triangular_box(8, 6)})
+    for (const auto& box : {Box<Dim>(), full_box<Dim>()})
         for (const auto* options : {&fixed, &adaptive})
-            for_each_law([&](const std::string& law, const Run& make) {
+            for_each_law<Dim>([&](const std::string& law, const Add<Dim>& make) {
                 BOOST_TEST_CONTEXT(law << (box.periodic() ? ", periodic, " : ", ")
                                        << options->method) {
-                    compare(make, box, *options, counts, options == &fixed ? 4 : 3);
+                    compare<Dim>(make, box, *options, counts, options == &fixed ? 4 : 3);
                 }
             });
     BOOST_TEST_MESSAGE(counts.ran << " have the bytes of the whole, " << counts.refused
@@ -220,46 +229,62 @@ BOOST_AUTO_TEST_CASE(every_law_in_open_and_periodic_space_with_a_fixed_and_an_ad
     BOOST_TEST(counts.refused < 60);
 }
 
-BOOST_AUTO_TEST_CASE(every_scheme) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
     Counts counts;
-    for (const auto& box : {Box<2>(), triangular_box(8, 6)})
-        for (const auto& [law, build] : with_scheme)
+    for (const auto& box : {Box<Dim>(), full_box<Dim>()})
+        for (const auto& [law, build] : with_scheme<Dim>)
             for_each_scheme([&, name = law, &of = build](const Scheme& scheme) {
-                if (scheme.closest_approach > 0.0) return;
+                if (scheme.closest_approach > 0.0 || (Dim == 3 && box.periodic())) return;
                 BOOST_TEST_CONTEXT(name << (box.periodic() ? ", periodic, " : ", ")
                                         << scheme.describe()) {
-                    compare([&](Sample& s) { of(s, scheme); }, box, fixed, counts, 2);
+                    compare<Dim>([&](Sample<Dim>& s) { of(s, scheme); }, box, fixed, counts, 2);
                 }
             });
     BOOST_TEST_MESSAGE(counts.ran << " schemes have the bytes of the whole");
     BOOST_TEST(counts.ran > 150);
 }
 
-BOOST_AUTO_TEST_CASE(every_external) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_external, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
     Counts counts;
-    for (const auto& [external, add] : externals) BOOST_TEST_CONTEXT(external) {
+    for (const auto& [external, add] : externals<Dim>) BOOST_TEST_CONTEXT(external) {
             for (const auto* options : {&fixed, &adaptive})
-                compare(
-                    [&, &more = add](Sample& s) {
-                        with_scheme.at("SmoothParticles, solid")(s, Scheme{});
+                compare<Dim>(
+                    [&, &more = add](Sample<Dim>& s) {
+                        with_scheme<Dim>.at("SmoothParticles, solid")(s, Scheme{});
                         more(s);
                     },
-                    walled_by(walls.at("rigid")), *options, counts, 3);
+                    walled_by(walls<Dim>.at("rigid")), *options, counts, 3);
         }
-    BOOST_TEST(counts.ran == 2 * static_cast<int>(externals.size()));
+    BOOST_TEST(counts.ran == 2 * static_cast<int>(externals<Dim>.size()));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    Counts counts;
+    for (const char* law : {"LongRange in a gas", "Reaction in a gas", "Ellipses"})
+        for (const auto* options : {&fixed, &adaptive}) BOOST_TEST_CONTEXT(law) {
+                compare<Dim>([&](Sample<Dim>& s) { more_laws<Dim>.at(law)(s, Scheme{}); }, {},
+                             *options, counts, 3);
+            }
+    BOOST_TEST(counts.ran == 6);
 }
 
 // The test can fail: images that are not refreshed, and sums of parts that are rounded before they are added.
-BOOST_AUTO_TEST_CASE(what_is_left_out_is_seen) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
     Scheme balanced;
     balanced.angular_momentum = AngularMomentum::torque_pair;
-    const Run make = [&](Sample& s) { with_scheme.at("SmoothParticles, solid")(s, balanced); };
-    const auto right = whole(make, {}, fixed);
-    BOOST_TEST(different_bytes(in_parts(3, make, {}, fixed), right) == 0U);
+    const Add<Dim> make = [&](Sample<Dim>& s) {
+        with_scheme<Dim>.at("SmoothParticles, solid")(s, balanced);
+    };
+    const auto right = whole<Dim>(make, {}, fixed);
+    BOOST_TEST(different_bytes(in_parts<Dim>(3, make, {}, fixed), right) == 0U);
     for (const auto wrong : {Wrong::images, Wrong::sums}) {
         std::vector<double> found;
         try {
-            found = in_parts(3, make, {}, fixed, wrong);
+            found = in_parts<Dim>(3, make, {}, fixed, wrong);
         } catch (const GuardStop&) {  // it has none of the bytes
         }
         BOOST_TEST(different_bytes(found, right) > 0U);
@@ -268,14 +293,14 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_is_seen) {
 
 // A state without meaning in one part ends the right-hand sides of all, with its reason.
 BOOST_AUTO_TEST_CASE(all_parts_hear_of_a_state_without_meaning) {
-    const Points<2> X = Sample().model.particles().reference_position;
+    const Points<2> X = Sample<2>().model.particles().reference_position;
     std::mutex one;
     std::vector<std::string> reasons;
     PartsInThreads::run(3, [&] {
         Parts& parts = Parts::here();
         parts.set_numbers(own_numbers(3, parts.own(), 0, X));
-        Sample sample;
-        with_scheme.at("SmoothParticles, gas")(sample, Scheme{.density = Density::continuity});
+        Sample<2> sample;
+        with_scheme<2>.at("SmoothParticles, gas")(sample, Scheme{.density = Density::continuity});
         std::vector<double> y = sample.start(), y_dot(y.size());
         sample.model.rates(0.0, y, y_dot);
         const std::string before = sample.model.failure();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The right-hand side is a function of (t, y): no thread count, no history and no list age in its bits
 // (list_order.cpp: of flows). States without meaning are named.
+#include "support/plane_and_space.hpp"
 #include "support/random_state.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
@@ -36,14 +37,16 @@ std::vector<double> moved(const Model<Dim>& model, std::vector<double> y, double
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(no_bit_depends_on_the_age_of_the_list) {
-    for (Scheme scheme : all_schemes<2>()) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(no_bit_depends_on_the_age_of_the_list, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    for (Scheme scheme : all_schemes<Dim>()) {
         scheme.range = 3.0;
-        const auto particles = jittered_particles<2>(12, 41);
-        SmoothParticleModel<2> used(particles, solid, scheme), fresh(particles, solid, scheme);
+        const auto particles = jittered_particles<Dim>(Dim == 2 ? 12 : 6, 41);
+        SmoothParticleModel<Dim> used(particles, solid, scheme), fresh(particles, solid, scheme);
         const auto start = random_state(used, 42);
         rates_of(used, start);
-        const auto y = moved(used, start, 0.09, 43);  // less than half the skin: the old list stays
+        // By less than half the skin: the old list stays.
+        const auto y = moved(used, start, Dim == 2 ? 0.09 : 0.07, 43);
         const auto with_old_list = rates_of(used, y), with_new_list = rates_of(fresh, y);
         BOOST_TEST(used.list_builds() == 1U);
         BOOST_TEST((with_old_list == with_new_list), scheme.describe());

@@ -7,23 +7,25 @@
 namespace spam::test {
 
 /// Walls of one kind on all sides, outside the body, and further apart than any range.
-inline const std::map<std::string, Wall<2>> walls{
-    {"mirror", {WallKind::mirror, 0.0, {0, 0}, {}}},
-    {"mirror of a temperature", {WallKind::mirror, 0.0, {0, 0}, 0.3}},
-    {"no_slip", {WallKind::no_slip, 0.0, {0, 0}, {}}},
-    {"no_slip of a temperature", {WallKind::no_slip, 0.0, {0, 0}, 0.3}},
-    {"no_slip that moves", {WallKind::no_slip, 0.0, {0.02, 0.02}, {}}},
-    {"rigid", {WallKind::rigid, 0.0, {0, 0}, {}}}};
+template <int Dim>
+inline const std::map<std::string, Wall<Dim>> walls{
+    {"mirror", {.kind = WallKind::mirror}},
+    {"mirror of a temperature", {.kind = WallKind::mirror, .temperature = 0.3}},
+    {"no_slip", {.kind = WallKind::no_slip}},
+    {"no_slip of a temperature", {.kind = WallKind::no_slip, .temperature = 0.3}},
+    {"no_slip that moves", {.kind = WallKind::no_slip, .velocity = point<Dim>(0.02, 0.02, 0.02)}},
+    {"rigid", {.kind = WallKind::rigid}}};
 
-inline Box<2> walled_by(Wall<2> wall, const Units& units = {}) {
-    const Points<2> x = triangular_block(8, 5);
-    const Point<2> along = units.of("l/t", 2) * wall.velocity;
-    if (wall.temperature) *wall.temperature *= units.of("l^2/t^2", 2);
-    Box<2> box;
-    for (int a = 0; a < 2; ++a)
+template <int Dim>
+Box<Dim> walled_by(Wall<Dim> wall, const Units& units = {}) {
+    const Points<Dim> x = block<Dim>();
+    const Point<Dim> along = units.of("l/t", Dim) * wall.velocity;
+    if (wall.temperature) *wall.temperature *= units.of("l^2/t^2", Dim);
+    Box<Dim> box;
+    for (int a = 0; a < Dim; ++a)
         for (const bool upper : {false, true}) {
-            wall.at =
-                units.length * (upper ? x.row(a).maxCoeff() + 1.5 : x.row(a).minCoeff() - 0.5);
+            wall.at = units.length * (upper ? x.row(a).maxCoeff() + (Dim == 2 ? 1.5 : 3.5)
+                                            : x.row(a).minCoeff() - 0.5);
             wall.velocity = along;
             wall.velocity[a] = 0.0;
             box.set_wall(a, upper, wall);

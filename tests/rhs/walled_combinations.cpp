@@ -20,59 +20,67 @@ BOOST_AUTO_TEST_CASE(no_kind_of_wall_is_left_out) {
     const std::regex name("\\n\\s+(\\w+),");
     int found = 0;
     for (std::sregex_iterator it(kinds.begin(), kinds.end(), name), end; it != end; ++it, ++found)
-        BOOST_TEST(((*it)[1] == "open" || walls.contains((*it)[1])), (*it)[1]);
+        BOOST_TEST(((*it)[1] == "open" || walls<2>.contains((*it)[1])), (*it)[1]);
     BOOST_TEST(found >= 3);
 }
 
-BOOST_AUTO_TEST_CASE(every_kind_of_wall_with_every_law_is_accounted_for_or_refused) {
-    int ran = 0, refused = 0;
-    const auto count = [&](const Row& row) {
-        judge(row);
-        ++(row.refused.empty() ? ran : refused);
-    };
-    const auto gravity = externals.at("Gravity"), nothing = externals.at("");
-    for (const auto& [kind, wall] : walls) {
-        const Box<2> box = walled_by(wall);
-        for (const auto& law : with_scheme)
+namespace {
+
+template <int Dim>
+Tally every_wall() {
+    Tally tally;
+    const auto gravity = externals<Dim>.at("Gravity"), nothing = externals<Dim>.at("");
+    for (const auto& [kind, wall] : walls<Dim>) {
+        const Box<Dim> box = walled_by(wall);
+        for (const auto& law : with_scheme<Dim>)
             for_each_scheme([&, name = kind](const Scheme& scheme) {
-                BOOST_TEST_CONTEXT(name << ": " << law.first << ", " << scheme.describe())
-                count(combine(law.second, further.at(""), scheme, gravity, box));
+                tally.count(name + ": " + law.first + ", " + scheme.describe(),
+                            combine<Dim>(law.second, further<Dim>.at(""), scheme, gravity, box));
             });
-        for (const auto* laws : {&with_scheme, &without_scheme})
-            for (const auto& [law, build] : *laws)
-                for (const auto& [more, add] : further)
-                    BOOST_TEST_CONTEXT(kind << ": " << law << " + " << more)
-        count(combine(build, add, Scheme{}, nothing, box));
+        for (const auto& [law, build] : all_laws<Dim>())
+            for (const auto& [more, add] : further<Dim>)
+                tally.count(kind + ": " + law + " + " + more,
+                            combine<Dim>(build, add, Scheme{}, nothing, box));
     }
-    BOOST_TEST_MESSAGE(ran << " combinations with walls run, " << refused << " are refused");
-    BOOST_TEST(ran > 200);
-    BOOST_TEST(refused > 200);
+    return tally;
 }
 
-/// Shifting is refused above, in open space. Here fluids fill a periodic box.
-BOOST_AUTO_TEST_CASE(shifted_fluids_with_every_external) {
-    Fluid rubbing{EmbeddedAtom{1.0, site_density}, NewtonViscosity{0.1, 0.3}};
-    const Fluid smooth = rubbing, cold{rubbing.state};
-    rubbing.by_pairs = true;
-    const Box<2> box = triangular_box(8, 6);
-    int ran = 0, refused = 0;
-    for (const Fluid& fluid : {cold, smooth, rubbing})
-        for (const auto& external : externals)
+/// Shifting is refused there, in open space. Here fluids fill a periodic box.
+template <int Dim>
+Tally every_shifted_fluid() {
+    const EmbeddedAtom cold{1.0, site_density<Dim>};
+    const NewtonViscosity friction{0.1, 0.3};
+    const std::map<std::string, Fluid> fluids{
+        {"cold", {cold}}, {"rubbing", {cold, friction}}, {"by pairs", {cold, friction, {}, true}}};
+    Tally tally;
+    for (const auto& fluid : fluids)
+        for (const auto& external : externals<Dim>)
             for_each_scheme([&](const Scheme& scheme) {
                 if (scheme.transport != Transport::shifting) return;
-                BOOST_TEST_CONTEXT(fluid.describe()
-                                   << " + " << external.first << ", " << scheme.describe()) {
-                    const Build full = [&](Sample& s, const Scheme& given) {
-                        add_fluid(s, fluid, given);
-                    };
-                    const Row row = combine(full, further.at(""), scheme, external.second, box);
-                    judge(row);
-                    BOOST_TEST(!row.turns);
-                    ++(row.refused.empty() ? ran : refused);
-                }
+                const Build<Dim> full = [&](Sample<Dim>& s, const Scheme& given) {
+                    add_fluid(s, fluid.second, given);
+                };
+                tally.count(fluid.first + " + " + external.first + ", " + scheme.describe(),
+                            combine<Dim>(full, further<Dim>.at(""), scheme, external.second,
+                                         full_box<Dim>()));
             });
     // Continuity or summed, with artificial viscosity where friction is not by pairs.
-    const int all = static_cast<int>(externals.size());
-    BOOST_TEST(ran == all * 2 * (2 + 2 + 1));
-    BOOST_TEST(refused == all * 3 * 3 * 4 * 2 * 2 - ran);
+    const std::size_t all = externals<Dim>.size();
+    BOOST_TEST(tally.losing == tally.ran);
+    BOOST_TEST(tally.ran == all * 2 * (2 + 2 + 1));
+    BOOST_TEST(tally.fate.size() == all * 3 * 3 * 4 * 2 * 2);
+    return tally;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_kind_of_wall_with_every_law_is_accounted_for_or_refused) {
+    const Tally plane = every_wall<2>();
+    compare(plane, every_wall<3>());
+    BOOST_TEST(plane.ran > 200u);
+    BOOST_TEST(plane.refused() > 200u);
+}
+
+BOOST_AUTO_TEST_CASE(shifted_fluids_with_every_external) {
+    compare(every_shifted_fluid<2>(), every_shifted_fluid<3>());
 }

@@ -10,6 +10,7 @@
 #include <barrier>
 #include <exception>
 #include <functional>
+#include <map>
 #include <thread>
 
 namespace spam::test {
@@ -67,10 +68,11 @@ class PartsInThreads {
             if (wrong_ == Wrong::images && content == Content::images) {
                 before_.resize(count());
                 for (std::size_t p = 0; p < count(); ++p) {
-                    const Bytes now =
-                        to[p];  // as long as before, where no list has been built since
-                    if (before_[p].size() == now.size()) to[p] = before_[p];
-                    before_[p] = now;
+                    // As long as the last ones of the same kind, where no list has been built since.
+                    Bytes& before = before_[p][to[p].size()];
+                    const Bytes now = to[p];
+                    if (!before.empty()) to[p] = before;
+                    before = now;
                 }
             }
             for (std::size_t p = 0; p < count(); ++p) {
@@ -97,7 +99,7 @@ class PartsInThreads {
 
         PartsInThreads& all_;
         Wrong wrong_;
-        std::vector<Bytes> before_;
+        std::vector<std::map<std::size_t, Bytes>> before_;  ///< by size
     };
 
     std::barrier<> barrier_;

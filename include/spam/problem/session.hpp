@@ -74,8 +74,10 @@ class Session {
 
     /// For a problem that integrates nothing, in place of run(): says what will be analysed, line by
     /// line, ends a dry run, and makes the result folder. Options of running and integrating must
-    /// not be given. What comes back is for statistics.json; the time until the end is added to it.
-    RunStatistics& begin_analysis(const std::vector<std::string>& description);
+    /// not be given. What comes back is for statistics.json; the time until the end is added to it. `steps`: how it
+    /// integrates where it does so with steps of its own.
+    RunStatistics& begin_analysis(const std::vector<std::string>& description,
+                                  const std::string& steps = {});
 
     /// For a study of many small runs, in place of run(): likewise, and opens its table. A study of the
     /// same case that was stopped, by whatever, is gone on with; throws InputError where the folder
