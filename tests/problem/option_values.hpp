@@ -202,6 +202,7 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"stability", "formulation"}, "material_vectors"},
     {{"mesh_modes", "speed"}, "1e-5"},
     {{"tension_test", "dimension"}, "3"},
+    {{"ball_plate", "dimension"}, "3"},
     {{"loaded_bar", "columns"}, "14"},
     {{"loaded_bar", "steps"}, "3"},
     {{"lyapunov", "time"}, "2"},

@@ -16,6 +16,8 @@ using namespace spam::test;
 
 namespace {
 
+using UnitsIn = std::tuple<std::integral_constant<int, SPAM_UNITS_IN>>;
+
 /// The first two are powers of two, those of mass and length even: roots are taken of densities and of moduli.
 const std::vector<Units> units{
     {64.0, 0.0625, 128.0}, {0x1p-10, 0x1p20, 0x1p-40}, {7.0, 3.0, 2.0}, {1e-3, 1e6, 1e3}};
@@ -195,7 +197,7 @@ BOOST_AUTO_TEST_CASE(no_law_is_left_out) {
     for (const auto& name : names) BOOST_TEST(text.str().find(name) != std::string::npos, name);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_and_every_external, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_and_every_external, In, UnitsIn) {
     constexpr int Dim = In::value;
     for (const auto& [law, build] : every_law<Dim>())
         for (const auto& [external, add] : externals<Dim>)
@@ -203,7 +205,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_and_every_external, In, PlaneAndSpace) {
     BOOST_TEST(check<Dim>({.law = build, .external = external}).ran);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_with_adaptive_steps_and_from_rest, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_with_adaptive_steps_and_from_rest, In, UnitsIn) {
     constexpr int Dim = In::value;
     for (const auto& [law, build] : every_law<Dim>())
         for (const double speed : {1.0, 0.0}) BOOST_TEST_CONTEXT(law << ", speed " << speed)
@@ -212,7 +214,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_with_adaptive_steps_and_from_rest, In, P
             .ran);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, UnitsIn) {
     constexpr int Dim = In::value;
     for (const auto& [more, add] : further<Dim>)
         for (const char* law : {"SmoothParticles, gas", "TotalLagrangian"})
@@ -220,7 +222,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, PlaneAndSpace) {
     BOOST_TEST(check<Dim>({.law = every_law<Dim>().at(law), .more = more}).ran);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, UnitsIn) {
     constexpr int Dim = In::value;
     int ran = 0;
     for (const auto& [law, build] : with_scheme<Dim>) {
@@ -238,7 +240,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, PlaneA
     BOOST_TEST(ran > 150);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_wall_and_a_period, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_wall_and_a_period, In, UnitsIn) {
     constexpr int Dim = In::value;
     int ran = 0;
     for (const auto& [kind, wall] : walls<Dim>)
@@ -260,7 +262,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_wall_and_a_period, In, PlaneAndSpace) {
 }
 
 /// Pairs that come near are reflected at times that are found.
-BOOST_AUTO_TEST_CASE_TEMPLATE(reflections_of_pairs, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(reflections_of_pairs, In, UnitsIn) {
     constexpr int Dim = In::value;
     const Scheme scheme{.closest_approach = 0.99};
     for (const Options& options : {Options(fixed), Options(adaptive)})
@@ -273,7 +275,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(reflections_of_pairs, In, PlaneAndSpace) {
 }
 
 /// Also from rest, where none can tell how long a first step may be but by the scales of fields.
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_method, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_method, In, UnitsIn) {
     constexpr int Dim = In::value;
     for (const auto& method : integration_methods())
         for (const bool free : {false, true}) {
@@ -318,7 +320,7 @@ bool seen(const Setting<Dim>& setting, const Options& options = fixed) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(a_hidden_unit_is_found, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_hidden_unit_is_found, In, UnitsIn) {
     constexpr int Dim = In::value;
     const Build<Dim> gas = with_scheme<Dim>.at("SmoothParticles, gas");
     const Build<Dim> smooth = more_laws<Dim>.at("SmoothHenckySolid");
