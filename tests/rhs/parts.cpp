@@ -13,7 +13,13 @@
 using namespace spam;
 using namespace spam::test;
 
+struct Counts {
+    int ran = 0, refused = 0;
+};
+
 namespace {
+
+using PartsIn = std::tuple<std::integral_constant<int, SPAM_PARTS_IN>>;
 
 constexpr int segments = 3, steps_in_each = 5;
 
@@ -147,10 +153,6 @@ const IntegratorOptions fixed{.method = "rk4", .dt = 0.05};
 const IntegratorOptions adaptive{
     .method = "arkode:BOGACKI_SHAMPINE_4_2_3", .dt = {}, .rtol = 1e-7, .atol = 1e-9};
 
-struct Counts {
-    int ran = 0, refused = 0;
-};
-
 /// Refused as a whole, or the same bytes in 2 to 4 parts; where parts refuse it they say why.
 template <int Dim>
 void compare(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions& options,
@@ -195,7 +197,7 @@ void for_each_law(const F& f) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_between_every_kind_of_walls, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_between_every_kind_of_walls, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
     for (const auto& [kind, wall] : walls<Dim>)
@@ -212,7 +214,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_between_every_kind_of_walls, In, PlaneAn
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(
-    every_law_in_open_and_periodic_space_with_a_fixed_and_an_adaptive_method, In, PlaneAndSpace) {
+    every_law_in_open_and_periodic_space_with_a_fixed_and_an_adaptive_method, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
     for (const auto& box : {Box<Dim>(), full_box<Dim>()})
@@ -229,7 +231,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(
     BOOST_TEST(counts.refused < 60);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
     for (const auto& box : {Box<Dim>(), full_box<Dim>()})
@@ -245,7 +247,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme, In, PlaneAndSpace) {
     BOOST_TEST(counts.ran > 150);
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(every_external, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(every_external, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
     for (const auto& [external, add] : externals<Dim>) BOOST_TEST_CONTEXT(external) {
@@ -260,7 +262,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_external, In, PlaneAndSpace) {
     BOOST_TEST(counts.ran == 2 * static_cast<int>(externals<Dim>.size()));
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
     for (const char* law : {"LongRange in a gas", "Reaction in a gas", "Ellipses"})
@@ -272,7 +274,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, Pl
 }
 
 // The test can fail: images that are not refreshed, and sums of parts that are rounded before they are added.
-BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PlaneAndSpace) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PartsIn) {
     constexpr int Dim = In::value;
     Scheme balanced;
     balanced.angular_momentum = AngularMomentum::torque_pair;
