@@ -69,6 +69,7 @@ struct Accounts {
 };
 template <int Dim>
 Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
+    set_threads(1);  // of few particles two wait for each other
     const auto model = build(box), open = build({});
     const auto values = random_state(*open, 9);
     const ConstState<Dim> state(open->layout(), values);
