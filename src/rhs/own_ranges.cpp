@@ -259,11 +259,10 @@ std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position)
         }
         found = !Parts::here().any(!found);
         if (!found && (look < reach || reach > 1e6 * start))
-            throw InputError(
-                fmt::format("range: with {:g} (m/rho)^(1/D) a particle finds too few neighbours "
-                            "within half of the "
-                            "periodic box; enlarge the box or shorten --range",
-                            scheme_.range));
+            throw InputError(fmt::format(
+                "range: with {:g} (m/rho)^(1/D) a particle finds too few neighbours within {:g}, half of "
+                "the periodic box or the distance of two walls; enlarge the box or shorten --range",
+                scheme_.range, most));
     }
     return rho;
 }

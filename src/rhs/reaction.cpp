@@ -43,7 +43,8 @@ Reaction<Dim>::Reaction(const Selection<Dim>& among, const ReactionScheme& schem
           GeneralWeight<Dim>(
               scheme_.kernel,
               valid_range<Dim>(scheme_.range, this->particles().spacing, this->particles().size())),
-          ListUse::again_and_again, this->box(), *sweeps_)) {
+          ListUse::again_and_again, this->box(), *sweeps_)),
+      rho_(this->particles().size()) {
     this->look_after(*packed_);
     this->nature_.description = fmt::format(
         "a reaction, D = {:g}, {:g} c (1 - c)(c - {:g}){}, range {:g}", scheme_.diffusivity,
@@ -65,17 +66,18 @@ std::string Reaction<Dim>::rates(const Now& now) {
     const double* const c = now.state.find(field_kind::concentration);
     double* const c_dot = now.rate.find(field_kind::concentration);
     double* const e_dot = scheme_.heat != 0.0 ? now.rate.find(Field::energy) : nullptr;
-    const auto rho = packed_->summed_density(
-        sweeps_->density, n, {now.state.position().data(), nullptr, this->particles().mass.data()});
-    if (n > 0 && std::isnan(rho.front())) return "a position is not finite";
-    packed_->template write<R>(R::template at<column::Density>, 2,
-                               [&](std::size_t i, double* number) {
-                                   number[0] = rho[i];
-                                   number[1] = c[i];
-                               });
+    if (!packed_->follow(n, {now.state.position().data(), nullptr, this->particles().mass.data()}))
+        return "a position is not finite";
     SweepInput<Dim> in = packed_->input();
     in.constants.conductivity = scheme_.diffusivity;
     SweepOutput<Dim> out;
+    out.rho = rho_.data();
+    sweeps_->density(in, out);
+    packed_->template write<R>(R::template at<column::Density>, 2,
+                               [&](std::size_t i, double* number) {
+                                   number[0] = rho_[i];
+                                   number[1] = c[i];
+                               });
     out.records = packed_->record(0);
     sweeps_->gradient(in, out);
     packed_->template refresh<R>(R::template at<column::HeatFlux>);

@@ -52,15 +52,15 @@ void TorqueFactors<3>::balance(const Groups& groups, const double* u, const doub
     balances_.assign(groups.count, {});
     const auto at_zero = sums(groups);
     // sum m u x v vanishes for v and Monaghan's average: not to be mistaken for what its rounding leaves.
-    std::vector<Vec<3>> X(groups.count);
+    X_.assign(groups.count, {});
     if (own_rate_) {
         const auto rates = rates_.of(groups.group, groups.count, [&](std::size_t i) {
             return (groups.mass[i] * cross(space_vector(u, i), space_vector(v, i))).c;
         });
-        for (std::size_t g = 0; g < groups.count; ++g) X[g].c = rates[g];
+        for (std::size_t g = 0; g < groups.count; ++g) X_[g].c = rates[g];
     }
     for (std::size_t g = 0; g < groups.count; ++g)
-        balances_[g].begin(moments_from(at_zero[g]), X[g]);
+        balances_[g].begin(moments_from(at_zero[g]), X_[g]);
     ++search_.balances;
     const auto done = [](const TorqueBalance& b) { return b.done(); };
     wants_sums_ = !std::all_of(balances_.begin(), balances_.end(), done);

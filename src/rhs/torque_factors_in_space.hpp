@@ -42,7 +42,8 @@ class TorqueFactors<3> {
     bool by_pair_, own_rate_, wants_sums_ = false;
     std::vector<double> moments_, factor_;
     ExactGroupSums<torque_moments> sums_;
-    ExactGroupSums<3> rates_;  ///< X
+    ExactGroupSums<3> rates_;
+    std::vector<Vec<3>> X_;
     std::vector<TorqueBalance> balances_;
     TorqueSearch search_;
 };

@@ -55,6 +55,7 @@ class Reaction final : public Term<Dim> {
     ReactionScheme scheme_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
+    std::vector<double> rho_;
 };
 
 extern template class Reaction<1>;
