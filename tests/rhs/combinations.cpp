@@ -2,8 +2,7 @@
 // Every law of matter x every further term x every choice of scheme, with and without externals: each
 // combination keeps what it promises, or is refused with a reason. No term and no external is forgotten: the
 // headers are looked at.
-#include "rhs/combinations.hpp"
-
+#include "rhs/every_combination.hpp"
 #include "rhs/more_laws.hpp"
 
 #include <filesystem>
@@ -31,35 +30,6 @@ std::set<std::string> classes_derived_from(const std::string& base, const std::s
     return names;
 }
 
-template <int Dim>
-Tally every_scheme() {
-    const Add<Dim> all_at_once = [](Sample<Dim>& s) {
-        for (const char* name : {"Gravity", "Friction", "Drag"}) externals<Dim>.at(name)(s);
-    };
-    Tally tally;
-    for (const auto& law : with_scheme<Dim>)
-        for (const auto& more : further<Dim>)
-            for_each_scheme([&](const Scheme& scheme) {
-                for (const bool outside : {false, true})
-                    tally.count(law.first + " + " + more.first + ", " + scheme.describe() +
-                                    (outside ? ", externals" : ""),
-                                combine<Dim>(law.second, more.second, scheme,
-                                             outside ? all_at_once : externals<Dim>.at("")));
-            });
-    return tally;
-}
-
-template <int Dim>
-Tally every_external() {
-    Tally tally;
-    for (const auto& [law, build] : all_laws<Dim>())
-        for (const auto& [more, add] : further<Dim>)
-            for (const auto& [external, act] : externals<Dim>)
-                tally.count(law + " + " + more + ", " + external,
-                            combine<Dim>(build, add, Scheme{}, act));
-    return tally;
-}
-
 /// What the text forbids, by name.
 template <int Dim>
 void potentials_need_plain_velocities() {
@@ -78,6 +48,10 @@ void potentials_need_plain_velocities() {
 }
 
 }  // namespace
+
+// In combinations_in_space.cpp, because it takes long to compile.
+extern template Tally spam::test::every_scheme<3>();
+extern template Tally spam::test::every_external<3>();
 
 BOOST_AUTO_TEST_CASE(no_term_and_no_external_is_left_out) {
     std::set<std::string> terms, outside;
