@@ -30,6 +30,17 @@
 //     --aspect 2      the dam of Martin and Moyce 1952, whose fronts of water are then in the picture. At the
 //                     end they are alike; before, this fluid is up to 17 % ahead: it is pushed together
 //                     by its weight, and springs apart. --gravity 0.1 makes it stiffer: 7 %, 10 s
+//     --model elements --mesh 80x64
+//                     the column as plane finite elements that hold the fluid (rhs/elements.hpp): the density is the
+//                     mass by the area of the corners, the stress -P 1. Floor and walls hold the nodes across
+//                     them; along them they slide. At rest row k from the top has the pressure g dy (k - 1/2),
+//                     dy the mass of a row by the width. What resists the hourglass takes hourglass_work from
+//                     the motion, which counts as energy. The run ends at t = 2.5 W. With the width and the mesh
+//                     below 1 min, pressures at rest to 4e-8
+//     --model both    the two beside each other, as on the slide: with --width 40 --aspect 1.6 --cavitation 0.02
+//                     80 x 64 elements that are twice as high as wide, and 2,560 particles. That the particles of the
+//                     slide fill 40 x 64 as well is inferred from its mesh, dy = 2 dx = 1. --samples: means of
+//                     several columns of particles; 3 min each
 //     --left, --right, --bottom
 //                     walls: mirrors, or rigid ones. The one on the right is taken away.
 //     --cavitation P  the tension is P at most (text: "P > Pc -> P = Pc", where pressure is meant to be
@@ -41,11 +52,15 @@ namespace {
 
 using namespace water_column;
 
-Plan<2> plan_of_rest(const FluidColumn& column) {
+Plan<2> plan_of_rest(const Parameters& p, const FluidColumn& column) {
     Plan<2> plan;
     plan.t_end = column.relaxation_time;
     plan.output_every = plan.t_end / 250.0;
     plan.own_end = true;
+    if (column.of_elements()) {
+        plan.record(mesh_columns(p));
+        return plan;
+    }
     plan.record({{"centre_height",
                   [](const Model<2>& model, std::span<const double> y) {
                       return ConstState<2>(model.layout(), y).position().row(1).mean();
@@ -54,13 +69,19 @@ Plan<2> plan_of_rest(const FluidColumn& column) {
     return plan;
 }
 
+/// Elements are drawn out, and end where they would soon be turned inside out. Beside them particles as well.
 Plan<2> plan_of_collapse(const Session& session, const Parameters& p, FluidColumn& column) {
     Plan<2> plan;
-    plan.t_end = (session.common().smoke ? 1.0 : 6.25) * column.unit;
+    const bool particles_alone = p.model == ColumnOf::particles;
+    const double whole = particles_alone ? 6.25 : 2.5;
+    plan.t_end = (session.common().smoke ? 1.0 : whole) * column.unit;
     plan.output_every = column.unit / 40.0;
     plan.snapshot_every = column.unit / 4.0;
-    plan.record(motion_columns(p.range));
-    column.drawn = states_at<2>({0.0, 1.25, 2.5, 5.0}, column.unit);
+    plan.record(column.of_elements() ? mesh_columns(p) : motion_columns(p.range));
+    if (!column.of_elements() && !particles_alone) plan.record(compared_columns(p));
+    column.drawn = particles_alone ? states_at<2>({0.0, 1.25, 2.5, 5.0}, column.unit)
+                                   : states_at<2>({0.0, compared_times[0], compared_times[1], 2.5},
+                                                  column.unit);
     plan.observe(keep_nearest(column.drawn));
     return plan;
 }
@@ -72,30 +93,42 @@ int samples_of(const Parameters& p, int refinement) {
     return p.samples.value_or(!p.compare ? 1 : refinement == 1 ? 25 : 5);
 }
 
-void compute(Session& session, const Parameters& p) {
+std::vector<FluidColumn> make_columns(const Session& session, Parameters& p) {
     std::vector<FluidColumn> columns;
     for (const int refinement : {1, 2, 4}) {
-        if (refinement > 1 && !p.compare) break;
+        if (p.model == ColumnOf::elements || (refinement > 1 && !p.compare)) break;
         const int samples = samples_of(p, refinement);
         for (int sample = 0; sample < samples; ++sample) {
             columns.push_back(make_column(p, refinement, sample, session.common().dry_run));
             auto& column = columns.back();
             if (p.compare) column.prefix = fmt::format("{}_", column.width);
+            if (p.model == ColumnOf::both) column.prefix = "particles_";
             if (sample > 0) column.prefix += fmt::format("sample_{}_", sample);
         }
     }
+    if (p.model == ColumnOf::particles) return columns;
+    columns.push_back(make_mesh_column(p, session.common().dry_run));
+    if (p.model == ColumnOf::both) columns.back().prefix = "elements_";
+    return columns;
+}
+
+void compute(Session& session, Parameters& p) {
+    std::vector<FluidColumn> columns = make_columns(session, p);
+    if (p.model == ColumnOf::elements) session.prefer_step(step_of(columns.back()));
     std::vector<Case<2>> cases;
     for (auto& column : columns) {
         const auto rest = [&column](const RunRecord& before) {
             return restated<2>(*column.between_walls, before.y, *column.released);
         };
-        cases.push_back(
-            {column.between_walls, column.y0, plan_of_rest(column), column.prefix + "relaxation"});
+        cases.push_back({column.between_walls, column.y0, plan_of_rest(p, column),
+                         column.prefix + "relaxation"});
         cases.push_back({column.released,
                          {},
                          plan_of_collapse(session, p, column),
                          column.prefix + "collapse",
                          rest});
+        if (p.model == ColumnOf::both && column.of_elements())
+            for (const std::size_t k : {1, 2}) (cases.end() - k)->plan.step = step_of(column);
     }
     const auto runs = session.run_all(std::move(cases));  // fewer where they were stopped
     std::vector<Computed> computed;
@@ -107,6 +140,7 @@ void compute(Session& session, const Parameters& p) {
 }
 
 void refuse_impossible(const Parameters& p) {
+    if (p.model == ColumnOf::elements) return;
     if (!(p.range > 1.0))
         refuse(
             "range: {:g} must lie above the particle spacing 1 (else no "
@@ -124,6 +158,38 @@ void refuse_impossible(const Parameters& p) {
             "the range {:g}; give a larger --aspect or --width",
             p.aspect * p.width, p.range);
     refuse_short_core(p.core, p.core_range, "--core 0");
+}
+
+void add_model_options(Options& options, Parameters& p, const std::vector<std::string>& sides) {
+    options.choice<ColumnOf>(
+        "model", p.model, {ColumnOf::particles, ColumnOf::elements, ColumnOf::both},
+        "the column is of particles, of finite elements, or of both beside each other");
+    options.text(
+        "mesh", p.mesh,
+        "elements across and up, as in 80x64 (default: twice as many across as W and one for "
+        "each row of particles: dy = 2 dx = 1)");
+    options.number("hourglass-viscosity", p.hourglass.viscosity,
+                   "of what resists the hourglass, in parts of rho sqrt(A) c/4",
+                   between(0.0, 100.0));
+    options.number("hourglass-stiffness", p.hourglass.stiffness,
+                   "of what resists the hourglass, in parts of rho c^2/4", between(0.0, 100.0));
+    options.only_when(
+        {"mesh", "hourglass-viscosity", "hourglass-stiffness"}, {"model"},
+        [&p] { return p.model != ColumnOf::particles; },
+        "has no meaning with {by}; give --model elements or both");
+    options.only_when(
+        {"compare"}, {"model"}, [&p] { return p.model == ColumnOf::particles; },
+        "has no meaning with {by}: one column of elements is computed; leave it out");
+    const auto particles = [&p] { return p.model != ColumnOf::elements; };
+    options.only_when(
+        {"surface-tension", "core", "core-range", "kernel", "range"}, {"model"}, particles,
+        "has no meaning with {by}, which have no weight function and no fields of particles; leave it "
+        "out, or give --model both");
+    options.only_when({"samples"}, {"model"}, particles,
+                      "has no meaning with {by}: one column of elements is computed; leave it out");
+    options.only_when(sides, {"model"}, particles,
+                      "has no meaning with {by}, whose nodes are guided along floor and walls; "
+                      "leave it out");
 }
 
 constexpr const char* no_friction =
@@ -153,10 +219,11 @@ void add_options(Options& options, Parameters& p) {
                    "rate of the friction that brings the column to rest, gamma (default: 1.6/W); "
                    "with --compare of the first column",
                    between(1e-6, 100.0));
-    options.number("relaxation-time", p.relaxation_time,
-                   "time in which it comes to rest (default: 12.5 W); with --compare of the first "
-                   "column",
-                   between(1e-3, 1e9));
+    options.number(
+        "relaxation-time", p.relaxation_time,
+        "time in which it comes to rest (default: 12.5 W, of elements 20 W); with --compare of the first "
+        "column",
+        between(1e-3, 1e9));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
     options.number("range", p.range, "distance at which the weight function vanishes", positive());
 }
@@ -176,6 +243,7 @@ int main(int argc, char** argv) {
                            {SideKind::moving, no_friction}});
     const Sides sides(problem.options(), {wall, wall, wall, ""}, {.temperatures = false});
     p.sides = &sides;
+    add_model_options(problem.options(), p, sides.names());
     return problem.main(argc, argv, [&](Session& session) {
         session.smoke_default("width", p.width, 8);
         session.smoke_default("relaxation-time", p.relaxation_time, 8.0);

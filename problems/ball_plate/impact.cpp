@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "impact.hpp"
 
-#include "../breaking/pieces.hpp"
 #include "elements.hpp"
 #include <spam/external/clamp.hpp>
 
@@ -121,29 +120,23 @@ std::vector<Column<Dim>> columns_of(const Parameters& p) {
     if constexpr (Dim == 2)
         if (p.matter.kind == MatterKind::elements) return ball_plate_elements::columns_of();
     using Y = std::span<const double>;
-    const auto pieces = [](const Model<Dim>& model, Y y) {
-        return pieces_of(model, y, piece_reach * model.particles().spacing);
-    };
-    return {{"ball_speed",
-             [](const Model<Dim>& model, Y y) {
-                 const auto v = ConstState<Dim>(model.layout(), y).velocity();
-                 double sum = 0.0, n = 0.0;
-                 for (std::size_t i = 0; i < model.particles().size(); ++i)
-                     if (model.particles().body[i] == ball) {
-                         sum -= v(Dim - 1, static_cast<Eigen::Index>(i));
-                         n += 1.0;
-                     }
-                 return sum / n;
-             }},
-            {"pieces", [pieces](const Model<Dim>& model,
-                                Y y) { return static_cast<double>(pieces(model, y).size()); }},
-            {"largest_piece",
-             [pieces](const Model<Dim>& model, Y y) {
-                 std::size_t most = 0;
-                 for (const Piece& piece : pieces(model, y)) most = std::max(most, piece.size());
-                 return static_cast<double>(most);
-             }},
-            closest_pair_column<Dim>()};
+    return {
+        {"ball_speed",
+         [](const Model<Dim>& model, Y y) {
+             const auto v = ConstState<Dim>(model.layout(), y).velocity();
+             double sum = 0.0, n = 0.0;
+             for (std::size_t i = 0; i < model.particles().size(); ++i)
+                 if (model.particles().body[i] == ball) {
+                     sum -= v(Dim - 1, static_cast<Eigen::Index>(i));
+                     n += 1.0;
+                 }
+             return sum / n;
+         }},
+        {"pieces", [](const Model<Dim>& model,
+                      Y y) { return static_cast<double>(piece_sizes(model, y).size()); }},
+        {"largest_piece", [](const Model<Dim>& model,
+                             Y y) { return static_cast<double>(piece_sizes(model, y).front()); }},
+        closest_pair_column<Dim>()};
 }
 
 template Impact<2> make_impact(const Session&, const Parameters&, double);

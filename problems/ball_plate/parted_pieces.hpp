@@ -2,28 +2,14 @@
 // What ball and plate break into, and whether each piece keeps its angular momentum once it has parted.
 #pragma once
 
-#include "../common.hpp"
-#include <spam/neighbors/connected_parts.hpp>
+#include "../breaking/pieces.hpp"
 
 #include <Eigen/Geometry>
 
 namespace ball_plate {
 
 using namespace spam;
-using Piece = std::vector<std::uint32_t>;  ///< its particles, in order
-
-/// Linked by pairs nearer than `reach`, in the order of their first particles.
-template <int Dim>
-std::vector<Piece> pieces_of(const Model<Dim>& model, std::span<const double> y, double reach) {
-    const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
-    std::vector<Piece> pieces;
-    std::uint32_t i = 0;
-    for (const auto number : connected_parts<Dim>(x, reach, model.box())) {
-        pieces.resize(std::max(pieces.size(), static_cast<std::size_t>(number) + 1));
-        pieces[static_cast<std::size_t>(number)].push_back(i++);
-    }
-    return pieces;
-}
+using breaking::Piece;
 
 /// Pieces in space that are alone: from row to row they have the same particles, and all others are farther away than
 /// forces reach by a spacing, which is more than anything moves between rows.
@@ -40,7 +26,8 @@ struct PartedPieces {
     void look(const Model<3>& model, std::span<const double> y) {
         const ConstState<3> state(model.layout(), y);
         std::vector<Parted> now;
-        for (Piece& piece : pieces_of<3>(model, y, model.reach() + model.particles().spacing)) {
+        for (Piece& piece :
+             breaking::pieces_of(model, y, model.reach() + model.particles().spacing)) {
             Point<3> L = Point<3>::Zero();
             double size = 0.0;
             for (const std::uint32_t i : piece) {

@@ -6,14 +6,24 @@
 
 namespace breaking {
 
-std::vector<std::size_t> piece_sizes(const Model<2>& model, std::span<const double> y,
-                                     std::size_t least, double reach) {
-    const Points<2> x = ConstState<2>(model.layout(), y).position();
-    std::vector<std::size_t> sizes;
-    for (const auto piece : connected_parts<2>(x, reach * model.particles().spacing, model.box())) {
-        sizes.resize(std::max(sizes.size(), static_cast<std::size_t>(piece) + 1), 0);
-        ++sizes[static_cast<std::size_t>(piece)];
+template <int Dim>
+std::vector<Piece> pieces_of(const Model<Dim>& model, std::span<const double> y, double reach) {
+    const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
+    std::vector<Piece> pieces;
+    std::uint32_t i = 0;
+    for (const auto number : connected_parts<Dim>(x, reach, model.box())) {
+        pieces.resize(std::max(pieces.size(), static_cast<std::size_t>(number) + 1));
+        pieces[static_cast<std::size_t>(number)].push_back(i++);
     }
+    return pieces;
+}
+
+template <int Dim>
+std::vector<std::size_t> piece_sizes(const Model<Dim>& model, std::span<const double> y,
+                                     std::size_t least, double reach) {
+    std::vector<std::size_t> sizes;
+    for (const Piece& piece : pieces_of(model, y, reach * model.particles().spacing))
+        sizes.push_back(piece.size());
     std::erase_if(sizes, [least](std::size_t n) { return n < least; });
     std::sort(sizes.rbegin(), sizes.rend());
     return sizes;
@@ -31,10 +41,11 @@ std::vector<Eigen::Index> particles_of_pieces(const Points<2>& position, double 
     return all;
 }
 
-FirstNeighbours::FirstNeighbours(const Particles<2>& particles)
+template <int Dim>
+FirstNeighbours<Dim>::FirstNeighbours(const Particles<Dim>& particles)
     : count_(Eigen::ArrayXd::Zero(particles.reference_position.cols())),
       reach_(piece_reach * particles.spacing) {
-    const PairList<2> near(particles.reference_position, 1.3 * particles.spacing, {});
+    const PairList<Dim> near(particles.reference_position, 1.3 * particles.spacing, {});
     for (std::size_t i = 0; i < near.size(); ++i)
         for (const std::uint32_t j : near.neighbours(i)) {
             if (j <= i || particles.body[i] != particles.body[j]) continue;
@@ -44,7 +55,8 @@ FirstNeighbours::FirstNeighbours(const Particles<2>& particles)
         }
 }
 
-std::vector<double> FirstNeighbours::lost(const Points<2>& position) const {
+template <int Dim>
+std::vector<double> FirstNeighbours<Dim>::lost(const Points<Dim>& position) const {
     Eigen::ArrayXd left = Eigen::ArrayXd::Zero(position.cols());
     for (const auto& [i, j] : pairs_)
         if ((position.col(i) - position.col(j)).norm() < reach_) {
@@ -54,5 +66,14 @@ std::vector<double> FirstNeighbours::lost(const Points<2>& position) const {
     const Eigen::ArrayXd lost = 1.0 - left / count_.max(1.0);
     return {lost.begin(), lost.end()};
 }
+
+template std::vector<Piece> pieces_of(const Model<2>&, std::span<const double>, double);
+template std::vector<Piece> pieces_of(const Model<3>&, std::span<const double>, double);
+template std::vector<std::size_t> piece_sizes(const Model<2>&, std::span<const double>, std::size_t,
+                                              double);
+template std::vector<std::size_t> piece_sizes(const Model<3>&, std::span<const double>, std::size_t,
+                                              double);
+template class FirstNeighbours<2>;
+template class FirstNeighbours<3>;
 
 }  // namespace breaking

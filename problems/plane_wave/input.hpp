@@ -17,6 +17,8 @@ struct Parameters {
     bool compare_sizes = false;
     int dimension = 2;
     CubicLattice lattice = CubicLattice::sc;
+    std::optional<double> perturb{};
+    int seed = 1;
     /// Of one of the cells along the wave.
     double height() const { return dimension == 2 ? std::sqrt(0.75) : cubic_edge(lattice); }
 };

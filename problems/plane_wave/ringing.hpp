@@ -6,11 +6,21 @@
 
 namespace plane_wave {
 
+/// Where the particles of a wave were at its rows, for the one that is perturbed.
+template <int Dim>
+struct Track {
+    std::vector<double> t;
+    std::vector<Points<Dim>> x;
+    double distance = 0.0;  ///< of the latter, now
+};
+
 template <int Dim>
 struct Ringing : Variant<Dim, SmoothParticleModel<Dim>> {
     PlaneWave wave{};  ///< in space too along y, with displacements along x or y
     /// Of the lattice without it, torques left free.
     std::shared_ptr<const LatticeModes<Dim>> modes{};
+    std::shared_ptr<Track<Dim>> track{};  ///< of it or, where it is perturbed, of the other one
+    bool perturbed = false;
 
     bool transverse() const { return wave.polarization == Polarization::transverse; }
     double wavelength() const { return this->model->box().length(1); }

@@ -4,8 +4,6 @@
 #include "../breaking/pieces.hpp"
 #include <spam/external/distributed_load.hpp>
 #include <spam/external/friction.hpp>
-#include <spam/neighbors/connected_parts.hpp>
-#include <spam/neighbors/pair_list.hpp>
 
 namespace tension_test {
 namespace {
@@ -95,19 +93,15 @@ ConfigurationPanel panel_of(const Parameters& p, const PulledBar<Dim>& bar, doub
     ConfigurationPanel panel;
     panel.title = fmt::format("{}t = {:.4g}", title, t);
     if (bar.load_rate > 0.0) panel.title += fmt::format(", load {:.3g}", bar.load_rate * t);
-    const Points<Dim>& X = bar.model->particles().reference_position;
-    const PairList<Dim> first(X, 1.3, {});
+    const auto& particles = bar.model->particles();
+    const Points<Dim>& X = particles.reference_position;
+    const auto lost = FirstNeighbours<Dim>(particles).lost(position);
     std::vector<Eigen::Index> shown;
     for (Eigen::Index i = 0; i < X.cols(); ++i) {
         const double z = X(Dim - 1, i) / height<Dim>(p, X(0, i)) / apart<Dim>;
         if (Dim == 3 && !(z > -0.2 && z < 0.8)) continue;
         shown.push_back(i);
-        double left = -1.0, all = -1.0;  // it is among its neighbours itself
-        for (const auto j : first.neighbours(static_cast<std::size_t>(i))) {
-            all += 1.0;
-            if ((position.col(i) - position.col(j)).norm() < piece_reach) left += 1.0;
-        }
-        panel.colour.push_back(1.0 - left / std::max(all, 1.0));
+        panel.colour.push_back(lost[static_cast<std::size_t>(i)]);
     }
     panel.position = position.template topRows<2>()(Eigen::all, shown);
     return panel;
@@ -170,13 +164,7 @@ std::vector<Column<Dim>> columns_of(const PulledBar<Dim>& bar) {
         bar.kind == MatterKind::material_vectors ? bar.model->reach() : piece_reach;
     using Y = std::span<const double>;
     const auto sizes = [least, reach](const Model<Dim>& model, Y y) {
-        const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
-        std::vector<std::size_t> all(model.particles().size());
-        for (const auto piece : connected_parts<Dim>(x, reach, model.box()))
-            ++all[static_cast<std::size_t>(piece)];
-        std::erase_if(all, [least](std::size_t n) { return n < least; });
-        std::sort(all.rbegin(), all.rend());
-        return all;
+        return piece_sizes(model, y, least, reach);
     };
     const auto piece = [sizes](std::size_t k) {
         return [sizes, k](const Model<Dim>& model, Y y) {

@@ -44,7 +44,16 @@ AnyEquationOfState law_of(const Parameters& p) {
     return water;
 }
 
-FluidColumn make_column(const Parameters& p, int refinement, int sample, bool only_described) {
+std::vector<double> pressures_of(const Parameters& p, const Model<2>& model,
+                                 std::span<const double> y) {
+    auto all = fluid_elements(model, y).density;
+    if (all.empty()) all = model.density(y);
+    const auto law = law_of(p);
+    for (auto& rho : all) rho = law.pressure(rho, 0.0);
+    return all;
+}
+
+FluidColumn scaled_column(const Parameters& p, int refinement) {
     FluidColumn column{};
     column.width = refinement * p.width;
     column.rows = std::max(1, static_cast<int>(std::lround(p.aspect * column.width)));
@@ -54,6 +63,11 @@ FluidColumn make_column(const Parameters& p, int refinement, int sample, bool on
     column.damping = p.damping ? *p.damping / refinement : 0.1 * figure_width / column.width;
     column.relaxation_time =
         p.relaxation_time ? *p.relaxation_time * refinement : 12.5 * column.width;
+    return column;
+}
+
+FluidColumn make_column(const Parameters& p, int refinement, int sample, bool only_described) {
+    FluidColumn column = scaled_column(p, refinement);
     column.sample = sample;
     const double apart = 0.01 * ((sample + 1) / 2);
     column.relaxation_time *= sample % 2 == 1 ? 1.0 - apart : 1.0 + apart;
@@ -82,6 +96,7 @@ double hydrostatic_depth(double g, double mass) {
 }
 
 std::vector<Slab> slabs_of(const FluidColumn& column, std::span<const double> y) {
+    if (column.of_elements()) return rows_of(column, y);
     const ConstState<2> state(column.between_walls->layout(), y);
     const auto x = state.position();
     const auto rho = column.between_walls->density(y);
@@ -151,6 +166,22 @@ std::vector<Column<2>> motion_columns(double range) {
                  return top;
              }},
             closest_pair_column<2>()};
+}
+
+std::vector<Column<2>> compared_columns(const Parameters& p) {
+    return {{"centre_height",
+             [](const Model<2>& model, std::span<const double> y) {
+                 const auto& mass = model.particles().mass;
+                 const Eigen::Map<const Eigen::RowVectorXd> m(
+                     mass.data(), static_cast<Eigen::Index>(mass.size()));
+                 return m.dot(ConstState<2>(model.layout(), y).position().row(1)) / m.sum();
+             }},
+            {"tension", [p](const Model<2>& model, std::span<const double> y) {
+                 const auto all = pressures_of(p, model, y);
+                 return static_cast<double>(std::count_if(all.begin(), all.end(),
+                                                          [](double P) { return P < 0.0; })) /
+                        static_cast<double>(all.size());
+             }}};
 }
 
 const std::vector<Measured>& martin_and_moyce() {

@@ -6,8 +6,7 @@ namespace {
 
 /// A column of the history by the width, against time by the width, so far as all columns have come.
 Curve scaled(const FluidColumn& column, const RunRecord& run, const char* name, double until) {
-    Curve curve{fmt::format("{} particles", column.particles()),
-                divided(run.history.column("t"), column.width),
+    Curve curve{column.words(), divided(run.history.column("t"), column.width),
                 divided(run.history.column(name), column.width)};
     while (!curve.x.empty() && curve.x.back() > until * (1.0 + 1e-9)) {
         curve.x.pop_back();
@@ -57,9 +56,7 @@ void draw_profiles(Session& session, const std::vector<Computed>& columns) {
     densities.curves.push_back(formula);
     differences.curves.push_back(zero);
     for (int style = 2; const auto& [column, rest, collapse] : columns) {
-        Curve density{
-            fmt::format("{} particles", column->particles()), {}, {}, Mark::points, style++},
-            difference = density;
+        Curve density{column->words(), {}, {}, Mark::points, style++}, difference = density;
         const double surface = hydrostatic_depth(column->g, column->rows);
         for (const Slab& slab : slabs_of(*column, rest->y)) {
             const double depth = surface - slab.y;
@@ -79,35 +76,63 @@ std::vector<double> pressures(const Parameters& p, const FluidColumn& column,
                               const NearestState<2>& state) {
     std::vector<double> y(column.released->layout().size(), 0.0);
     State<2>(column.released->layout(), y).position() = state.position;
-    auto all = column.released->density(y);
-    const auto law = law_of(p);
-    for (double& rho : all) rho = std::min(law.pressure(rho, 0.0), p.gravity);
+    auto all = pressures_of(p, *column.released, y);
+    for (double& P : all) P = std::min(P, p.gravity);
     return all;
+}
+
+Points<2> walls_of(const std::vector<ConfigurationPanel>& panels) {
+    Point<2> most = Point<2>::Zero();
+    for (const auto& panel : panels) most = most.cwiseMax(panel.position.rowwise().maxCoeff());
+    Points<2> walls(2, 4);  // there and back: outlines are closed
+    walls << 0.0, 0.0, most.x(), 0.0, most.y(), 0.0, 0.0, 0.0;
+    return walls;
+}
+
+ConfigurationPanel panel_of(const Parameters& p, const FluidColumn& column,
+                            const NearestState<2>& state, const std::string& title) {
+    const auto elements = column.released->quadrilaterals();
+    return {
+        title, state.position, pressures(p, column, state), {}, {elements.begin(), elements.end()}};
+}
+
+void draw_panels(Session& session, const char* name, const std::string& title,
+                 std::vector<ConfigurationPanel> panels, std::size_t columns) {
+    if (panels.empty()) return;
+    const Points<2> walls = walls_of(panels);
+    for (auto& panel : panels) panel.outlines.push_back(walls);
+    draw_configurations(session, name, title + "; warm colours: tension", panels, columns,
+                        "pressure", ColourScale::about_zero);
 }
 
 /// Of the widest column that has been released.
 void draw_particles(Session& session, const Parameters& p, const FluidColumn& column) {
-    double across = 0.0, up = 0.0;
-    for (const auto& state : column.drawn)
-        if (state.there()) {
-            across = std::max(across, state.position.row(0).maxCoeff());
-            up = std::max(up, state.position.row(1).maxCoeff());
-        }
-    Points<2> walls(2, 4);  // there and back: outlines are closed
-    walls << 0.0, 0.0, across, 0.0, up, 0.0, 0.0, 0.0;
     std::vector<ConfigurationPanel> panels;
     for (const auto& state : column.drawn)
         if (state.there())
+            panels.push_back(panel_of(
+                p, column, state,
+                state.t == 0.0 ? "t = 0" : fmt::format("t = {:.3g} W", state.t / column.width)));
+    draw_panels(session, "configurations", "Collapse of " + column.words(), std::move(panels), 2);
+}
+
+/// At rest, and at the times at which they are compared: one column above the other.
+void draw_beside(Session& session, const Parameters& p, const std::vector<Computed>& columns) {
+    constexpr std::size_t times = 1 + std::size(compared_times);
+    std::vector<ConfigurationPanel> panels;
+    std::string words;
+    for (const auto& [column, rest, collapse] : columns) {
+        words += (words.empty() ? "" : " and ") + column->words();
+        for (std::size_t k = 0; k < times; ++k) {
+            const auto& state = column->drawn[k];
+            if (!state.there()) return;
             panels.push_back(
-                {state.t == 0.0 ? "t = 0" : fmt::format("t = {:.3g} W", state.t / column.width),
-                 state.position,
-                 pressures(p, column, state),
-                 {walls}});
-    if (panels.empty()) return;
-    draw_configurations(
-        session, "configurations",
-        fmt::format("Collapse of {} particles; warm colours: tension", column.particles()), panels,
-        2, "pressure", ColourScale::about_zero);
+                panel_of(p, *column, state,
+                         fmt::format("{}, t = {:g}",
+                                     column->of_elements() ? "elements" : "particles", state.t)));
+        }
+    }
+    draw_panels(session, "beside", "Collapse of " + words, std::move(panels), times);
 }
 
 }  // namespace
@@ -121,7 +146,10 @@ void draw(Session& session, const Parameters& p, const std::vector<Computed>& al
                                        [](const Computed& one) { return one.collapse; });
     if (released == columns.rend()) return;
     draw_motion(session, columns);
-    draw_particles(session, p, *released->column);
+    if (p.model == ColumnOf::both)
+        draw_beside(session, p, columns);
+    else
+        draw_particles(session, p, *released->column);
 }
 
 }  // namespace water_column

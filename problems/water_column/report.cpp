@@ -2,6 +2,22 @@
 #include "column.hpp"
 
 namespace water_column {
+
+bool reached(const RunRecord& run, double t) { return run.statistics.t_end >= t * (1.0 - 1e-9); }
+
+Sampled sampled(std::span<const Computed> samples, double t, const char* name) {
+    Sampled all;
+    double squares = 0.0;  // of differences from the mean: Welford's recurrence
+    for (const Computed& one : samples) {
+        if (!one.collapse || !reached(*one.collapse, t)) continue;
+        const double value = one.collapse->history.at(t, name), before = value - all.mean;
+        all.mean += before / ++all.number;
+        squares += before * (value - all.mean);
+    }
+    if (all.number > 1) all.deviation = std::sqrt(squares / (all.number - 1));
+    return all;
+}
+
 namespace {
 
 /// Options that say of what the fluid is and how it came to rest, whatever the size of the column.
@@ -39,8 +55,6 @@ struct Known {
 /// Of 640 particles, from another program.
 constexpr Known known_fronts[] = {{2.5, 33.6 / figure_width}, {5.0, 57.2 / figure_width}};
 
-bool reached(const RunRecord& run, double t) { return run.statistics.t_end >= t * (1.0 - 1e-9); }
-
 void report_collapse(Session& session, const FluidColumn& column, bool known,
                      const RunRecord& run) {
     const Findings findings(session, column.prefix);
@@ -77,24 +91,6 @@ void report_water(Session& session, const FluidColumn& column, bool known, const
                      "Martin and Moyce 1952; the first fronts");
     findings.claim("difference_from_water", latest, 0.0, 0.1,
                    "Martin and Moyce 1952, the last front", known && column.width >= figure_width);
-}
-
-/// Of all samples of a size that have come to time t: mean and standard deviation of a column of the history.
-struct Sampled {
-    int number = 0;
-    double mean = 0.0, deviation = 0.0;
-};
-Sampled sampled(std::span<const Computed> samples, double t, const char* name) {
-    Sampled all;
-    double squares = 0.0;  // of differences from the mean: Welford's recurrence
-    for (const Computed& one : samples) {
-        if (!one.collapse || !reached(*one.collapse, t)) continue;
-        const double value = one.collapse->history.at(t, name), before = value - all.mean;
-        all.mean += before / ++all.number;
-        squares += before * (value - all.mean);
-    }
-    if (all.number > 1) all.deviation = std::sqrt(squares / (all.number - 1));
-    return all;
 }
 
 void report_samples(Session& session, std::span<const Computed> samples) {
@@ -135,7 +131,14 @@ void compare(Session& session, std::span<const Computed> narrow, std::span<const
 
 void report(Session& session, const Parameters& p, const std::vector<Computed>& columns) {
     const bool known = is_standard(session, p);
+    const Computed& last = columns.back();
+    if (last.column->of_elements()) {
+        report_elements(session, p, last);
+        if (columns.size() > 1)
+            report_both(session, p, std::span(columns).first(columns.size() - 1), last);
+    }
     for (const auto& [column, rest, collapse] : columns) {
+        if (column->of_elements()) continue;
         if (column->sample > 0) continue;  // the session looks after what they promise
         report_rest(session, *column, p.range, known, *rest);
         if (!collapse) continue;
@@ -148,7 +151,7 @@ void report(Session& session, const Parameters& p, const std::vector<Computed>& 
                                        [](const Computed& one) { return one.column->sample == 0; });
         const auto samples = left.first(static_cast<std::size_t>(next - left.begin()));
         report_samples(session, samples);
-        if (!before.empty()) compare(session, before, samples, known);
+        if (p.compare && !before.empty()) compare(session, before, samples, known);
         before = samples;
         left = left.subspan(samples.size());
     }

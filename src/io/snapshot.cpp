@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtk_appended.hpp"
 #include <spam/io/snapshot.hpp>
+#include <spam/rhs/elements.hpp>
 
 #include <fmt/format.h>
 
@@ -39,17 +40,40 @@ std::vector<std::uint32_t> vertices(const Model<Dim>& model) {
     return alone;
 }
 
+/// What elements of fluids have besides what y holds, and with them all others.
+bool add_fluid_arrays(VtkAppended& file, const Elements::Fields& all, std::size_t points,
+                      const UnitNames& units) {
+    const std::size_t n = all.density.size();
+    if (n == 0) return false;
+    const auto add = [&](Field field, int components, const auto& value) {
+        file.reals(
+            field.name(), components, points + n,
+            [&](std::size_t k, int c) { return k < points ? 0.0 : value(k - points, c); },
+            units.of(field.unit(), 2));
+    };
+    add(Field::density, 1, [&](std::size_t k, int) { return all.density[k]; });
+    add(Field::stress, 9, [&](std::size_t k, int c) {
+        return tensor_in_space(Eigen::Map<const Eigen::Vector3d>(all.stress[k].c.data()), 0, c);
+    });
+    add(Field::energy, 1, [&](std::size_t k, int) { return all.energy[k]; });
+    return true;
+}
+
 /// Every field of the elements, by the names of the fields. VTK counts the points that are cells first.
 template <int Dim>
-void add_element_arrays(VtkAppended& file, const Model<Dim>& model, const ConstState<Dim>& state,
+void add_element_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const double> y,
                         std::size_t points, const UnitNames& units) {
+    const ConstState<Dim> state(model.layout(), y);
     const std::size_t cells = points + model.quadrilaterals().size();
     file.open("CellData");
     file.integers("element", cells, [&](std::size_t k, int) {
         return static_cast<std::int64_t>(k) - static_cast<std::int64_t>(points);
     });
+    bool fluid = false;
+    if constexpr (Dim == 2) fluid = add_fluid_arrays(file, fluid_elements(model, y), points, units);
     for (const auto& block : model.layout().blocks()) {
         if (block.holder != Holder::element) continue;
+        if (fluid && (block.field == Field::stress || block.field == Field::energy)) continue;
         const auto field = state.elements().field(block.field);
         const Rank rank = block.field.rank();
         const int components = rank == Rank::symmetric ? 9 : rank == Rank::vector ? 3 : 1;
@@ -99,8 +123,7 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
             unit(Field::energy));
     file.close("PointData");
     const std::vector<std::uint32_t> alone = vertices(model);
-    if (!model.quadrilaterals().empty())
-        add_element_arrays(file, model, state, alone.size(), units);
+    if (!model.quadrilaterals().empty()) add_element_arrays(file, model, y, alone.size(), units);
     file.open("Points");
     file.reals(
         "Points", 3, n, [&](std::size_t i, int c) { return in_space(x, i, c); },

@@ -3,11 +3,12 @@
 #include "bindings.hpp"
 #include "choices.hpp"
 #include <spam/core/error.hpp>
+#include <spam/material/cavitation.hpp>
 #include <spam/material/gamma_gas.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
-#include <spam/material/van_der_waals.hpp>
+#include <spam/material/van_der_waals_isotherm.hpp>
 #include <spam/material/von_mises.hpp>
 #include <spam/material/yielding_solid.hpp>
 
@@ -144,7 +145,31 @@ void bind_fluids(py::module_& module) {
                  return VanDerWaals{a, b, dimensions};
              }),
              "a"_a = 1.0, "b"_a = 1.0, "dimensions"_a = 2);
-    using Gas = std::variant<LucyGas, IdealGas, GammaGas, IsentropicGas, VanDerWaals>;
+    gas<CavitatingEmbeddedAtom>(
+        module, "EmbeddedAtom",
+        "P = B0 (rho^3/rho0^3 - rho^2/rho0^2), [HH07]; its tension is at most `tension_limit`, of which\n"
+        "4 B0/27 or None is no limit.")
+        .def(py::init([](double B0, double rho0, std::optional<double> limit) {
+                 expect(B0 > 0.0, "B0", B0, "a number above 0");
+                 expect(rho0 > 0.0, "rho0", rho0, "a number above 0");
+                 const double most = 4.0 * B0 / 27.0;
+                 expect(!limit || (*limit >= 0.0 && *limit <= most), "tension_limit",
+                        limit.value_or(0.0), "0 to 4 B0/27");
+                 return CavitatingEmbeddedAtom({B0, rho0}, limit.value_or(most));
+             }),
+             "B0"_a = 1.0, "rho0"_a = 1.0, "tension_limit"_a = std::nullopt);
+    gas<VanDerWaalsIsotherm>(
+        module, "VanDerWaalsIsotherm",
+        "The same at one temperature T: a cold law, e = -T ln((1 - b rho)/rho) - a rho.")
+        .def(py::init([](double a, double b, double T) {
+                 expect(a >= 0.0, "a", a, "0 or more");
+                 expect(b > 0.0, "b", b, "a number above 0");
+                 expect(T > 0.0, "T", T, "a number above 0");
+                 return VanDerWaalsIsotherm{a, b, T};
+             }),
+             "a"_a = 1.0, "b"_a = 1.0, "T"_a = 0.25);
+    using Gas = std::variant<LucyGas, IdealGas, GammaGas, IsentropicGas, VanDerWaals,
+                             VanDerWaalsIsotherm, CavitatingEmbeddedAtom>;
     py::class_<Fluid>(
         module, "Fluid",
         "A gas or liquid: an equation of state, with Newton's viscosity (shear `eta`, second\n"

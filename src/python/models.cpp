@@ -9,6 +9,7 @@
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/artificial_viscosity.hpp>
 #include <spam/rhs/material_vectors.hpp>
+#include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/reflected_pairs.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
@@ -122,7 +123,7 @@ struct MakeSmooth {
     }
 };
 
-/// Solids that remember, and springs.
+/// Solids that remember, springs, and molecules.
 struct MakeRemembering {
     Common common;
     std::string kind;
@@ -140,7 +141,11 @@ struct MakeRemembering {
         std::shared_ptr<ParticleModel<Dim>> model;
         if (kind == "springs")
             model = std::make_shared<BondedModel<Dim>>(std::move(particles), spring, box);
-        else if (kind == "total_lagrangian")
+        else if (kind == "molecules") {
+            model = std::make_shared<ParticleModel<Dim>>(std::move(particles), box);
+            model->template add_term<Cohesion<Dim>>(
+                CohesivePotential{spring.kappa, spring.rest_length});
+        } else if (kind == "total_lagrangian")
             model = std::make_shared<TotalLagrangianModel<Dim>>(
                 std::move(particles), StVenantKirchhoff::like(elastic),
                 TotalLagrangianScheme{density, range, penalty, kernel}, box);

@@ -34,6 +34,8 @@ PYBIND11_MODULE(_core, module) {
     spam::python::bind_externals(module);
     spam::python::bind_scheme(module);
     spam::python::bind_models(module);
+    spam::python::bind_elements(module);
+    spam::python::bind_molecular_fields(module);
     spam::python::bind_simulation(module);
     spam::python::bind_integrate(module);
 }

@@ -17,6 +17,9 @@
 
 namespace spam {
 
+/// Throws InputError for friction or conduction by which entropy would decrease.
+void check_fluid(const Fluid& fluid, int dim);
+
 /// The materials of smooth particles, and what sweeps need of them.
 template <int Dim>
 class Constitution {

@@ -2,6 +2,7 @@
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
 #include <spam/neighbors/pair_list.hpp>
+#include <spam/physics/core_potential.hpp>
 #include <spam/rhs/contact.hpp>
 
 #include <fmt/format.h>
@@ -52,6 +53,18 @@ PairLaw<Dim> law_of(const ContactScheme& scheme, const Particles<Dim>& particles
     law.constants.core_energy = scheme.energy;
     law.constants.core_range = scheme.range;
     law.constants.apart = folds ? scheme.folds_beyond : 0.5;
+    law.of_pair = [scheme, X = particles.reference_position, body = particles.body](
+                      PairForce<Dim>& pair, const Point<Dim>& periods) {
+        const double apart = (X.col(static_cast<Eigen::Index>(pair.i)) -
+                              X.col(static_cast<Eigen::Index>(pair.j)) + periods)
+                                 .norm();
+        const bool touch = body[pair.i] != body[pair.j] ||
+                           (scheme.folds_beyond > 0.0 && apart > scheme.folds_beyond);
+        const CorePotential core{touch ? scheme.energy : 0.0, scheme.range};
+        const double r2 = pair.r_ij.squaredNorm();
+        pair.energy = core.energy(r2);
+        pair.force_over_r = core.force_over_r(r2);
+    };
     std::vector<double> body(particles.size());
     for (std::size_t i = 0; i < body.size(); ++i)
         body[i] = 2.0 * law.constants.apart * particles.body[i];

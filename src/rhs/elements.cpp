@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "constitution.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
@@ -15,6 +16,17 @@
 namespace spam {
 namespace {
 
+void check_fluid_of_elements(const Fluid& fluid) {
+    check_fluid(fluid, 2);
+    if (fluid.conduction)
+        throw InputError(
+            "elements: heat would pass from one to the next, and temperatures have no gradient in one; "
+            "leave the conductivity out, or use smooth particles");
+    if (fluid.by_pairs && fluid.viscosity)
+        throw InputError(
+            "elements: they have no pairs; take friction by gradients, or use smooth particles");
+}
+
 void validate(const Elements::Material& material) {
     const auto refuse = [](const char* what, double value, const char* allowed) {
         throw InputError(fmt::format("elements: {} {:g} {}", what, value, allowed));
@@ -26,10 +38,13 @@ void validate(const Elements::Material& material) {
         refuse("hourglass viscosity", control.viscosity, "must not be below 0");
     if (!(control.stiffness >= 0.0) || !std::isfinite(control.stiffness))
         refuse("hourglass stiffness", control.stiffness, "must not be below 0");
-    if (control.viscosity + control.stiffness > 0.0 && !material.law.sound_speed(material.density))
+    if (const Fluid* const fluid = material.fluid()) check_fluid_of_elements(*fluid);
+    if (!(material.temperature >= 0.0) || !std::isfinite(material.temperature))
+        refuse("temperature", material.temperature, "must not be below 0");
+    if (control.viscosity + control.stiffness > 0.0 && !(material.sound_speed() > 0.0))
         throw InputError(
             "elements: a law without a sound speed cannot say how strong an hourglass should be "
-            "resisted; give it one, or leave the control out");
+            "resisted; give it one (a gas its temperature at the start), or leave the control out");
 }
 
 }  // namespace
@@ -43,10 +58,12 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     nature_.elements = std::move(corners);
     if (nature_.elements.empty()) throw InputError("elements: there are none; leave the term out");
     if (box().periodic() || box().has_images())
-        throw InputError("elements: they cannot reach across the borders of a box; use free space");
+        throw InputError(
+            "elements: they cannot reach across the borders of a box, nor meet images behind a wall; use "
+            "free space, and guide the nodes along a wall (Clamp)");
     for (const Material& one : materials_) {
         validate(one);
-        const double c = one.law.sound_speed(one.density).value_or(0.0);
+        const double c = one.sound_speed().value_or(0.0);
         viscosity_.push_back(0.25 * one.hourglass.viscosity * one.density * c);
         stiffness_.push_back(0.25 * one.hourglass.stiffness * one.density * c * c);
         elastic_hourglass_ = elastic_hourglass_ || one.hourglass.stiffness > 0.0;
@@ -87,9 +104,14 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
         for (std::size_t c = 0; c < 4; ++c)
             at_[next[nature_.elements[k][c] - among().first()]++] = 4 * k + c;
     set_nature();
+    const bool fluids = std::any_of(materials_.begin(), materials_.end(),
+                                    [](const Material& m) { return m.fluid(); });
     if (materials_.size() > 1)
         for (const Field field : nature_.element_fields)
-            if (field != Field::stress && field != Field::energy) of_some_.push_back(field);
+            if (fluids || (field != Field::stress && field != Field::energy))
+                of_some_.push_back(field);
+    if (fluids)
+        for (auto* const all : {&density_, &energy_, &pressure_}) all->resize(n);
     returned_.resize(3 * n);
     grad_v_.resize(n);
     number_.resize(n);
@@ -100,18 +122,31 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
 
 void Elements::set_nature() {
     auto& fields = nature_.element_fields;
-    fields = {Field::stress, Field::energy};
-    if (elastic_hourglass_) fields.emplace_back(field_kind::hourglass_force);
-    for (const Material& one : materials_)
-        for (const Field field : one.law.history())
-            if (std::find(fields.begin(), fields.end(), field) == fields.end())
-                fields.push_back(field);
+    const auto add = [&fields](Field field, bool wanted) {
+        if (wanted && std::find(fields.begin(), fields.end(), field) == fields.end())
+            fields.push_back(field);
+    };
+    const auto any = [this](const auto& holds) {
+        return std::any_of(materials_.begin(), materials_.end(), holds);
+    };
+    add(Field::stress, any([](const Material& one) { return one.solid(); }));
+    add(Field::energy, any([](const Material& one) { return !one.cold(); }));
+    add(field_kind::hourglass_force, elastic_hourglass_);
+    for (const Material& one : materials_) {
+        add(field_kind::hourglass_work,
+            one.cold() && one.hourglass.viscosity + one.hourglass.stiffness > 0.0);
+        add(field_kind::friction_work, one.cold() && one.fluid()->viscosity);
+        if (const auto* const law = one.solid())
+            for (const Field field : law->history()) add(field, true);
+    }
     nature_.no_images = "elements do not meet the images of their nodes; use rigid sides";
-    nature_.smooth = std::none_of(materials_.begin(), materials_.end(),
-                                  [](const Material& material) { return material.law.returns(); });
+    nature_.smooth =
+        !any([](const Material& one) { return one.solid() && one.solid()->returns(); });
     std::string words = fmt::format("{} one-point elements", nature_.elements.size());
     for (const Material& one : materials_) {
-        words += fmt::format(", {} of density {:.6g}", one.law.describe(), one.density);
+        words += fmt::format(", {} of density {:.6g}",
+                             std::visit([](const auto& law) { return law.describe(); }, one.law),
+                             one.density);
         if (one.hourglass.viscosity > 0.0)
             words += fmt::format(", hourglass viscosity {:g}", one.hourglass.viscosity);
         if (one.hourglass.stiffness > 0.0)
@@ -120,37 +155,19 @@ void Elements::set_nature() {
     nature_.description = words;
 }
 
-template <class View>
-Elements::Corners Elements::corners_of(const View& nodes, std::size_t element) const {
-    Corners corners;
-    for (std::size_t c = 0; c < 4; ++c) {
-        const auto i = static_cast<Eigen::Index>(nature_.elements[element][c] - among().first());
-        corners[c] = {{nodes(0, i), nodes(1, i)}};
-    }
-    return corners;
-}
-
-template <class F>
-void Elements::for_each_material(std::size_t first, std::size_t count, const F& f) const {
-    for (std::size_t k = first; k < first + count;) {
-        std::size_t end = material_.empty() ? first + count : k + 1;
-        while (end < first + count && material_[end] == material_[k]) ++end;
-        f(material_of(k), k, end - k);
-        k = end;
-    }
-}
-
 /// Of the right-hand side at work: nodes, and where fields of the elements begin (null for those not there).
 struct Elements::Held {
     ConstState<2> nodes;
     const double *broken, *Q;
-    double *e_dot, *Q_dot;
+    double *e_dot, *Q_dot, *resisted, *rubbed;
     explicit Held(const Now& now)
         : nodes(now.state),
           broken(now.state.elements().find(field_kind::broken)),
           Q(now.state.elements().find(field_kind::hourglass_force)),
           e_dot(now.rate.elements().find(Field::energy)),
-          Q_dot(now.rate.elements().find(field_kind::hourglass_force)) {}
+          Q_dot(now.rate.elements().find(field_kind::hourglass_force)),
+          resisted(now.rate.elements().find(field_kind::hourglass_work)),
+          rubbed(now.rate.elements().find(field_kind::friction_work)) {}
 };
 
 /// Gradient, forces and the rate of the energy of one element.
@@ -170,6 +187,14 @@ void Elements::load(const Held& held, std::size_t element) {
     SymTensor<2> stress;
     for (std::size_t c = 0; c < 3; ++c) stress.c[c] = returned_[3 * element + c];
     const auto m = static_cast<std::size_t>(material_.empty() ? 0 : material_[element]);
+    const Fluid* const fluid = materials_[m].fluid();
+    if (fluid && fluid->viscosity) {
+        const SymTensor<2> friction = fluid->viscosity->viscous_stress(grad_v_[element]);
+        if (fluid->state.cold)
+            held.rubbed[element] =
+                shape.area * (grad_v_[element] * friction).trace() / mass_[element];
+        stress = stress + friction;
+    }
     const Vec<2> q_dot = shape.hourglass(v);
     Vec<2> Q = viscosity_[m] * std::sqrt(std::max(shape.area, 0.0)) * q_dot;
     if (elastic_hourglass_) {
@@ -181,6 +206,10 @@ void Elements::load(const Held& held, std::size_t element) {
         Q += Q_e;
     }
     force_[element] = shape.forces(stress, Q);
+    if (materials_[m].cold()) {
+        if (held.resisted) held.resisted[element] = dot(Q, q_dot) / mass_[element];
+        return;
+    }
     double power = 0.0;
     for (std::size_t c = 0; c < 4; ++c) power += dot(force_[element][c], v[c]);
     held.e_dot[element] = -power / mass_[element];
@@ -202,39 +231,43 @@ std::string Elements::rates(const Now& now) {
     const Held held(now);
     for (const Field field : of_some_) rate.field(field).setZero();
     parallel_blocks(nature_.elements.size(), [&](std::size_t begin, std::size_t size) {
-        for_each_material(
-            begin, size, [&](const Material& m, std::size_t first, std::size_t count) {
-                m.law.return_stress(now.t, first, count, state, returned_.data());
-                for (std::size_t k = first; k < first + count; ++k) load(held, k);
-                m.law.stress_rates({number_.data() + first, count}, {grad_v_.data() + first, count},
-                                   returned_.data(), state, rate);
-            });
+        for_each_material(begin, size,
+                          [&](const Material& m, std::size_t first, std::size_t count) {
+                              const auto* const law = m.solid();
+                              if (law)
+                                  law->return_stress(now.t, first, count, state, returned_.data());
+                              else
+                                  find_pressures(now, m.fluid()->state, first, count);
+                              for (std::size_t k = first; k < first + count; ++k) load(held, k);
+                              if (law)
+                                  law->stress_rates({number_.data() + first, count},
+                                                    {grad_v_.data() + first, count},
+                                                    returned_.data(), state, rate);
+                          });
     });
     const auto inverted = std::find(inverted_.begin(), inverted_.end(), 1);
     if (inverted != inverted_.end())
         return fmt::format("element {} is turned inside out", inverted - inverted_.begin());
+    if (auto reason = complaint(); !reason.empty()) return reason;
     gather(now);
     return {};
 }
 
 Elements::Answer Elements::answer(Ask what, std::span<const double> y) const {
-    if (what == Ask::damping) return {damping_};
+    const ConstState<2> nodes = state_of(y);
+    if (what == Ask::damping) return {damping_ + friction_damping(nodes)};
     if (what == Ask::neighbour_forces) return {neighbour_forces_in(y)};
     if (what != Ask::energy) return {};
-    const auto e = ConstState<2>(layout(), y).elements().energy();
-    return {exact_sum(mass_.size(), [&](std::size_t k) {
-        return mass_[k] * e(0, static_cast<Eigen::Index>(k));
-    })};
+    return {exact_sum(mass_.size(), [&](std::size_t k) { return mass_[k] * energy_of(nodes, k); })};
 }
 
 double Elements::neighbour_forces_in(std::span<const double> y) const {
-    const ConstState<2> state(layout(), y), elements = state.elements();
+    const ConstState<2> nodes = state_of(y);
+    const Fields all = fields(y);
     const double sum = exact_sum(mass_.size(), [&](std::size_t k) {
-        const auto column = static_cast<Eigen::Index>(k);
-        const double area =
-            QuadrilateralShape<>(corners_of(this->among().of(state).position(), k)).area;
-        return std::abs(area) * elements.stress().col(column).norm() +
-               mass_[k] * std::abs(elements.energy()(0, column));
+        const double area = QuadrilateralShape<>(corners_of(nodes.position(), k)).area;
+        return std::abs(area) * Eigen::Map<const Eigen::Vector3d>(all.stress[k].c.data()).norm() +
+               mass_[k] * std::abs(all.energy[k]);
     });
     return sum / particles().spacing;
 }
@@ -252,7 +285,8 @@ bool Elements::settle(double t, const State<2>& nodes) {
     bool changed = false;
     for_each_material(0, nature_.elements.size(),
                       [&](const Material& m, std::size_t first, std::size_t count) {
-                          changed = m.law.settle(t, first, count, state) || changed;
+                          if (const auto* const law = m.solid())
+                              changed = law->settle(t, first, count, state) || changed;
                       });
     const double* const broken = state.find(field_kind::broken);
     if (broken == nullptr) return changed;

@@ -72,6 +72,8 @@ void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
         to_string(scheme.angular_momentum)));
 }
 
+}  // namespace
+
 void check_fluid(const Fluid& fluid, int dim) {
     const auto refuse_negative = [](const char* name, double value) {
         if (!(value >= 0.0) || !std::isfinite(value))
@@ -86,8 +88,6 @@ void check_fluid(const Fluid& fluid, int dim) {
     }
     if (fluid.conduction) refuse_negative("conductivity", fluid.conduction->kappa);
 }
-
-}  // namespace
 
 template <int Dim>
 FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,

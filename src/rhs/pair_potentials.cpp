@@ -2,6 +2,7 @@
 #include "packed_particles.hpp"
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
+#include <spam/physics/long_range.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 
 #include <fmt/format.h>
@@ -12,6 +13,16 @@
 
 namespace spam {
 namespace {
+
+/// PairLaw::of_pair of a potential that knows the distance alone.
+template <int Dim, DistancePotential Potential>
+auto of_distance(const Potential& potential) {
+    return [potential](PairForce<Dim>& pair, const Point<Dim>&) {
+        const double r2 = pair.r_ij.squaredNorm();
+        pair.energy = potential.energy(r2);
+        pair.force_over_r = potential.force_over_r(r2);
+    };
+}
 
 template <int Dim>
 PairLaw<Dim> law_of(const CorePotential& core) {
@@ -25,6 +36,7 @@ PairLaw<Dim> law_of(const CorePotential& core) {
                      fmt::format("core {:g} of range {:g}", core.e_c, core.s)};
     law.constants.core_energy = core.e_c;
     law.constants.core_range = core.s;
+    law.of_pair = of_distance<Dim>(core);
     return law;
 }
 
@@ -43,6 +55,7 @@ PairLaw<Dim> law_of(const CohesivePotential& potential) {
                     potential.e_b, potential.a)};
     law.constants.core_energy = potential.e_b;
     law.constants.core_range = potential.a;
+    law.of_pair = of_distance<Dim>(potential);
     return law;
 }
 
@@ -70,6 +83,12 @@ PairLaw<Dim> law_of(const LongRangeScheme& scheme, const Particles<Dim>& particl
     law.constants.core_energy = scheme.strength;
     law.constants.core_range = scheme.softening;
     law.columns = {q};
+    law.of_pair = [q, potential = LongRangePotential::with(law.constants)](PairForce<Dim>& pair,
+                                                                           const Point<Dim>&) {
+        const double r2 = pair.r_ij.squaredNorm(), u = potential.inverse(r2);
+        pair.energy = potential.strength * q[pair.i] * potential.potential(r2, q[pair.j]);
+        pair.force_over_r = pair.energy * (u * u);
+    };
     return law;
 }
 
@@ -84,6 +103,12 @@ PairLaw<Dim> weights_law(const Particles<Dim>& particles, double range, double a
                     range)};
     law.constants.core_energy = a;
     law.kernel = kernel;
+    law.of_pair = [a, mass = particles.mass, weight = GeneralWeight<Dim>(kernel, range)](
+                      PairForce<Dim>& pair, const Point<Dim>&) {
+        const double factor = a * mass[pair.i] * mass[pair.j], r = pair.r_ij.norm();
+        pair.energy = factor * weight.value(r);
+        pair.force_over_r = factor * weight.minus_slope_over_r(r);
+    };
     return law;
 }
 

@@ -2,6 +2,7 @@
 #include "packed_particles.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
+#include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/record.hpp>
 #include <spam/rhs/pair_term.hpp>
 
@@ -132,6 +133,33 @@ auto PairTerm<Dim>::answer(Ask what, std::span<const double> y) const -> Answer 
                     law_.sweeps.density, this->particles().size(),
                     {this->state_of(y).position().data(), nullptr, this->particles().mass.data()})};
     return Term<Dim>::answer(what, y);
+}
+
+template <int Dim>
+std::optional<std::vector<PairForce<Dim>>> PairTerm<Dim>::pair_forces(
+    std::span<const double> y) const {
+    if (!law_.of_pair) return std::nullopt;
+    const Points<Dim> x = this->state_of(y).position();
+    std::vector<PairForce<Dim>> pairs;
+    const auto add = [&](std::size_t i, std::size_t j) {
+        const auto x_i = x.col(static_cast<Eigen::Index>(i)),
+                   x_j = x.col(static_cast<Eigen::Index>(j));
+        PairForce<Dim> pair{i, j, this->box().separation(x_i, x_j), 0.0, 0.0};
+        law_.of_pair(pair, pair.r_ij - (x_i - x_j));
+        pair.i += this->among().first();
+        pair.j += this->among().first();
+        pairs.push_back(pair);
+    };
+    if (std::isinf(law_.range)) {
+        for (std::size_t i = 0; i < this->particles().size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) add(i, j);
+        return pairs;
+    }
+    const PairList<Dim> near(x, law_.range, this->box());
+    for (std::size_t i = 0; i < near.size(); ++i)
+        for (const std::uint32_t j : near.neighbours(i))
+            if (j < i) add(i, j);
+    return pairs;
 }
 
 template class PairTerm<1>;

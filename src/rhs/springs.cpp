@@ -114,6 +114,23 @@ auto Springs<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
 }
 
 template <int Dim>
+std::optional<std::vector<PairForce<Dim>>> Springs<Dim>::pair_forces(
+    std::span<const double> y) const {
+    Neighbourhood<Dim> own = near_.for_observer();
+    load(own, this->state_of(y).position().data());
+    std::vector<PairForce<Dim>> pairs;
+    const auto number = [&](std::size_t slot) {
+        return this->among().first() + own.list().particle(slot);
+    };
+    for (std::size_t slot = 0; slot < own.list().size(); ++slot)
+        each_bond(own, slot, [&](const Point<Dim>& r_ij, double r, std::size_t other) {
+            const std::size_t i = number(slot), j = number(other);
+            if (j < i) pairs.push_back({i, j, r_ij, spring_.energy(r), spring_.force(r) / r});
+        });
+    return pairs;
+}
+
+template <int Dim>
 std::vector<SymTensor<Dim>> Springs<Dim>::stress(std::span<const double> y, double volume) const {
     Neighbourhood<Dim> own = near_.for_observer();
     load(own, this->state_of(y).position().data());

@@ -6,7 +6,7 @@
 #include <spam/material/ideal_gas.hpp>
 #include <spam/material/isentropic_gas.hpp>
 #include <spam/material/lucy_gas.hpp>
-#include <spam/material/van_der_waals.hpp>
+#include <spam/material/van_der_waals_isotherm.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -154,6 +154,7 @@ BOOST_AUTO_TEST_CASE(cold_fluids) {
     check_cold(IsentropicGas{1.3, 0.9, 5.0 / 3.0});
     check_cold(IsentropicGas{0.7, 1.2, 7.0});
     check_cold(EmbeddedAtom{1.4, 1.1});
+    check_cold(VanDerWaalsIsotherm{0.7, 0.2, 0.6});
 }
 
 BOOST_AUTO_TEST_CASE(fluids_with_a_temperature) {

@@ -231,6 +231,7 @@ BOOST_AUTO_TEST_CASE(what_other_problems_cannot_do) {
         in("plane_wave", {"--block", "1e-9"}, {"block", "between 2 and"}),
         in("plane_wave", {"--range", "10"}, {"cells: 10 x 10", "--range 10", "the least is 24"}),
         in("plane_wave", {"--cells", "7"}, {"cells: 7", "even"}),
+        in("plane_wave", {"--seed", "3"}, {"seed", "--perturb"}),
         in("tensile_instability", {"--range", "10"}, {"cells: 10 x 10", "the least is 24"}),
         in("tensile_instability", {"--speed", "1e-300"}, {"speed", "at least 1e-12"}),
         in("fragmenting_bar", {"--speed", "1e5"}, {"speed: at 100000", "dt = 0.05", "--dt below"}),

@@ -117,6 +117,29 @@ BOOST_AUTO_TEST_CASE(small_waves_keep_the_period_of_the_lattice) {
     }
 }
 
+// The distance is in proportion to the perturbation; where matter is under tension it grows, with averages it does not.
+BOOST_AUTO_TEST_CASE(a_perturbed_wave_stays_near_the_other_one) {
+    const Words small{"--cells", "16", "--t-end", "60"};
+    const auto found = [&](const Words& more) {
+        Words all = small;
+        all.insert(all.end(), more.begin(), more.end());
+        return results_of("plane_wave", all);
+    };
+    const auto a = found({"--perturb", "1e-6"}), b = found({"--perturb", "1e-4"});
+    const auto averaged = found({"--perturb", "1e-6", "--transport", "monaghan"});
+    for (const std::string name : {"transverse", "longitudinal"}) {
+        const std::string distance = name + "_perturbed_largest_distance";
+        BOOST_TEST(a.at(distance) == b.at(distance), boost::test_tools::tolerance(5e-3));
+        BOOST_TEST(a.at(distance) > 0.7);
+        BOOST_TEST(averaged.at(distance) < 1.0);
+        // The waves themselves are those without the option.
+        BOOST_TEST(a.at(name == "transverse" ? "period" : "longitudinal_period") ==
+                   b.at(name == "transverse" ? "period" : "longitudinal_period"));
+    }
+    BOOST_TEST(a.at("longitudinal_perturbed_largest_distance") >
+               2.0 * a.at("transverse_perturbed_largest_distance"));
+}
+
 BOOST_AUTO_TEST_CASE(defaults_and_smoke) {
     for (const char* name : {"stability", "tensile_instability", "plane_wave"})
         results_of(name, {"--smoke"});

@@ -119,6 +119,18 @@ BOOST_AUTO_TEST_CASE(nor_does_that_of_elements) {
     BOOST_TEST(allocations_of_second_call(*few, 1) == 0);
     const auto many = model_of({distorted_mesh(40, 30)}, yielding(0.05, 1.0), {0.1, 0.1});
     BOOST_TEST(allocations_of_second_call(*many, 2) == 0);
+    MeshedBodies bodies = make_nodes({distorted_mesh(40, 30)}, lattice_density);
+    ParticleModel<2> mixed(std::move(bodies.nodes));
+    std::vector<std::int32_t> material(bodies.element.size());
+    for (std::size_t k = 0; k < material.size(); ++k)
+        material[k] = static_cast<std::int32_t>(k / 7 % 2);
+    mixed.add_term<Elements>(
+        std::move(bodies.element),
+        std::vector<Elements::Material>{
+            {elastic, lattice_density, {}},
+            {Fluid{EmbeddedAtom{}, NewtonViscosity{0.1, 0.1}}, lattice_density, {0.1, 0.1}}},
+        material);
+    BOOST_TEST(allocations_of_second_call(mixed, 2) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(nor_does_that_of_a_solid_with_material_vectors) {

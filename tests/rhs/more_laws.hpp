@@ -12,7 +12,7 @@
 #include <spam/material/perzyna.hpp>
 #include <spam/material/smooth_hencky_solid.hpp>
 #include <spam/material/smooth_yield.hpp>
-#include <spam/material/van_der_waals.hpp>
+#include <spam/material/van_der_waals_isotherm.hpp>
 #include <spam/rhs/ellipses.hpp>
 #include <spam/rhs/reaction.hpp>
 
@@ -137,6 +137,13 @@ inline const Laws<Dim> more_laws{
                     0.03 * u * s.of("l^2"), CorePotential{s.energy(0.1), s.length(1.1)}, Kernel::w5,
                     s.length(3.0)});
      }},
+    {"DensityPotentialTerm of a VanDerWaalsIsotherm",
+     [](Sample<Dim>& s, const Scheme&) {
+         const double b = s.of("l^D/m"), T = s.temperature(0.2);
+         add_term<DensityPotentialTerm<Dim>>(
+             s, DensityPotentials{.state = VanDerWaalsIsotherm{0.3 * T * b, 0.4 * b, T},
+                                  .range = s.length(3.0)});
+     }},
     {"Contact of two bodies", [](Sample<Dim>& s, const Scheme&) { add_contact(s); }},
     {"LongRange in a gas",
      [](Sample<Dim>& s, const Scheme& scheme) {
@@ -170,13 +177,39 @@ inline const Laws<2> more_plane_laws{
     {"PlaneStressVonMises", solid_of<2>([](const Sample<2>& s) {
          return YieldingSolid<PlaneStressVonMises>(elastic<PlaneStressVonMises>(s), hardening(s));
      })},
-    {"SmoothYield of elements", [](Sample<2>& s, const Scheme&) {
+    {"SmoothYield of elements",
+     [](Sample<2>& s, const Scheme&) {
          add_term<Elements>(
              s, mesh_of(s.model.particles()),
              std::vector<Elements::Material>{
                  {SmoothYield<PlaneStrainVonMises>(elastic<PlaneStrainVonMises>(s), hardening(s)),
                   s.density(),
                   {0.1, 0.3}}});
+     }},
+    {"cold fluid of elements",
+     [](Sample<2>& s, const Scheme&) {
+         add_term<Elements>(
+             s, mesh_of(s.model.particles()),
+             std::vector<Elements::Material>{
+                 {Fluid{CavitatingEmbeddedAtom({s.stress(1.0), s.density()}, s.stress(1e-3)),
+                        NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}},
+                  s.density(),
+                  {0.1, 0.3}}});
+     }},
+    {"gas of elements", [](Sample<2>& s, const Scheme&) {
+         const auto& law = add_term<Elements>(
+             s, mesh_of(s.model.particles()),
+             std::vector<Elements::Material>{
+                 {Fluid{GammaGas{1.4}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}},
+                  s.density(),
+                  {0.1, 0.3},
+                  s.temperature(0.2)}});
+         s.fluid = [&s, &law](const Points<2>&, const Points<2>& v) {
+             auto y = initial_state<2>(s.model, s.density(), s.stress(0.43), at_rest<2>());
+             State<2>(s.model.layout(), y).velocity() = v;
+             law.warm(y);
+             return y;
+         };
      }}};
 
 /// Every law there is, by name.

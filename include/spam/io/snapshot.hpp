@@ -21,7 +21,8 @@ void write_file_series(const RunFolder& folder, std::string_view name,
 /// snapshot. Points are inside the box where it is periodic (those of y are not). Point arrays: id (no two
 /// alike), body, mass, particle_spacing, velocity (3), and where the model has them density, stress
 /// (3 x 3 tensor) and energy. Elements are polygons between the points, with all their fields as cell arrays and
-/// `element`, their number (below 0 for a particle that is no corner of any). Field data: TimeValue, box_low, box_high,
+/// `element`, their number (below 0 for a particle that is no corner of any); where some are of a fluid also density,
+/// stress and energy as they follow from the corners. Field data: TimeValue, box_low, box_high,
 /// periodic (3 each): the box ends at its walls, and where a side is open with the last particle. Where they are
 /// declared the text `units` says them, and where they have names arrays carry theirs as VTK has it (UNITS_LABEL).
 template <int Dim>

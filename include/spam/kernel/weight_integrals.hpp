@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/state.hpp>
 #include <spam/kernel/any_weight.hpp>
 
 namespace spam {
@@ -26,6 +27,11 @@ double fastest_diffusion(const AnyWeight<Dim>& weight);
 template <int Dim>
 double relative_step(const AnyWeight<Dim>& weight, const AnyWeight<Dim>& standard);
 
+/// The mean of w over the straight line from `a` to `b`, as seen from where the weight function has its centre: Hardy's
+/// bond function. To rounding errors.
+template <int Dim>
+double mean_along(const AnyWeight<Dim>& weight, const Point<Dim>& a, const Point<Dim>& b);
+
 extern template double moment(const AnyWeight<1>&, int);
 extern template double moment(const AnyWeight<2>&, int);
 extern template double moment(const AnyWeight<3>&, int);
@@ -38,5 +44,8 @@ extern template double fastest_diffusion(const AnyWeight<3>&);
 extern template double relative_step(const AnyWeight<1>&, const AnyWeight<1>&);
 extern template double relative_step(const AnyWeight<2>&, const AnyWeight<2>&);
 extern template double relative_step(const AnyWeight<3>&, const AnyWeight<3>&);
+extern template double mean_along(const AnyWeight<1>&, const Point<1>&, const Point<1>&);
+extern template double mean_along(const AnyWeight<2>&, const Point<2>&, const Point<2>&);
+extern template double mean_along(const AnyWeight<3>&, const Point<3>&, const Point<3>&);
 
 }  // namespace spam

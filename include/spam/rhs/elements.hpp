@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/material/fluid.hpp>
 #include <spam/material/material.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <algorithm>
 #include <cstdint>
+#include <variant>
 
 namespace spam {
 
@@ -13,38 +15,63 @@ namespace field_kind {
 /// Q of an element that resists the hourglass elastically.
 inline constexpr FieldKind hourglass_force{"hourglass_force", Rank::vector, Role::integrated,
                                            "m l/t^2"};
+/// What an element of a cold fluid has taken from the motion, by mass: against the hourglass, and by friction.
+inline constexpr FieldKind hourglass_work{"hourglass_work", Rank::scalar, Role::integrated,
+                                          "l^2/t^2"};
+inline constexpr FieldKind friction_work{"friction_work", Rank::scalar, Role::integrated,
+                                         "l^2/t^2"};
 }  // namespace field_kind
 
 /// What resists the motions of an element that leave the gradient at its centre zero, forces -gamma_n Q on its
 /// corners (physics/quadrilateral.hpp). With c the longitudinal sound speed and q_dot = gamma_n v_n
 ///     Q = (viscosity/4) rho sqrt(A) c q_dot  +  Q_e,    Q_e_dot = (stiffness/4) rho c^2 q_dot + W Q_e,
-/// W the spin. On square elements viscosity 1 is the critical damping of stiffness 1, and exact integration would
-/// have the stiffness (lambda + 3 eta)/(3 (lambda + 2 eta)). Either may be 0.
+/// W the spin; rho and c are those of the start. On square elements viscosity 1 is the critical damping of stiffness 1,
+/// and exact integration would have the stiffness (lambda + 3 eta)/(3 (lambda + 2 eta)). Either may be 0.
 struct HourglassControl {
     double viscosity = 0.0;
     double stiffness = 0.0;
 };
 
 /// Plane finite elements: quadrilaterals with one point of integration between particles, their nodes, whose
-/// masses are lumped. An element holds stress and internal energy (by its mass M), and what its material
-/// remembers, as fields of y (Holder::element, StateView::elements()):
-///     m_i v_dot_i = -sum over elements and corners n of i  (A sigma . b_n + gamma_n Q)
+/// masses are lumped,
+///     m_i v_dot_i = -sum over elements and corners n of i  (A sigma . b_n + gamma_n Q).
+///
+/// One of a solid holds stress and internal energy (by its mass M), and what its material remembers, as fields of y
+/// (Holder::element, StateView::elements()):
 ///     sigma_dot as of a particle with the gradient at the centre,    M e_dot = A sigma : grad v + Q . q_dot.
 /// The stress of a yielding law is a trial, as for particles. An element that its law calls broken is removed
-/// for good: no stress, no force; its mass stays with the nodes, its energy with it. Keeps p exactly, L and E to
-/// integrator error, also when elements break.
+/// for good: no stress, no force; its mass stays with the nodes, its energy with it.
+///
+/// One of a fluid has the density of its corners, and the stress of now in place of one in y:
+///     rho = M/A,    sigma = -P(rho, e) 1 + friction of the gradient at the centre,
+/// with e_dot as of a solid. A cold law has its energy M e(M/A) from the corners as well, and its forces
+/// P dA/dx_n are the exact gradient of it: y then holds nothing for the element but the work of friction and
+/// against the hourglass, where there is any, which internal energies count.
+///
+/// Keeps p exactly, L and E to integrator error, also when elements break.
 class Elements final : public Term<2> {
   public:
     struct Material {
-        spam::Material<2> law;
+        std::variant<spam::Material<2>, Fluid> law;
         double density;  ///< mass per area at the start
         HourglassControl hourglass{};
+        double temperature = 0.0;  ///< at the start, of a fluid that has one
+
+        /// Null where it is a fluid.
+        const spam::Material<2>* solid() const { return std::get_if<spam::Material<2>>(&law); }
+        /// Null where it is a solid.
+        const Fluid* fluid() const { return std::get_if<Fluid>(&law); }
+        /// A fluid whose energy is a function of the density.
+        bool cold() const { return fluid() != nullptr && fluid()->state.cold; }
+        /// At the start; none where the law has none.
+        std::optional<double> sound_speed() const;
     };
 
     /// `corners` by the numbers of particles in the model, as they lie in its reference configuration;
     /// `material`: place in the list of each, or empty where all are the first. Throws InputError for elements
     /// whose corners are not among the selection or not counterclockwise, for a law without a sound speed
-    /// where hourglasses are resisted, for numbers that make no sense and in a box.
+    /// where hourglasses are resisted, for a fluid that conducts heat or has friction by pairs, for numbers that make
+    /// no sense and in a box.
     Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners,
              std::vector<Material> materials, std::vector<std::int32_t> material = {});
 
@@ -56,20 +83,53 @@ class Elements final : public Term<2> {
     /// Density times area at the start.
     const std::vector<double>& mass() const { return mass_; }
 
+    /// Gives elements of fluids with a temperature, at the densities of the corners in y, the energy of the
+    /// temperature of their material, or of this one.
+    void warm(std::span<double> y, std::optional<double> temperature = {}) const;
+
+    /// What all elements have in a state, whether y holds it or not: a number for each.
+    struct Fields {
+        std::vector<double> density, energy;  ///< mass per area; internal energy by mass
+        std::vector<SymTensor<2>> stress;
+    };
+    Fields fields(std::span<const double> y) const;
+    /// Whether some elements are of a fluid.
+    bool has_fluid() const { return !density_.empty(); }
+
   private:
     using Corners = std::array<Vec<2>, 4>;
     struct Held;
     template <class View>
-    Corners corners_of(const View& nodes, std::size_t element) const;
+    Corners corners_of(const View& nodes, std::size_t element) const {
+        Corners corners;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto i =
+                static_cast<Eigen::Index>(nature_.elements[element][c] - among().first());
+            corners[c] = {{nodes(0, i), nodes(1, i)}};
+        }
+        return corners;
+    }
     const Material& material_of(std::size_t element) const {
         return materials_[material_.empty() ? 0 : static_cast<std::size_t>(material_[element])];
     }
     /// f(material, first, count) for runs of elements of one material among first, ..., first + count - 1.
     template <class F>
-    void for_each_material(std::size_t first, std::size_t count, const F& f) const;
+    void for_each_material(std::size_t first, std::size_t count, const F& f) const {
+        for (std::size_t k = first; k < first + count;) {
+            std::size_t end = material_.empty() ? first + count : k + 1;
+            while (end < first + count && material_[end] == material_[k]) ++end;
+            f(material_of(k), k, end - k);
+            k = end;
+        }
+    }
     void load(const Held& held, std::size_t element);
+    void find_pressures(const Now& now, const AnyEquationOfState& law, std::size_t first,
+                        std::size_t count);
+    std::string complaint() const;
     void gather(const Now& now) const;
     void set_nature();
+    double energy_of(const ConstState<2>& nodes, std::size_t element) const;
+    double friction_damping(const ConstState<2>& nodes) const;
     double neighbour_forces_in(std::span<const double> y) const;
 
     std::vector<Material> materials_;
@@ -90,9 +150,16 @@ class Elements final : public Term<2> {
     std::vector<std::uint32_t> number_;  ///< 0, 1, ...
     std::vector<Corners> force_;         ///< on the corners
     std::vector<unsigned char> inverted_;
+    std::vector<double> density_, energy_, pressure_;  ///< of fluids; empty where there is none
 };
 
 /// How many elements of a model have broken.
 std::size_t elements_broken(const Model<2>& model, std::span<const double> y);
+
+/// Elements::fields() of a model with elements of a fluid; empty for any other.
+Elements::Fields fluid_elements(const Model<2>& model, std::span<const double> y);
+
+/// What the elements of cold fluids of a model have taken from the motion against the hourglass.
+double hourglass_work(const Model<2>& model, std::span<const double> y);
 
 }  // namespace spam

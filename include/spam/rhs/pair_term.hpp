@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/rhs/pair_forces.hpp>
 #include <spam/rhs/sweeps.hpp>
 #include <spam/rhs/term.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -33,11 +35,14 @@ struct PairLaw {
     std::optional<Field> heat{};
     double damping =
         0.0;  ///< by it: how fast neighbours at rest lose their relative velocity, 1/time
+    /// Sets energy and force of two particles, whose numbers are those of the selection. `periods`: r_ij less the
+    /// difference of their positions. Null where forces are not along r_ij (friction), or unknown.
+    std::function<void(PairForce<Dim>& pair, const Point<Dim>& periods)> of_pair{};
 };
 
 /// Forces between pairs: by a potential of their distance, or friction.
 template <int Dim>
-class PairTerm : public Term<Dim> {
+class PairTerm : public Term<Dim>, public ForcesOfPairs<Dim> {
   public:
     /// Throws InputError for a range that is not above 0, for a periodic box narrower than a fifth of the range
     /// and for columns that are not as long as there are particles.
@@ -49,6 +54,8 @@ class PairTerm : public Term<Dim> {
     using typename Term<Dim>::Answer;
     std::string rates(const Now& now) override;
     Answer answer(Ask what, std::span<const double> y) const override;
+    std::optional<std::vector<PairForce<Dim>>> pair_forces(
+        std::span<const double> y) const override;
 
   private:
     std::size_t own_columns() const { return law_.sweeps.pack.kinds.size(); }

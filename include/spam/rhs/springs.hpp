@@ -3,6 +3,7 @@
 
 #include <spam/material/harmonic_spring.hpp>
 #include <spam/neighbors/neighbourhood.hpp>
+#include <spam/rhs/pair_forces.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 namespace spam {
@@ -11,7 +12,7 @@ namespace spam {
 /// paper's reference solution, [HHM04] VI: y = (x, v). Keeps p exactly, L and E to integrator
 /// error.
 template <int Dim>
-class Springs final : public Term<Dim> {
+class Springs final : public Term<Dim>, public ForcesOfPairs<Dim> {
   public:
     using typename Term<Dim>::Now;
 
@@ -24,6 +25,8 @@ class Springs final : public Term<Dim> {
     std::string rates(const Now& now) override;
     /// Its neighbour forces are those of all bonds, from both ends.
     Answer answer(Ask what, std::span<const double> y) const override;
+    std::optional<std::vector<PairForce<Dim>>> pair_forces(
+        std::span<const double> y) const override;
     /// Throws InputError where particles are split or merged: all springs have one length.
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
                    const ConstState<Dim>& now) override;

@@ -6,7 +6,7 @@
 Results of problems: read(folder), run(problem, **options); these need numpy only.
 
 Simulations: lattices (triangular_hexagon, ...), materials (ElasticSolid, Fluid, Material, ...), Scheme, models
-(SmoothParticles, TotalLagrangian, MaterialVectors, Springs), Simulation. Equations of one's own: integrate,
+(SmoothParticles, TotalLagrangian, MaterialVectors, Springs, Elements), Simulation. Equations of one's own: integrate,
 work_precision, methods. These need the compiled part, spam_mechanics._core.
 
 Units are reduced, as in the papers: nothing is converted. Errors are InputError (a ValueError), GuardStop (a
@@ -21,12 +21,14 @@ from .snapshots import Snapshot
 from .tables import Table
 
 _COMPILED = {
-    "modelling": ("SmoothParticles", "TotalLagrangian", "MaterialVectors", "Springs", "shape_error",
+    "modelling": ("SmoothParticles", "TotalLagrangian", "MaterialVectors", "Springs", "Molecules", "molecular_fields", "Elements",
+                  "element_fields", "rectangle_mesh", "shape_error",
                   "closest_pair"),
     "simulating": ("Drift", "Run", "Simulation", "State"),
     "equations": ("Solution", "WorkPrecision", "integrate", "work_precision"),
-    "_core": ("Drag", "ElasticSolid", "Fluid", "Force", "Friction", "GammaGas", "Gravity", "IdealGas",
-              "IsentropicGas", "LucyGas", "Material", "Scheme", "VanDerWaals", "VonMisesSolid", "ball_of",
+    "_core": ("Drag", "ElasticSolid", "EmbeddedAtom", "Fluid", "Force", "Friction", "GammaGas", "Gravity", "IdealGas",
+              "IsentropicGas", "LucyGas", "Material", "Scheme", "VanDerWaals",
+              "VanDerWaalsIsotherm", "VonMisesSolid", "ball_of",
               "cubic_lattice", "cylinder_of", "methods", "square_lattice", "triangular_block", "triangular_disk", "triangular_hexagon",
               "usable_cores"),
 }

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
-_Gas = Union[LucyGas, IdealGas, GammaGas, IsentropicGas, VanDerWaals]
+_Gas = Union[LucyGas, IdealGas, GammaGas, IsentropicGas, VanDerWaals, VanDerWaalsIsotherm, EmbeddedAtom]
 _Solid = Union[ElasticSolid, VonMisesSolid, Material]
 _External = Union[Gravity, Friction, Drag, Force]
 _Speed = Union[None, float, Callable[[float], float]]
@@ -140,6 +140,12 @@ class IsentropicGas:
 class VanDerWaals:
     def __init__(self, a: float = 1.0, b: float = 1.0, dimensions: int = 2) -> None: ...
 
+class EmbeddedAtom:
+    def __init__(self, B0: float = 1.0, rho0: float = 1.0, tension_limit: Optional[float] = None) -> None: ...
+
+class VanDerWaalsIsotherm:
+    def __init__(self, a: float = 1.0, b: float = 1.0, T: float = 0.25) -> None: ...
+
 class Fluid:
     def __init__(self, state: _Gas, eta: Optional[float] = None, lam: float = 0.0,
                  kappa: Optional[float] = None, by_pairs: bool = False) -> None: ...
@@ -199,6 +205,20 @@ def Springs(x: ArrayLike, *, kappa: float = 1.0, rest_length: Optional[float] = 
             closest_approach: float = 0.0, mass: ArrayLike = 1.0, spacing: float = 1.0,
             box: Optional[Sequence[float]] = None,
             externals: Sequence[_External] = ()) -> _Model: ...
+def Elements(x: ArrayLike, corners: ArrayLike, *,
+             material: Union[None, _Solid, Fluid, Sequence[Union[_Solid, Fluid]]] = None,
+             density: Union[float, Sequence[float]] = 1.0, which: Optional[ArrayLike] = None,
+             temperature: Union[float, Sequence[float]] = 0.0,
+             hourglass_viscosity: float = 0.0, hourglass_stiffness: float = 0.0, held_x: Sequence[int] = (),
+             held_y: Sequence[int] = (), spacing: float = 1.0,
+             externals: Sequence[_External] = ()) -> _Model: ...
+def element_fields(model: _Model, y: ArrayLike) -> dict[str, _Array]: ...
+def rectangle_mesh(columns: int, rows: int, spacing: float = 1.0) -> tuple[_Array, _Whole]: ...
+def Molecules(x: ArrayLike, *, energy: float = 1.0, length: Optional[float] = None, closest_approach: float = 0.0,
+              mass: ArrayLike = 1.0, spacing: float = 1.0, box: Optional[Sequence[float]] = None,
+              externals: Sequence[_External] = ()) -> _Model: ...
+def molecular_fields(model: _Model, state: Union[State, ArrayLike], places: ArrayLike, *, kernel: str = "lucy",
+                     range: Optional[float] = None) -> dict[str, _Array]: ...
 def shape_error(model: _Model, state: State) -> float: ...
 def closest_pair(model: _Model, state: State) -> float: ...
 

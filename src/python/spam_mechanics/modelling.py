@@ -4,7 +4,10 @@ import math
 
 import numpy as np
 
-from ._core import ElasticSolid, Scheme, remembering, smooth_particles
+from .errors import InputError
+from ._core import ElasticSolid, MatterOfElements, Scheme, elements, remembering, smooth_particles
+from ._core import element_fields as _element_fields, rectangle_mesh as _rectangle_mesh
+from ._core import molecular_fields as _molecular_fields
 
 
 def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, spacing=1.0, box=None,
@@ -57,6 +60,86 @@ def Springs(x, *, kappa=1.0, rest_length=None, closest_approach=0.0, mass=1.0, s
     return remembering(x, "springs", ElasticSolid.triangular_lattice(kappa), kappa, rest_length, mass,
                        _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
                        list(box or ()), list(externals))
+
+
+def Elements(x, corners, *, material=None, density=1.0, which=None, temperature=0.0, hourglass_viscosity=0.0,
+             hourglass_stiffness=0.0, held_x=(), held_y=(), spacing=1.0, externals=()):
+    """Plane finite elements with one point of integration, of solids and fluids, in free space.
+
+    x, corners  nodes (N, 2), and of each element the numbers of its four, counterclockwise (M, 4)
+    material    ElasticSolid (default: of the triangular lattice), VonMisesSolid, Material or Fluid; or several,
+                of which `which` (M,) names one for each element. A fluid has the density of its corners, and a cold
+                one (EmbeddedAtom, ...) its energy as well. Conduction and friction by pairs are refused
+    density     at the start (mass/length^2); masses of the nodes follow. Of several materials one for each,
+                where they differ
+    temperature likewise, of gases; start(temperature=...) may give another
+    hourglass_viscosity, hourglass_stiffness
+                resistance to motions that leave the gradient at the centre zero (1: critical damping of 1)
+    held_x, held_y
+                numbers of nodes that are held along x, along y: floors and walls on which they slide
+    spacing     typical side of an element; externals as of SmoothParticles()
+    """
+    material = ElasticSolid.triangular_lattice() if material is None else material
+    several = list(material) if isinstance(material, (list, tuple)) else [material]
+    numbers = zip(several, _one_each("density", density, several), _one_each("temperature", temperature, several))
+    materials = [MatterOfElements(one, rho, hourglass_viscosity, hourglass_stiffness, T) for one, rho, T in numbers]
+    return elements(x, _whole("corners", corners, (-1, 4)), materials,
+                    [] if which is None else _whole("which", which, (-1,)), spacing, list(externals),
+                    _whole("held_x", held_x, (-1,)), _whole("held_y", held_y, (-1,)))
+
+
+def _one_each(name, given, several):
+    """A number for each of several materials."""
+    try:
+        return np.broadcast_to(np.asarray(given, float), (len(several),)).tolist()
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: give a number, or one for each of the {len(several)} materials") from None
+
+
+def _whole(name, given, shape):
+    """A list of whole numbers of this shape, -1 for any length; an empty one has none."""
+    try:
+        array = np.asarray(given)
+        if array.size == 0:
+            return []
+        if array.dtype.kind in "iu" and array.ndim == len(shape) and array.shape[1:] == shape[1:]:
+            return array.tolist()
+    except ValueError:
+        pass
+    raise InputError(f"{name}: give whole numbers of the shape {str(shape).replace('-1', 'n')}")
+
+
+def element_fields(model, y):
+    """density (M,), energy by mass (M,) and stress (M, 3: xx, yy, xy) of all elements, as their corners and y say."""
+    return _element_fields(model, y)
+
+
+def rectangle_mesh(columns, rows, spacing=1.0):
+    """columns x rows squares about the origin, row by row from the lower left: nodes (N, 2), corners (M, 4)."""
+    x, corners = _rectangle_mesh(columns, rows, spacing)
+    return x, np.array(corners)
+
+
+def Molecules(x, *, energy=1.0, length=None, closest_approach=0.0, mass=1.0, spacing=1.0, box=None, externals=()):
+    """Molecular dynamics: all pairs of x (N, D) repel each other below `length` (default: spacing) and attract each
+    other up to sqrt(2) of it, energy (q^8 - 2 q^4) with q = 2 - r^2/length^2, [HH07] 13; others as of Springs()."""
+    length = spacing if length is None else length
+    return remembering(x, "molecules", ElasticSolid.triangular_lattice(), energy, length, mass,
+                       _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
+                       list(box or ()), list(externals))
+
+
+def molecular_fields(model, state, places, *, kernel="lucy", range=None):
+    """Fields of Molecules() or Springs() in a state (or y) at places (M, D), by a weight function (Hardy, J. Chem.
+    Phys. 76, 622, 1982): density, temperature and energy by volume (M,), velocity (M, D), pressure (M, S: xx; xx, yy,
+    xy; xx, yy, zz, xy, yz, xz), whose bonds are spread along their lines: d(rho u)/dt + div(rho u u + P) = 0.
+
+    range (length; default 3 spacings). The temperature, that of velocities less u, is too low by the part
+    sum w^2/(sum w)^2. Where no particle is in range, velocity and temperature are NaN.
+
+    Raises InputError for a model whose forces are not those of pairs.
+    """
+    return _molecular_fields(model, getattr(state, "y", state), places, kernel, range)
 
 
 def _solid(kind, x, material, density, range, penalty, kernel, viscosity, closest_approach, mass, spacing, box,
