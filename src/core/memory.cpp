@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/memory.hpp>
+#include <spam/core/parts.hpp>
 
 #include <fmt/format.h>
 
@@ -90,10 +91,11 @@ void Memory<Dim>::laws(std::string names) {
 template <int Dim>
 void Memory<Dim>::among(std::size_t first, std::size_t count) {
     std::size_t was = first;
-    was_ = count_ = count;
+    was_ = count_ =
+        Parts::here().total(count);  // all parts write and read what holds for the whole run
     archive_(was, was_);
     if (!carries()) {
-        if (was != first || was_ != count)
+        if (was != first || was_ != count_)
             throw InputError("what was remembered is not of these particles");
         return;
     }
@@ -103,12 +105,14 @@ void Memory<Dim>::among(std::size_t first, std::size_t count) {
 template <int Dim>
 void Memory<Dim>::particles(Field field, std::vector<double>& values) {
     begin(field, Holder::particle);
-    if (!reading()) return archive_(values);
-    std::vector<double> old;
-    archive_(old);
+    Parts& parts = Parts::here();
     const std::size_t components = field.components<Dim>();
+    std::vector<double> old;
+    if (!reading()) old = parts.by_number(std::span<const double>(values), components);
+    archive_(old);
+    if (!reading()) return;
     expect(field, old.size() == components * was_);
-    if (!carries()) values = std::move(old);
+    if (!carries()) values = parts.own_of(std::span<const double>(old), components);
     if (!carries() || field.role() == Role::derived) return;
     values.resize(components * count_);
     change_.carry(field, old.data(), values.data(), components);
@@ -117,11 +121,13 @@ void Memory<Dim>::particles(Field field, std::vector<double>& values) {
 template <int Dim>
 void Memory<Dim>::particles(Field field, std::vector<std::int32_t>& labels) {
     begin(field, Holder::particle);
-    if (!reading()) return archive_(labels);
+    Parts& own = Parts::here();
     std::vector<std::int32_t> old;
+    if (!reading()) old = own.by_number(std::span<const std::int32_t>(labels));
     archive_(old);
+    if (!reading()) return;
     expect(field, old.size() == was_);
-    if (!carries()) labels = std::move(old);
+    if (!carries()) labels = own.own_of(std::span<const std::int32_t>(old));
     if (!carries() || field.role() == Role::derived) return;
     labels.clear();
     for (const auto& parts : change_.parts) {

@@ -59,7 +59,8 @@ bool DueTimes::reached(double t, double slack) {
     return true;
 }
 
-int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers) {
+int drive(const std::function<Integrator&()>& integrator, const Schedule& schedule,
+          const Observers& observers) {
     Once output(observers.output), snapshot(observers.snapshot);
     Stops stops(schedule);
     bool at_checkpoint = schedule.resumed;  // whether (t, y) is that of the latest checkpoint
@@ -69,43 +70,43 @@ int drive(Integrator& integrator, const Schedule& schedule, const Observers& obs
         snapshot(t);
     };
     if (schedule.resumed) {
-        stops.skip(integrator.t());
-        if (observers.enough && observers.enough(integrator.t())) {
-            finish(integrator.t());
+        stops.skip(integrator().t());
+        if (observers.enough && observers.enough(integrator().t())) {
+            finish(integrator().t());
             return 0;
         }
     } else {
-        output(integrator.t());
-        snapshot(integrator.t());
+        output(integrator().t());
+        snapshot(integrator().t());
     }
     InterruptWatch::complete_results();
     try {
-        while (integrator.t() < schedule.t_end && InterruptWatch::received() == 0) {
+        while (integrator().t() < schedule.t_end && InterruptWatch::agreed() == 0) {
             // Where this step would end if the run had a later end: only such states are checkpoints,
             // because a run with that end must pass through them.
             const double due = stops.due();
             at_checkpoint = false;
             const double t =
-                integrator.step(integrator.lands_on_stops() ? stops.next() : schedule.t_end);
-            const bool regular = integrator.lands_on_stops() ? t < schedule.t_end || t == due
-                                                             : integrator.whole_step();
+                integrator().step(integrator().lands_on_stops() ? stops.next() : schedule.t_end);
+            const bool regular = integrator().lands_on_stops() ? t < schedule.t_end || t == due
+                                                               : integrator().whole_step();
             const bool row = stops.output.reached(t, stops.slack);
             if (row) output(t);
             if (stops.snapshot.reached(t, stops.slack)) snapshot(t);
             if (observers.step) observers.step(t);
             if (row && observers.enough && observers.enough(t)) break;
-            if (row && observers.revise && observers.revise(t)) integrator.reset(t);
+            if (row && observers.revise && observers.revise(t)) integrator().reset(t);
             if (stops.checkpoint.reached(t, stops.slack) && regular && observers.checkpoint) {
                 observers.checkpoint(t);
                 at_checkpoint = true;
             }
         }
-        finish(integrator.t());
+        finish(integrator().t());
     } catch (const GuardStop&) {
-        finish(integrator.t());
+        finish(integrator().t());
         throw;
     }
-    return InterruptWatch::received();
+    return InterruptWatch::agreed();
 }
 
 }  // namespace spam

@@ -11,11 +11,11 @@ namespace spam {
 namespace {
 
 template <int Dim>
-using Parts = std::vector<typename Population<Dim>::Part>;
+using MadeOf = std::vector<typename Population<Dim>::Part>;
 
 /// Sets the offsets of the parts to their centre of mass, by the images nearest to the first.
 template <int Dim>
-void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, Parts<Dim>& parts) {
+void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, MadeOf<Dim>& parts) {
     const Point<Dim> first = x.col(static_cast<Eigen::Index>(parts.front().particle));
     Point<Dim> away = Point<Dim>::Zero();
     for (auto& part : parts) {
@@ -30,7 +30,7 @@ void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, Parts<Di
 
 /// What the parts move about their centre, by mass.
 template <int Dim>
-double inner_motion(const ConstState<Dim>& from, const Parts<Dim>& parts,
+double inner_motion(const ConstState<Dim>& from, const MadeOf<Dim>& parts,
                     const Point<Dim>& centre) {
     const auto v = from.velocity();
     double energy = 0.0;

@@ -12,10 +12,11 @@
 namespace spam {
 
 template <int Dim>
-Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
+Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder,
+              Parts& processes)
     : one_(one),
       promise_limit_(promise_limit(options, *one.model)),
-      motion_(*one.model, one.y0, options),
+      motion_(*one.model, one.y0, options, processes),
       recorder_(*one.model, one.plan, folder),
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
@@ -118,7 +119,7 @@ void Run<Dim>::rewrite_events() {
 
 template <int Dim>
 void Run<Dim>::watch(double t, const Watchers& watchers) {
-    for (const Remark& remark : one_.model->watch(t, motion_.y())) {
+    for (const Remark& remark : motion_.watch()) {
         remember(t, remark);
         if (watchers.remark) watchers.remark(t, remark);
         if (remark.stop)
@@ -221,12 +222,26 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         Schedule schedule{plan.t_end, plan.output_every, plan.snapshot_every,
                           plan.checkpoint_every};
         schedule.resumed = resumed_;
-        const int signal = spam::drive(motion_.integrator(), schedule, observers);
+        // Steps are of all processes together; what observers see is the whole, with nothing to exchange.
+        const auto as_a_whole = [](auto& observer) {
+            if (observer)
+                observer = [of_all = std::move(observer)](double t) {
+                    const Parts::Here here(Parts::alone_here());
+                    return of_all(t);
+                };
+        };
+        as_a_whole(observers.output), as_a_whole(observers.snapshot), as_a_whole(observers.step);
+        as_a_whole(observers.revise), as_a_whole(observers.checkpoint), as_a_whole(observers.last);
+        as_a_whole(observers.enough);
+        const Parts::Here here(motion_.processes());
+        const int signal =
+            spam::drive([&]() -> Integrator& { return motion_.integrator(); }, schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const OutputError& error) {
         record_.statistics.stopped = error.what();
-        complete();
+        motion_.processes().leave(error.what());  // it is one process that could not write
+        if (motion_.processes().alone()) complete();
         throw;
     } catch (...) {
         reason = record_.statistics.stopped = why_a_run_stops();

@@ -181,7 +181,9 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     }
     std::vector<RunRecord> records;
     for (auto& one : cases) {
-        if (!records.empty() && InterruptWatch::received() != 0) break;
+        const Parts::Here all(problem_.processes());
+        if (!records.empty() && InterruptWatch::agreed() != 0) break;
+        const Parts::Here here(Parts::alone_here());
         if (one.start && !records.back().complete) break;
         describe(one);
         if (one.start) one.y0 = one.start(records.back());
@@ -226,7 +228,7 @@ void Session::resume(Run<Dim>& run, CaseMemory& earlier, const RunFolder& folder
     run.recall(earlier);
     snapshots.resume(run.snapshot_times());
     memory_->cases.back() = std::move(earlier);  // until this run comes to a checkpoint of its own
-    if (problem_.reopened_) return;
+    if (problem_.reopened_ || problem_.muted()) return;
     const auto from =
         std::filesystem::path(problem_.common_.restart).parent_path() / run.record().label;
     for (const auto& name : snapshots.names()) {
@@ -245,12 +247,17 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
                                                  SnapshotSeries<Dim>& snapshots) {
     const std::size_t number = memory_->cases.size() - 1;
     typename Run<Dim>::Watchers watchers;
-    watchers.snapshot = [&run, &snapshots](double t) { snapshots.add(t, run.y()); };
+    watchers.snapshot = [&run, &snapshots, writes = !problem_.muted()](double t) {
+        const auto y = run.y();
+        if (writes) snapshots.add(t, y);
+    };
     watchers.checkpoint = [this, number](CaseMemory&& state) {
         memory_->cases[number] = std::move(state);
-        save_checkpoint();
+        if (!problem_.muted()) save_checkpoint();
     };
-    watchers.last = [this, number](CaseMemory&& state) { save_last(number, std::move(state)); };
+    watchers.last = [this, number](CaseMemory&& state) {
+        if (!problem_.muted()) save_last(number, std::move(state));
+    };
     const bool adaptive = integrator_of(one.plan).adaptive();
     watchers.step = [this, &run, adaptive, t_end = one.plan.t_end](double t) {
         const double fraction = t / t_end;
@@ -282,7 +289,7 @@ template <int Dim>
 RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     CaseMemory* earlier = earlier_case(memory_->cases.size());
     memory_->cases.emplace_back().label = one.label;
-    Run<Dim> run(one, integrator_of(one.plan), &folder);
+    Run<Dim> run(one, integrator_of(one.plan), &folder, problem_.processes());
     run.record().statistics.problem = problem_.name_;
     run.record().statistics.units = problem_.units_;
     run.record().statistics.dim = Dim;

@@ -27,6 +27,12 @@ void Model<Dim>::fail(std::span<double> y_dot, std::string reason) {
 }
 
 template <int Dim>
+void Model<Dim>::take_scales(const Model& other) {
+    time_scale_ = other.time_scale_;
+    for (const auto& block : other.layout_.blocks()) layout_.set_scale(block.field, block.scale);
+}
+
+template <int Dim>
 void Model<Dim>::tangent(double t, std::span<const double> y, std::span<const double> v,
                          std::span<double> Jv) {
     double largest = 0.0;
@@ -97,8 +103,8 @@ void Model<Dim>::remember(Memory<Dim>& memory) {
     auto body = particles_.body;
     memory.particles(body_kind, body);
     if (!memory.reading() || memory.carries()) return;
-    const auto most =
-        std::max<std::int32_t>(particles_.bodies(), static_cast<std::int32_t>(particles_.size()));
+    const auto most = static_cast<std::int32_t>(Parts::here().most(
+        std::max(particles_.bodies(), static_cast<std::int32_t>(memory.among_all()))));
     if (body.size() != particles_.size() ||
         std::any_of(body.begin(), body.end(), [most](auto b) { return b < 0 || b >= most; }))
         throw InputError("the bodies that were remembered are not those of these particles");

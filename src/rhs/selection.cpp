@@ -5,18 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace spam {
-namespace {
-
-template <class Value>
-std::vector<Value> part_of(const std::vector<Value>& all, std::size_t first, std::size_t count) {
-    if (all.empty()) return {};
-    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
-    return {begin, begin + static_cast<std::ptrdiff_t>(count)};
-}
-
-}  // namespace
 
 template <int Dim>
 Selection<Dim>::Selection(Model<Dim>& model, std::size_t first, std::size_t count)
@@ -30,17 +21,17 @@ Selection<Dim>::Selection(Model<Dim>& model, std::size_t first, std::size_t coun
                         "of those",
                         count, first, all.size()));
     if (count == all.size()) return;
-    part_ = std::make_shared<Particles<Dim>>(
-        Particles<Dim>{part_of(all.mass, first, count), part_of(all.id, first, count),
-                       part_of(all.body, first, count),
-                       all.reference_position.middleCols(static_cast<Eigen::Index>(first),
-                                                         static_cast<Eigen::Index>(count)),
-                       all.spacing, part_of(all.material, first, count)});
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
+    part_ = std::make_shared<Particles<Dim>>(all.some(numbers));
 }
 
 template <int Dim>
 void Selection<Dim>::update_bodies() {
-    if (part_) part_->body = part_of(model_->particles().body, first_, count_);
+    const auto& body = model_->particles().body;
+    if (part_ && !body.empty())
+        std::copy_n(body.begin() + static_cast<std::ptrdiff_t>(first_), count_,
+                    part_->body.begin());
 }
 
 template class Selection<1>;

@@ -50,6 +50,11 @@ class DueTimes {
 /// Returns the signal that interrupted the run (see InterruptWatch), 0 if it went to the end.
 /// GuardStop, of a step or an observer, passes through.
 /// In every case the final accepted state has been given to `output` and `snapshot` exactly once.
-int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers);
+/// `integrator` may be another one after an observer was called.
+int drive(const std::function<Integrator&()>& integrator, const Schedule& schedule,
+          const Observers& observers);
+inline int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers) {
+    return drive([&]() -> Integrator& { return integrator; }, schedule, observers);
+}
 
 }  // namespace spam

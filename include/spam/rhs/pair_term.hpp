@@ -33,6 +33,16 @@ struct PairLaw {
     std::optional<Field> heat{};
     double damping =
         0.0;  ///< by it: how fast neighbours at rest lose their relative velocity, 1/time
+
+    /// Of some of the particles.
+    PairLaw of_part(std::span<const std::uint32_t> numbers) const {
+        PairLaw part = *this;
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            part.columns[c].clear();
+            for (const auto i : numbers) part.columns[c].push_back(columns[c].at(i));
+        }
+        return part;
+    }
 };
 
 /// Forces between pairs: by a potential of their distance, or friction.

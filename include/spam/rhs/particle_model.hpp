@@ -5,7 +5,9 @@
 #include <spam/external/external.hpp>
 #include <spam/rhs/term.hpp>
 
+#include <functional>
 #include <memory>
+#include <tuple>
 #include <type_traits>
 
 namespace spam {
@@ -19,7 +21,7 @@ class ParticleModel : public Model<Dim> {
     /// Laws between particles, in the order in which they were added.
     using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
     /// Laws from outside, likewise.
-    using Externals = std::vector<std::unique_ptr<External<Dim>>>;
+    using Externals = std::vector<std::shared_ptr<External<Dim>>>;
 
     /// Without a term nothing moves but by externals. Walls of the box (neighbors/wall.hpp) act by images of
     /// particles in every term, rigid ones by reflections; what they give is booked in the accounts, as a whole
@@ -33,22 +35,37 @@ class ParticleModel : public Model<Dim> {
     /// velocity, or what a wall of the box means nothing to (Term::Nature).
     template <class Law, class... Arguments>
     Law& add_term(Arguments&&... arguments) {
-        auto term = std::make_unique<Law>(*this, std::forward<Arguments>(arguments)...);
-        Law& law = *term;
-        take(std::move(term));
-        return law;
+        return add_term_among<Law>(0, this->particles().size(),
+                                   std::forward<Arguments>(arguments)...);
     }
     /// The same among the particles stored as first, ..., first + count - 1 alone: populations that do
     /// not meet, or meet by a further term, in one y. Terms of different particles may find the same
     /// fields; those of particles that no term integrates stay as they are.
     template <class Law, class... Arguments>
     Law& add_term_among(std::size_t first, std::size_t count, Arguments&&... arguments) {
-        auto term = std::make_unique<Law>(Selection<Dim>(*this, first, count),
-                                          std::forward<Arguments>(arguments)...);
+        if constexpr ((std::is_copy_constructible_v<std::decay_t<Arguments>> && ...))
+            again_.push_back([first, count, n = this->particles().size(),
+                              kept = std::tuple<std::decay_t<Arguments>...>(arguments...)](
+                                 ParticleModel& part, std::span<const std::uint32_t> numbers) {
+                if (count != n) refuse_parts(part.describe());
+                std::apply(
+                    [&](const auto&... whole) { part.add_term<Law>(of_part(whole, numbers)...); },
+                    kept);
+            });
+        else
+            again_.push_back([](ParticleModel& part, auto) { refuse_parts(part.describe()); });
+        const bool all = count == this->particles().size();
+        auto term =
+            std::make_unique<Law>(all ? Selection<Dim>(*this) : Selection<Dim>(*this, first, count),
+                                  std::forward<Arguments>(arguments)...);
         Law& law = *term;
         take(std::move(term));
         return law;
     }
+    /// A model of the particles of these numbers alone, of the same laws: that of one part of a run, whose parts make it
+    /// together (core/parts.hpp; numbers are those of Parts::here()). Externals are shared. Throws InputError where a
+    /// law cannot be parted.
+    std::unique_ptr<ParticleModel> part(std::span<const std::uint32_t> numbers) const;
     /// Whether x_dot = v, by every term.
     bool moves_with_velocity() const;
     /// In the order in which they are called.
@@ -62,7 +79,7 @@ class ParticleModel : public Model<Dim> {
     }
 
     /// Adds an external behind those there are. y grows by the accounts (external.hpp).
-    void add(std::unique_ptr<External<Dim>> external);
+    void add(std::shared_ptr<External<Dim>> external);
     /// In the order in which they are applied.
     const Externals& externals() const { return externals_; }
 
@@ -145,6 +162,17 @@ class ParticleModel : public Model<Dim> {
     void refuse_beyond_walls() const;
     void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
+    [[noreturn]] static void refuse_parts(const std::string& law);
+    /// What a law is made of, for a part of the particles: what holds numbers by particle says what becomes of them.
+    template <class Argument>
+    static Argument of_part(const Argument& whole, std::span<const std::uint32_t> numbers) {
+        if constexpr (requires { whole.of_part(numbers); })
+            return whole.of_part(numbers);
+        else
+            return whole;
+    }
+    /// Again what has been added, to a model of a part of the particles.
+    using Again = std::function<void(ParticleModel& part, std::span<const std::uint32_t> numbers)>;
     void find_rates(double t, std::span<const double> y, std::span<double> y_dot);
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
@@ -168,6 +196,7 @@ class ParticleModel : public Model<Dim> {
 
     Terms terms_;
     Externals externals_;
+    std::vector<Again> again_;  ///< in the order in which it was added
     bool walled_;               ///< the box has walls
     bool whole_ = true;         ///< every term acts among all particles
     std::vector<double> more_;  ///< v_dot of a term that is not the first, or of a part
