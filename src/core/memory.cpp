@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -90,12 +91,18 @@ void Memory<Dim>::laws(std::string names) {
 
 template <int Dim>
 void Memory<Dim>::among(std::size_t first, std::size_t count) {
+    if (Parts& parts = Parts::here();
+        !parts.alone()) {  // written and read is what holds for the whole run
+        const double own =
+            count > 0 ? parts.number(first) : std::numeric_limits<double>::infinity();
+        first = static_cast<std::size_t>(-parts.most(-own));
+        count = parts.total(count);
+    }
     std::size_t was = first;
-    was_ = count_ =
-        Parts::here().total(count);  // all parts write and read what holds for the whole run
+    was_ = count_ = count;
     archive_(was, was_);
     if (!carries()) {
-        if (was != first || was_ != count_)
+        if (was != first || was_ != count)
             throw InputError("what was remembered is not of these particles");
         return;
     }

@@ -2,6 +2,7 @@
 #include <spam/core/parts.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace spam {
@@ -37,7 +38,13 @@ std::vector<Parts::Bytes> Parts::exchange(std::vector<Bytes> to, Content content
     if (alone()) return to;
     if (left_) throw PartLeft(*left_);
     for (Bytes& bytes : to) bytes.insert(bytes.begin(), goes_on);
+    ++traffic_.exchanges;
+    for (std::size_t p = 0; p < count_; ++p)
+        if (p != own_) traffic_.bytes += to[p].size();
+    const auto begin = std::chrono::steady_clock::now();
     std::vector<Bytes> from = transport(std::move(to), content);
+    traffic_.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (const std::byte how : {has_left, has_given_up})
         for (const Bytes& bytes : from) {
             if (bytes.front() != how) continue;

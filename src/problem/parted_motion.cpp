@@ -60,12 +60,22 @@ PartedMotion<Dim>::PartedMotion(Model<Dim>& model, std::span<const double> y0,
                                 const IntegratorOptions& options, Parts& processes)
     : whole_(model),
       options_(options),
-      processes_(processes) {
+      processes_(processes),
+      before_(processes.traffic()) {
     if (alone()) {
         motion_ = std::make_unique<Motion<Dim>>(model, y0, options);
         return;
     }
-    if (dynamic_cast<const ParticleModel<Dim>*>(&model) == nullptr)
+    y_.assign(y0.begin(), y0.end());
+    part(0.0);
+}
+
+template <int Dim>
+void PartedMotion<Dim>::refuse(const Model<Dim>& model, const IntegratorOptions& options,
+                               Parts& processes) {
+    if (processes.alone()) return;
+    const auto* const particles = dynamic_cast<const ParticleModel<Dim>*>(&model);
+    if (particles == nullptr)
         throw InputError("ranks: this model is not one of particles; leave --ranks out");
     if (options.adaptive() && options.method.find("gsl:") == 0)
         throw InputError(
@@ -74,8 +84,13 @@ PartedMotion<Dim>::PartedMotion(Model<Dim>& model, std::span<const double> y0,
     if (processes.count() > model.particles().size())
         throw InputError(fmt::format("ranks: there are {} of them for {} particles; give fewer",
                                      processes.count(), model.particles().size()));
-    y_.assign(y0.begin(), y0.end());
-    part(0.0);
+    const Parts::Here here(processes);
+    std::vector<std::uint32_t> all(model.particles().size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<std::vector<std::uint32_t>> parts(processes.count());
+    bisect<Dim>(model.particles().reference_position, all, parts);
+    processes.set_numbers(parts[processes.own()]);
+    particles->part(processes.numbers())->events();
 }
 
 /// Of the state in y_ and of what the whole model remembers.
@@ -162,7 +177,11 @@ bool PartedMotion<Dim>::edit(const std::function<bool(std::span<double> y)>& cha
     if (alone()) return motion_->edit(change);
     y();
     if (!change(y_)) return false;
+    Archive memory;  // bodies may be others now
+    whole_.remember(memory);
     const Parts::Here here(processes_);
+    Archive back(memory.bytes());
+    part_->remember(back);
     motion_->edit([&](std::span<double> own) {
         for_each_entry(part_->layout(), processes_.numbers(), whole_.particles().size(),
                        [&](std::size_t all, std::size_t mine, std::size_t count) {
@@ -194,6 +213,14 @@ void PartedMotion<Dim>::remember(Archive& archive) {
     if (alone() || !archive.reading()) return;
     known_ = now();
     tell_whole();
+}
+
+template <int Dim>
+RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
+    const Parts::Traffic now = processes_.traffic();
+    return {processes_.count(), now.exchanges - before_.exchanges,
+            processes_.total(now.bytes - before_.bytes),
+            processes_.most(now.seconds - before_.seconds)};
 }
 
 /// What parts remember beyond y.

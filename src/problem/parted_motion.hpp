@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/parts.hpp>
+#include <spam/io/results.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/particle_model.hpp>
 
@@ -27,6 +28,9 @@ class PartedMotion {
     PartedMotion(Model<Dim>& model, std::span<const double> y0, const IntegratorOptions& options,
                  Parts& processes);
 
+    /// What the constructor refuses, before anything is written.
+    static void refuse(const Model<Dim>& model, const IntegratorOptions& options, Parts& processes);
+
     double t() const { return motion_->t(); }
     /// Of the whole; all processes must ask for it together.
     std::span<const double> y();
@@ -43,6 +47,8 @@ class PartedMotion {
     void remember(Archive& archive);
 
     Parts& processes() const { return processes_; }
+    /// Since the motion was made; all processes must ask for it together.
+    RunStatistics::Ranks exchanges() const;
 
   private:
     struct State {
@@ -64,6 +70,7 @@ class PartedMotion {
     std::unique_ptr<Motion<Dim>> motion_;
     std::vector<double> y_;  ///< of the whole
     State known_{};          ///< where it is known
+    Parts::Traffic before_;
     std::size_t images_ = 0, pairs_before_ = 0;
 };
 

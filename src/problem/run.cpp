@@ -176,6 +176,7 @@ void Run<Dim>::complete() {
     s.events = statistics().events;
     s.limited_by = limits();
     s.wall_seconds = seconds();
+    s.ranks = motion_.exchanges();
     record_.history = recorder_.history();
     record_.drifts = s.invariants = drifts();
     record_.y.assign(motion_.y().begin(), motion_.y().end());

@@ -161,6 +161,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         const SundialsContext context;
         Vector y(problem_.common_.dry_run ? 1 : numbers, context);
         const IntegratorOptions own = integrator_of(one.plan);
+        PartedMotion<Dim>::refuse(*one.model, own, problem_.processes());
         if (own.dt != integrator_.dt) leave_out_of_case({"dt"});
         Ode ode = as_ode(*one.model, own, unused);
         ode.absolute_tolerance.resize(std::min(y.size(), ode.absolute_tolerance.size()));

@@ -27,7 +27,6 @@ ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
     refuse_walls(*term);
-    if (!Parts::here().alone() && !term->among().whole()) refuse_parts(term->nature().description);
     for (const auto& other : terms_) {
         if (!other->nature().elements.empty() && !term->nature().elements.empty())
             throw InputError(fmt::format(
@@ -78,11 +77,10 @@ std::unique_ptr<ParticleModel<Dim>> ParticleModel<Dim>::part(
 }
 
 template <int Dim>
-void ParticleModel<Dim>::refuse_parts(const std::string& law) {
-    throw InputError(fmt::format(
-        "ranks: a law of '{}' acts among some of the particles, and cannot be parted; leave --ranks "
-        "out",
-        law));
+void ParticleModel<Dim>::refuse_parts() {
+    throw InputError(
+        "ranks: a law is made of what cannot be copied, and not for a part of the particles; leave "
+        "--ranks out");
 }
 
 template <int Dim>
@@ -108,6 +106,7 @@ bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::sp
         const Selection<Dim>& among = term->among();
         const bool in_place = whole_ && term == terms_.front();
         double* const found = in_place ? v_dot : more_.data() + Dim * among.first();
+        const Parts::Among numbers(Parts::here(), among.first());
         if (auto reason = term->rates({t, among.of(state), among.of(rate), found});
             !reason.empty()) {
             this->fail(y_dot, std::move(reason));
@@ -326,8 +325,10 @@ std::size_t ParticleModel<Dim>::list_builds() const {
 template <int Dim>
 std::vector<Remark> ParticleModel<Dim>::watch(double t, std::span<const double> y) {
     std::vector<Remark> remarks;
-    for (const auto& term : terms_)
+    for (const auto& term : terms_) {
+        const Parts::Among numbers(Parts::here(), term->among().first());
         for (Remark& remark : term->watch(t, y)) remarks.push_back(std::move(remark));
+    }
     return remarks;
 }
 

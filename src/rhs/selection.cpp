@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/rhs/selection.hpp>
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ Selection<Dim>::Selection(Model<Dim>& model, std::size_t first, std::size_t coun
       first_(first),
       count_(count) {
     const Particles<Dim>& all = model.particles();
-    if (count == 0 || first >= all.size() || count > all.size() - first)
+    const bool none = count == 0 && Parts::here().alone();  // a part of a run may have none of them
+    if (none || first > all.size() || count > all.size() - first)
         throw InputError(
             fmt::format("selection: {} particles from number {} on are not among {}; choose some "
                         "of those",

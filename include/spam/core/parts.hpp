@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace spam {
@@ -62,8 +63,22 @@ class Parts {
     std::span<const std::uint32_t> numbers() const { return numbers_; }
     void set_numbers(std::vector<std::uint32_t> numbers) { numbers_ = std::move(numbers); }
     std::uint32_t number(std::size_t i) const {
-        return numbers_.empty() ? static_cast<std::uint32_t>(i) : numbers_[i];
+        return numbers_.empty() ? static_cast<std::uint32_t>(i) : numbers_[first_ + i];
     }
+    /// As long as it lives number(i) is that of this part's particle first + i: for laws among some of them.
+    class Among {
+      public:
+        Among(Parts& parts, std::size_t first)
+            : parts_(parts),
+              before_(std::exchange(parts.first_, first)) {}
+        ~Among() { parts_.first_ = before_; }
+        Among(const Among&) = delete;
+        Among& operator=(const Among&) = delete;
+
+      private:
+        Parts& parts_;
+        std::size_t before_;
+    };
     /// How many entries at the end of y every part has a copy of (accounts of the whole run).
     std::size_t copies = 0;
 
@@ -72,6 +87,12 @@ class Parts {
     enum class Content { sums, images, others };
     /// Gives to[p] to part p; what part p has given to this one is then in [p]. Throws PartGaveUp, PartLeft.
     std::vector<Bytes> exchange(std::vector<Bytes> to, Content content = Content::others);
+    /// What this part has sent so far, and how long exchanges took it.
+    struct Traffic {
+        std::size_t exchanges = 0, bytes = 0;
+        double seconds = 0.0;
+    };
+    const Traffic& traffic() const { return traffic_; }
     /// For this part alone: it makes no more of the calls that others are at, which end there with this reason.
     void give_up(const std::string& reason);
     /// The same for good: its last call.
@@ -151,6 +172,8 @@ class Parts {
 
     std::size_t count_, own_;
     std::vector<std::uint32_t> numbers_;
+    std::size_t first_ = 0;  ///< Among
+    Traffic traffic_;
     std::optional<std::string> left_;  ///< why there are no more calls
 };
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/external/external.hpp>
 #include <spam/rhs/term.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <tuple>
@@ -44,16 +46,26 @@ class ParticleModel : public Model<Dim> {
     template <class Law, class... Arguments>
     Law& add_term_among(std::size_t first, std::size_t count, Arguments&&... arguments) {
         if constexpr ((std::is_copy_constructible_v<std::decay_t<Arguments>> && ...))
-            again_.push_back([first, count, n = this->particles().size(),
-                              kept = std::tuple<std::decay_t<Arguments>...>(arguments...)](
-                                 ParticleModel& part, std::span<const std::uint32_t> numbers) {
-                if (count != n) refuse_parts(part.describe());
-                std::apply(
-                    [&](const auto&... whole) { part.add_term<Law>(of_part(whole, numbers)...); },
-                    kept);
-            });
+            again_.push_back(
+                [first, count, kept = std::tuple<std::decay_t<Arguments>...>(arguments...)](
+                    ParticleModel& part, std::span<const std::uint32_t> numbers) {
+                    const auto place = [&](std::size_t number) {
+                        return static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) -
+                                                        numbers.begin());
+                    };
+                    const std::size_t from = place(first), own = place(first + count) - from;
+                    std::vector<std::uint32_t> among;  // by number among those of the law
+                    for (const auto i : numbers.subspan(from, own))
+                        among.push_back(i - static_cast<std::uint32_t>(first));
+                    std::apply(
+                        [&](const auto&... whole) {
+                            part.add_term_among<Law>(from, own, of_part(whole, among)...);
+                        },
+                        kept);
+                });
         else
-            again_.push_back([](ParticleModel& part, auto) { refuse_parts(part.describe()); });
+            again_.push_back([](ParticleModel&, auto) { refuse_parts(); });
+        const Parts::Among numbers(Parts::here(), first);
         const bool all = count == this->particles().size();
         auto term =
             std::make_unique<Law>(all ? Selection<Dim>(*this) : Selection<Dim>(*this, first, count),
@@ -162,7 +174,7 @@ class ParticleModel : public Model<Dim> {
     void refuse_beyond_walls() const;
     void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
-    [[noreturn]] static void refuse_parts(const std::string& law);
+    [[noreturn]] static void refuse_parts();
     /// What a law is made of, for a part of the particles: what holds numbers by particle says what becomes of them.
     template <class Argument>
     static Argument of_part(const Argument& whole, std::span<const std::uint32_t> numbers) {
