@@ -44,6 +44,8 @@ struct Parameters {
     double range = 3.0;
     Ranges ranges = Ranges::fixed;
     bool returns = false;
+    bool rezone = false;
+    std::optional<double> largest_volume{};
     double gradient_axes = 0.0;
     std::optional<double> aspect{};  ///< none
 };
@@ -109,6 +111,37 @@ struct Cloud : Variant<Dim> {
     }
 };
 
+/// The gas of these particles; at rest on its isentrope in `y0`, where that is wanted.
+template <int Dim>
+std::shared_ptr<ParticleModel<Dim>> gas_of(const Parameters& p, Particles<Dim> particles,
+                                           std::vector<double>* y0 = nullptr) {
+    auto model = std::make_shared<ParticleModel<Dim>>(std::move(particles));
+    const Fluid gas{GammaGas{2.0}};
+    const auto begin = [&](auto& law) {
+        if (y0 == nullptr) return;
+        const Points<Dim> x = model->particles().reference_position;
+        *y0 = law.start(x, Points<Dim>::Zero(Dim, x.cols()), 1.0);
+        const State<Dim> state(model->layout(), *y0);
+        const auto rho = model->density(*y0);
+        for (Eigen::Index i = 0; i < x.cols(); ++i)
+            state.energy()(0, i) = 0.5 * rho[static_cast<std::size_t>(i)];
+    };
+    if (p.ranges == Ranges::density)
+        begin(
+            model->template add_term<OwnRanges<Dim>>(gas, VariableRangeScheme{p.range, p.kernel}));
+    else if (p.ranges == Ranges::ellipses)
+        begin(model->template add_term<Ellipses<Dim>>(
+            gas, EllipseScheme{.range = p.range,
+                               .kernel = p.kernel,
+                               .gradient_share = p.gradient_axes,
+                               .largest_aspect =
+                                   p.aspect.value_or(std::numeric_limits<double>::infinity())}));
+    else
+        begin(model->template add_term<SmoothParticles<Dim>>(
+            gas, Scheme{.density = Density::summed, .kernel = p.kernel, .range = p.range}));
+    return model;
+}
+
 /// Sites inside of the ellipsoid, the middle of the lattice's cell at its centre or a site.
 template <int Dim>
 Cloud<Dim> make_cloud(const Parameters& p, double size) {
@@ -130,32 +163,7 @@ Cloud<Dim> make_cloud(const Parameters& p, double size) {
     auto particles = one_body(make_particles<Dim>(sites(Eigen::all, inside), 1.0));
     for (std::size_t i = 0; i < particles.size(); ++i)
         particles.mass[i] = depth(particles.reference_position.col(static_cast<Eigen::Index>(i)));
-    const Points<Dim> x = particles.reference_position;
-    const Points<Dim> rest = Points<Dim>::Zero(Dim, x.cols());
-    const Fluid gas{GammaGas{2.0}};
-    const auto begin = [&](auto model, auto& law) {
-        cloud.y0 = law.start(x, rest, 1.0);
-        const State<Dim> state(model->layout(), cloud.y0);
-        const auto rho = model->density(cloud.y0);
-        for (Eigen::Index i = 0; i < x.cols(); ++i)
-            state.energy()(0, i) = 0.5 * rho[static_cast<std::size_t>(i)];
-        cloud.model = std::move(model);
-    };
-    auto model = std::make_shared<ParticleModel<Dim>>(std::move(particles));
-    if (p.ranges == Ranges::density)
-        begin(model, model->template add_term<OwnRanges<Dim>>(
-                         gas, VariableRangeScheme{p.range, p.kernel}));
-    else if (p.ranges == Ranges::ellipses)
-        begin(model, model->template add_term<Ellipses<Dim>>(
-                         gas, EllipseScheme{.range = p.range,
-                                            .kernel = p.kernel,
-                                            .gradient_share = p.gradient_axes,
-                                            .largest_aspect = p.aspect.value_or(
-                                                std::numeric_limits<double>::infinity())}));
-    else
-        begin(model,
-              model->template add_term<SmoothParticles<Dim>>(
-                  gas, Scheme{.density = Density::summed, .kernel = p.kernel, .range = p.range}));
+    cloud.model = gas_of<Dim>(p, std::move(particles), &cloud.y0);
     return cloud;
 }
 
@@ -167,6 +175,16 @@ Point<Dim> semi_axes(const Model<Dim>& model, std::span<const double> y, double 
     const Point<Dim> centre = mean_by_mass<Dim>(mass, state.position());
     Points<Dim> squares = (state.position().colwise() - centre).array().square();
     return ((Dim + 4.0) * mean_by_mass<Dim>(mass, squares)).cwiseSqrt() / size;
+}
+
+/// e by what it is on the isentrope of the start, a mean by mass.
+template <int Dim>
+double entropy(const Model<Dim>& model, std::span<const double> y) {
+    const auto rho = model.density(y);
+    const ConstState<Dim> state(model.layout(), y);
+    Eigen::RowVectorXd s = 2.0 * state.energy();
+    for (std::size_t i = 0; i < rho.size(); ++i) s[static_cast<Eigen::Index>(i)] /= rho[i];
+    return mean_by_mass<1>(model.particles().mass, s)[0];
 }
 
 const char* const names[] = {"axis_1", "axis_2", "axis_3"};
@@ -253,6 +271,15 @@ void compute(Session& session, const Parameters& p) {
         plan.record({{names[a], [a, size](const Model<Dim>& model, std::span<const double> y) {
                           return semi_axes(model, y, size)[a];
                       }}});
+    if (p.rezone) {
+        const double most = p.largest_volume.value_or(Dim == 3 ? 4.0 : 2.0);
+        plan.rezone({.every = 0.05 * size,
+                     .volume = RezoningLimits{most, most / (1 << Dim)},
+                     .make = [&p](Particles<Dim> all) { return gas_of<Dim>(p, std::move(all)); }});
+        plan.record({{"entropy", [](const Model<Dim>& model, std::span<const double> y) {
+                          return entropy(model, y);
+                      }}});
+    }
     cloud.drawn = states_at<Dim>({0.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0}, t_end);
     plan.snapshot_every = t_end / 16.0;
     plan.observe(keep_nearest<Dim>(cloud.drawn));
@@ -332,6 +359,16 @@ int main(int argc, char** argv) {
     options.only_when(
         {"gradient-axes", "aspect"}, {"ranges"}, [&p] { return p.ranges == Ranges::ellipses; },
         "has a meaning with --ranges ellipses alone; leave it out");
+    options.flag(
+        "rezone", p.rezone,
+        "split particles where the gas has become thin, and merge them where it is dense again");
+    options
+        .number(
+            "largest-volume", p.largest_volume,
+            "m/rho above which a particle is split into 4 (8 in space); below a quarter (an eighth) of it "
+            "groups are merged into two (default 4; in the plane 2)",
+            between(0.1, 1000.0))
+        .needs("rezone");
     options.flag("return", p.returns, "reverse all velocities then, and fly as long again");
     options.one_of({"time", "t-end"}, "the end of the run");
     return problem.main(argc, argv, [&](Session& session) {

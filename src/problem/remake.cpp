@@ -2,6 +2,7 @@
 #include <spam/core/error.hpp>
 #include <spam/problem/remake.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,11 +12,13 @@ namespace spam {
 namespace {
 
 template <int Dim>
-using Parts = std::vector<typename Population<Dim>::Part>;
+using MadeOf = std::vector<typename Population<Dim>::Part>;
+template <int Dim>
+using SquareMatrix = Eigen::Matrix<double, Dim, Dim>;
 
 /// Sets the offsets of the parts to their centre of mass, by the images nearest to the first.
 template <int Dim>
-void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, Parts<Dim>& parts) {
+void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, MadeOf<Dim>& parts) {
     const Point<Dim> first = x.col(static_cast<Eigen::Index>(parts.front().particle));
     Point<Dim> away = Point<Dim>::Zero();
     for (auto& part : parts) {
@@ -28,16 +31,47 @@ void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, Parts<Di
     for (auto& part : parts) part.offset += away;
 }
 
-/// What the parts move about their centre, by mass.
+/// What parts do about their centre, which moves with `mean`, by their mass.
 template <int Dim>
-double inner_motion(const ConstState<Dim>& from, const Parts<Dim>& parts,
-                    const Point<Dim>& centre) {
-    const auto v = from.velocity();
+struct InnerMotion {
     double energy = 0.0;
-    for (const auto& part : parts)
-        energy += 0.5 * part.share *
-                  (v.col(static_cast<Eigen::Index>(part.particle)) - centre).squaredNorm();
-    return energy;
+    SquareMatrix<Dim> turning =
+        SquareMatrix<Dim>::Zero();  ///< sum share (r u - u r), the angular momentum
+    SquareMatrix<Dim> spread = SquareMatrix<Dim>::Zero();  ///< sum share r r
+
+    /// r_of(part): from the centre to the part.
+    template <class Where>
+    InnerMotion(const ConstState<Dim>& from, const MadeOf<Dim>& parts, const Point<Dim>& mean,
+                const Where& r_of) {
+        for (const auto& part : parts) {
+            const Point<Dim> u =
+                from.velocity().col(static_cast<Eigen::Index>(part.particle)) - mean;
+            const Point<Dim> r = r_of(part);
+            energy += 0.5 * part.share * u.squaredNorm();
+            turning += part.share * (r * u.transpose() - u * r.transpose());
+            spread += part.share * r * r.transpose();
+        }
+    }
+};
+
+/// Gives what was merged the motion of its parts about their centre: as heat, where particles have a heat, and where
+/// two are made of more, as a turn d -> V + L x d/(M d^2) of both, which costs heat L^2/(2 M d^2).
+template <int Dim>
+void pass_inner_motion(const ConstState<Dim>& from, const Change<Dim>& change,
+                       const Population<Dim>& population, const State<Dim>& to) {
+    for (std::size_t k = 0; k < change.parts.size(); ++k) {
+        const auto& parts = change.parts[k];
+        if (parts.size() == 1) continue;
+        const auto column = static_cast<Eigen::Index>(k);
+        const Point<Dim> d = population.parts[k].front().offset, V = to.velocity().col(column);
+        const InnerMotion<Dim> inner(
+            from, parts, V, [&](const auto& part) -> Point<Dim> { return d - part.offset; });
+        Point<Dim> turn = Point<Dim>::Zero();
+        if (Population<Dim>::is_twin(parts)) turn = inner.turning.transpose() * d / d.squaredNorm();
+        to.velocity().col(column) += turn;
+        if (to.has(Field::energy))
+            to.energy()(0, column) += inner.energy - 0.5 * turn.squaredNorm();
+    }
 }
 
 template <int Dim>
@@ -101,22 +135,17 @@ Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Populatio
         std::vector<double>(next.layout().size(), 0.0), measure_invariants<Dim>(model, y), {}};
     const ConstState<Dim> from(model.layout(), y);
     const State<Dim> to(next.layout(), remade.y);
+    next.take_scales(model);
     for (const auto& block : next.layout().blocks()) {
         const auto* old = model.layout().find(block.field, block.holder);
         if (old == nullptr) continue;
-        next.layout().set_scale(block.field, old->scale);
         double* const made = remade.y.data() + block.offset;
         if (block.field.role() == Role::account || block.holder == Holder::element)
             std::ranges::copy(y.subspan(old->offset, old->size), made);
         else
             change.carry(block.field, y.data() + old->offset, made, block.components);
     }
-    if (to.has(Field::energy))
-        for (std::size_t k = 0; k < change.parts.size(); ++k) {
-            const auto column = static_cast<Eigen::Index>(k);
-            to.energy()(0, column) +=
-                inner_motion<Dim>(from, change.parts[k], to.velocity().col(column));
-        }
+    pass_inner_motion<Dim>(from, change, population, to);
     Archive memory;
     model.remember(memory);
     Archive remembered(memory.bytes());
@@ -126,10 +155,45 @@ Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Populatio
     next.take_over(model, y, change, remade.y);
     remade.after = measure_invariants<Dim>(next, remade.y);
     auto& gains = next.gains();
+    gains = model.gains();
     gains.work += remade.after.energy - remade.before.energy;
     gains.impulse += remade.after.momentum - remade.before.momentum;
     gains.angular_impulse += remade.after.angular_momentum - remade.before.angular_momentum;
     return remade;
+}
+
+/// Of one axis the moment of inertia per mass is the square of d. In space it is seen along the angular momentum: d lies
+/// across it, or two particles could not have it.
+template <int Dim>
+Point<Dim> twin_offset(const Model<Dim>& model, std::span<const double> y,
+                       const std::vector<std::size_t>& group) {
+    const ConstState<Dim> state(model.layout(), y);
+    MadeOf<Dim> parts;
+    double mass = 0.0;
+    for (const std::size_t i : group) mass += model.particles().mass[i];
+    Point<Dim> mean = Point<Dim>::Zero();
+    for (const std::size_t i : group) {
+        parts.push_back(
+            {static_cast<std::uint32_t>(i), model.particles().mass[i] / mass, Point<Dim>::Zero()});
+        mean += parts.back().share * state.velocity().col(static_cast<Eigen::Index>(i));
+    }
+    place<Dim>(state.position(), model.box(), parts);
+    const InnerMotion<Dim> inner(state, parts, mean,
+                                 [](const auto& part) -> Point<Dim> { return -part.offset; });
+    using Eigensystem = Eigen::SelfAdjointEigenSolver<SquareMatrix<Dim>>;
+    SquareMatrix<Dim> spread = inner.spread;
+    if constexpr (Dim == 3) {
+        Point<3> l(inner.turning(1, 2), inner.turning(2, 0), inner.turning(0, 1));
+        const double most = std::sqrt(2.0 * inner.energy * spread.trace());
+        if (l.norm() > 1e-12 * most)
+            l.normalize();
+        else
+            l = Eigensystem(spread).eigenvectors().col(0);
+        const SquareMatrix<3> across = SquareMatrix<3>::Identity() - l * l.transpose();
+        spread = across * spread * across;
+    }
+    return std::sqrt(std::max(0.0, spread.trace())) *
+           Eigensystem(spread).eigenvectors().col(Dim - 1);
 }
 
 template <int Dim>
@@ -152,6 +216,12 @@ std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
 template Remade<1> remake(Model<1>&, std::span<const double>, const Population<1>&, Model<1>&);
 template Remade<2> remake(Model<2>&, std::span<const double>, const Population<2>&, Model<2>&);
 template Remade<3> remake(Model<3>&, std::span<const double>, const Population<3>&, Model<3>&);
+template Point<1> twin_offset(const Model<1>&, std::span<const double>,
+                              const std::vector<std::size_t>&);
+template Point<2> twin_offset(const Model<2>&, std::span<const double>,
+                              const std::vector<std::size_t>&);
+template Point<3> twin_offset(const Model<3>&, std::span<const double>,
+                              const std::vector<std::size_t>&);
 template std::vector<double> restated(const Model<1>&, std::span<const double>, const Model<1>&);
 template std::vector<double> restated(const Model<2>&, std::span<const double>, const Model<2>&);
 template std::vector<double> restated(const Model<3>&, std::span<const double>, const Model<3>&);
