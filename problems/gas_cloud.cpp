@@ -274,7 +274,7 @@ void compute(Session& session, const Parameters& p) {
     if (p.rezone) {
         const double most = p.largest_volume.value_or(Dim == 3 ? 4.0 : 2.0);
         plan.rezone({.every = 0.05 * size,
-                     .volume = RezoningLimits{most, most / (1 << Dim)},
+                     .volume = RezoningLimits{most, 0.8 * most / (1 << Dim)},
                      .make = [&p](Particles<Dim> all) { return gas_of<Dim>(p, std::move(all)); }});
         plan.record({{"entropy", [](const Model<Dim>& model, std::span<const double> y) {
                           return entropy(model, y);

@@ -35,8 +35,7 @@ void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, MadeOf<D
 template <int Dim>
 struct InnerMotion {
     double energy = 0.0;
-    SquareMatrix<Dim> turning =
-        SquareMatrix<Dim>::Zero();  ///< sum share (r u - u r), the angular momentum
+    SquareMatrix<Dim> flow = SquareMatrix<Dim>::Zero();    ///< sum share r u
     SquareMatrix<Dim> spread = SquareMatrix<Dim>::Zero();  ///< sum share r r
 
     /// r_of(part): from the centre to the part.
@@ -48,14 +47,35 @@ struct InnerMotion {
                 from.velocity().col(static_cast<Eigen::Index>(part.particle)) - mean;
             const Point<Dim> r = r_of(part);
             energy += 0.5 * part.share * u.squaredNorm();
-            turning += part.share * (r * u.transpose() - u * r.transpose());
+            flow += part.share * r * u.transpose();
             spread += part.share * r * r.transpose();
         }
+    }
+    /// The angular momentum, as a tensor.
+    SquareMatrix<Dim> turning() const { return flow - flow.transpose(); }
+    /// Projects on the plane across the angular momentum in space; where there is none, across the shortest axis.
+    SquareMatrix<Dim> across() const {
+        SquareMatrix<Dim> plane = SquareMatrix<Dim>::Identity();
+        if constexpr (Dim == 3) {
+            const auto L = turning();
+            Point<3> l(L(1, 2), L(2, 0), L(0, 1));
+            if (l.norm() > 1e-12 * std::sqrt(2.0 * energy * spread.trace()))
+                l.normalize();
+            else
+                l = Eigen::SelfAdjointEigenSolver<SquareMatrix<3>>(spread).eigenvectors().col(0);
+            plane -= l * l.transpose();
+        }
+        return plane;
+    }
+    /// Of the particle at d, where another is at -d: the two turn with the angular momentum of the parts and come
+    /// together or part as fast as these do across it. That is a part of their motion: it takes no more energy.
+    Point<Dim> of_twin(const Point<Dim>& d) const {
+        return (turning().transpose() * d + (across() * flow).trace() * d) / d.squaredNorm();
     }
 };
 
 /// Gives what was merged the motion of its parts about their centre: as heat, where particles have a heat, and where
-/// two are made of more, as a turn d -> V + L x d/(M d^2) of both, which costs heat L^2/(2 M d^2).
+/// two are made of more, as V + L x d/(M d^2) + a d of one and V - ... of the other, a what they come together with.
 template <int Dim>
 void pass_inner_motion(const ConstState<Dim>& from, const Change<Dim>& change,
                        const Population<Dim>& population, const State<Dim>& to) {
@@ -67,7 +87,7 @@ void pass_inner_motion(const ConstState<Dim>& from, const Change<Dim>& change,
         const InnerMotion<Dim> inner(
             from, parts, V, [&](const auto& part) -> Point<Dim> { return d - part.offset; });
         Point<Dim> turn = Point<Dim>::Zero();
-        if (Population<Dim>::is_twin(parts)) turn = inner.turning.transpose() * d / d.squaredNorm();
+        if (Population<Dim>::is_twin(parts)) turn = inner.of_twin(d);
         to.velocity().col(column) += turn;
         if (to.has(Field::energy))
             to.energy()(0, column) += inner.energy - 0.5 * turn.squaredNorm();
@@ -181,17 +201,7 @@ Point<Dim> twin_offset(const Model<Dim>& model, std::span<const double> y,
     const InnerMotion<Dim> inner(state, parts, mean,
                                  [](const auto& part) -> Point<Dim> { return -part.offset; });
     using Eigensystem = Eigen::SelfAdjointEigenSolver<SquareMatrix<Dim>>;
-    SquareMatrix<Dim> spread = inner.spread;
-    if constexpr (Dim == 3) {
-        Point<3> l(inner.turning(1, 2), inner.turning(2, 0), inner.turning(0, 1));
-        const double most = std::sqrt(2.0 * inner.energy * spread.trace());
-        if (l.norm() > 1e-12 * most)
-            l.normalize();
-        else
-            l = Eigensystem(spread).eigenvectors().col(0);
-        const SquareMatrix<3> across = SquareMatrix<3>::Identity() - l * l.transpose();
-        spread = across * spread * across;
-    }
+    const SquareMatrix<Dim> across = inner.across(), spread = across * inner.spread * across;
     return std::sqrt(std::max(0.0, spread.trace())) *
            Eigensystem(spread).eigenvectors().col(Dim - 1);
 }

@@ -39,18 +39,17 @@ class Candidates {
         bool any = false;
         std::vector<std::size_t> small;
         for (std::size_t i = 0; i < near_.size(); ++i) {
-            const auto [splits, merges] = votes(i);
-            if (splits) {
+            const Votes votes = votes_of(i);
+            may_join_.push_back(votes.joins);
+            if (votes.splits) {
                 const Points<Dim> offsets = children(i);
                 if (beyond_walls(i, offsets)) continue;
                 change.split(i, offsets);
                 taken_[i] = any = true;
-            } else if (merges) {
+            } else if (votes.merges) {
                 small.push_back(i);
             }
         }
-        may_merge_.assign(near_.size(), false);
-        for (const std::size_t i : small) may_merge_[i] = true;
         std::ranges::stable_sort(
             small, [&](std::size_t a, std::size_t b) { return volume_[a] < volume_[b]; });
         for (const std::size_t i : small) {
@@ -75,19 +74,28 @@ class Candidates {
         return r;
     }
 
-    /// Whether to split, and whether it may be merged.
-    std::pair<bool, bool> votes(std::size_t i) const {
-        bool splits = false, merges = true;
+    struct Votes {
+        bool splits = false;
+        bool merges = true;  ///< with others near it
+        bool joins =
+            true;  ///< others that merge: on the same side of the middle between the limits
+    };
+    Votes votes_of(std::size_t i) const {
+        Votes votes;
         const auto vote = [&](const std::optional<RezoningLimits>& limits, double value) {
             if (!limits) return;
             const bool above = limits->split > limits->merge;
-            splits = splits || (above ? value > limits->split : value < limits->split);
-            merges = merges && (above ? value < limits->merge : value > limits->merge);
+            const double middle = std::sqrt(limits->split * limits->merge);
+            votes.splits |= above ? value > limits->split : value < limits->split;
+            votes.merges &= above ? value < limits->merge : value > limits->merge;
+            votes.joins &= above ? value < middle : value > middle;
         };
         vote(rezoning_.volume, volume_[i]);
         vote(rezoning_.neighbours, static_cast<double>(near_.neighbours(i).size() - 1));
         if (rezoning_.gradient) vote(rezoning_.gradient, steepness(i));
-        return {splits, merges && !splits};
+        votes.merges &= !votes.splits;
+        votes.joins &= !votes.splits;
+        return votes;
     }
 
     /// |grad rho| range/rho: the slope that fits the densities of the neighbours best, by w = (1 - u)^2.
@@ -157,21 +165,20 @@ class Candidates {
         return true;
     }
 
-    /// It and the nearest that may be merged with it, as many as a split makes and one more at least, such that the two
-    /// that come of them are not soon split again: in volume halfway between the limits by their ratio.
+    /// It and the nearest that may join it, at most as many as two splits make, such that the two that come of them are
+    /// not soon split again.
     std::vector<std::size_t> group_of(std::size_t i) const {
         std::vector<std::pair<double, std::size_t>> others;
         for (const std::uint32_t j : near_.neighbours(i))
-            if (j != i && may_merge_[j] && !taken_[j] && alike(i, j))
+            if (j != i && may_join_[j] && !taken_[j] && alike(i, j))
                 others.emplace_back(way(i, j).squaredNorm(), j);
         std::ranges::sort(others);
         std::vector<std::size_t> group{i};
-        const double most = rezoning_.volume
-                                ? 2.0 * std::sqrt(rezoning_.volume->split * rezoning_.volume->merge)
-                                : std::numeric_limits<double>::infinity();
+        const double most = rezoning_.volume ? 1.5 * rezoning_.volume->split
+                                             : std::numeric_limits<double>::infinity();
         double volume = volume_[i];
         for (const auto& [distance, j] : others) {
-            if (group.size() == std::max<std::size_t>(4, std::size_t{1} << Dim)) break;
+            if (group.size() == std::size_t{2} << Dim) break;
             if (volume + volume_[j] > most) break;
             volume += volume_[j];
             group.push_back(j);
@@ -186,7 +193,7 @@ class Candidates {
     double range_;
     PairList<Dim> near_;
     std::vector<double> rho_, volume_;
-    std::vector<bool> taken_, may_merge_;
+    std::vector<bool> taken_, may_join_;
 };
 
 void expect_room(const char* name, const std::optional<RezoningLimits>& limits, bool above,
