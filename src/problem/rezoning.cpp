@@ -46,7 +46,7 @@ class Candidates {
                 if (beyond_walls(i, offsets)) continue;
                 change.split(i, offsets);
                 taken_[i] = any = true;
-            } else if (votes.merges) {
+            } else if (votes.merges && !expands(i)) {
                 small.push_back(i);
             }
         }
@@ -85,7 +85,8 @@ class Candidates {
         const auto vote = [&](const std::optional<RezoningLimits>& limits, double value) {
             if (!limits) return;
             const bool above = limits->split > limits->merge;
-            const double middle = std::sqrt(limits->split * limits->merge);
+            const bool never = limits->split == 0.0 || std::isinf(limits->split);
+            const double middle = never ? limits->merge : std::sqrt(limits->split * limits->merge);
             votes.splits |= above ? value > limits->split : value < limits->split;
             votes.merges &= above ? value < limits->merge : value > limits->merge;
             votes.joins &= above ? value < middle : value > middle;
@@ -98,18 +99,31 @@ class Candidates {
         return votes;
     }
 
-    /// |grad rho| range/rho: the slope that fits the densities of the neighbours best, by w = (1 - u)^2.
-    double steepness(std::size_t i) const {
+    /// The slopes that fit the differences of the neighbours' values best, by w = (1 - u)^2: d value_b/d x_a.
+    template <int Values, class ValueOf>
+    Eigen::Matrix<double, Dim, Values> slopes(std::size_t i, const ValueOf& value_of) const {
         Eigen::Matrix<double, Dim, Dim> moments = Eigen::Matrix<double, Dim, Dim>::Zero();
-        Point<Dim> slopes = Point<Dim>::Zero();
+        Eigen::Matrix<double, Dim, Values> sums = Eigen::Matrix<double, Dim, Values>::Zero();
+        const Eigen::Matrix<double, Values, 1> own = value_of(i);
         for (const std::uint32_t j : near_.neighbours(i)) {
             const Point<Dim> r = way(j, i);
             const double w = std::pow(1.0 - r.norm() / range_, 2);
             moments += w * r * r.transpose();
-            slopes += w * (rho_[j] - rho_[i]) * r;
+            sums += w * r * (value_of(j) - own).transpose();
         }
-        const Point<Dim> gradient = moments.completeOrthogonalDecomposition().solve(slopes);
-        return gradient.norm() * range_ / rho_[i];
+        return moments.completeOrthogonalDecomposition().solve(sums);
+    }
+    double steepness(std::size_t i) const {
+        const auto rho = [&](std::size_t j) { return Point<1>(rho_[j]); };
+        return slopes<1>(i, rho).norm() * range_ / rho_[i];
+    }
+    /// Whether the matter around it becomes thinner.
+    bool expands(std::size_t i) const {
+        const auto v = ConstState<Dim>(model_.layout(), y_).velocity();
+        const auto velocity = [&](std::size_t j) -> Point<Dim> {
+            return v.col(static_cast<Eigen::Index>(j));
+        };
+        return slopes<Dim>(i, velocity).trace() > 0.0;
     }
 
     Points<Dim> children(std::size_t i) const {
@@ -200,9 +214,8 @@ void expect_room(const char* name, const std::optional<RezoningLimits>& limits, 
                  double ratio, const char* why) {
     if (!limits) return;
     const auto [split, merge] = *limits;
-    const double wide = above ? split / merge : merge / split;
-    if (!(split > 0.0) || !(merge > 0.0) || !std::isfinite(split) || !std::isfinite(merge) ||
-        !(wide >= ratio))
+    const double wide = above ? split / merge : merge / split;  // infinite where nothing is split
+    if (!(split >= 0.0) || !(merge > 0.0) || !std::isfinite(merge) || !(wide >= ratio))
         throw InputError(fmt::format(
             "rezoning: splitting {} {} {:g} and merging {} {:g} leaves too little room between: {}; "
             "give limits that differ by a factor of {:g} or more",

@@ -41,10 +41,11 @@ struct Rezoning {
     /// m/rho, mass by density: above the first a particle is split, below the second it may be merged. There must be
     /// room between them: what has been split is not merged at once.
     std::optional<RezoningLimits> volume{};
-    /// Particles within the range of one: below the first it is split, above the second it may be merged.
+    /// Particles within the range of one: below the first it is split (0: never), above the second it may be merged.
     std::optional<RezoningLimits> neighbours{};
     /// |grad rho| range/rho: above the first it is split, below the second it may be merged. A particle is split where
-    /// one criterion asks for it, and may be merged where all that are given allow it.
+    /// one criterion asks for it, and may be merged where all that are given allow it and the matter around it does not
+    /// become thinner: else particles on a surface, small by nature, would be merged, and their parts be missing soon.
     std::optional<RezoningLimits> gradient{};
     /// In which neighbours are counted, gradients measured and groups gathered; 0: as far as the laws of the model reach.
     double range = 0.0;
