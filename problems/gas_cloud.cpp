@@ -133,8 +133,8 @@ void rezone(Plan<Dim>& plan, const Parameters& p, double size) {
     const double at_start =
         (Dim == 3 ? 4.0 / 3.0 : 1.0) * std::numbers::pi * std::pow(p.range, Dim);
     plan.rezone({.every = 0.05 * size,
-                 .volume = RezoningLimits{most, 0.9 * most / (1 << Dim)},
-                 .neighbours = RezoningLimits{0.0, 0.8 * at_start},
+                 .volume = RezoningLimits{most, most / (1 << Dim)},
+                 .neighbours = RezoningLimits{0.0, 0.6 * at_start},
                  .make = [&p](Particles<Dim> all) { return gas_of<Dim>(p, std::move(all)); }});
     plan.record({{"entropy", entropy<Dim>}});
 }

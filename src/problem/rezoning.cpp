@@ -85,8 +85,7 @@ class Candidates {
         const auto vote = [&](const std::optional<RezoningLimits>& limits, double value) {
             if (!limits) return;
             const bool above = limits->split > limits->merge;
-            const bool never = limits->split == 0.0 || std::isinf(limits->split);
-            const double middle = never ? limits->merge : std::sqrt(limits->split * limits->merge);
+            const double middle = std::sqrt(limits->split * limits->merge);
             votes.splits |= above ? value > limits->split : value < limits->split;
             votes.merges &= above ? value < limits->merge : value > limits->merge;
             votes.joins &= above ? value < middle : value > middle;
