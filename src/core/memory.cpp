@@ -54,9 +54,14 @@ void Change<Dim>::carry(Field field, const double* old, double* made,
             value = 0.0;
             if (field.quantity() == Quantity::position)
                 value = of(first) + first.offset[static_cast<Eigen::Index>(c)];
-            else if (field.share() == Share::equal)
+            else if (field.share() == Share::equal) {
                 value = of(first);
-            else
+                for (const Part& part : parts[k])
+                    if (of(part) != value)
+                        throw InputError(fmt::format(
+                            "population: particles {} and {} differ in '{}' and cannot be one",
+                            id[first.particle], id[part.particle], field.name()));
+            } else
                 for (const Part& part : parts[k])
                     value += (field.share() == Share::sum ? part.of : part.share) * of(part);
         }

@@ -27,24 +27,29 @@ class Once {
 /// The stops of a schedule that are still to come.
 struct Stops {
     const Schedule& schedule;
-    DueTimes output, snapshot, checkpoint;
+    DueTimes output, snapshot, checkpoint, change;
     double slack;
 
     explicit Stops(const Schedule& s)
         : schedule(s),
           output(s.output_every, s.start),
           snapshot(s.snapshot_every, s.start),
-          checkpoint(s.checkpoint_every > 0.0 ? s.checkpoint_every
-                                              : std::numeric_limits<double>::infinity(),
-                     s.start),
+          checkpoint(or_never(s.checkpoint_every), s.start),
+          change(or_never(s.change_every), s.start),
           slack(1e-9 * std::min({s.output_every, s.snapshot_every, s.t_end - s.start})) {
-        if (s.checkpoint_every > 0.0) slack = std::min(slack, 1e-9 * s.checkpoint_every);
+        for (const double every : {s.checkpoint_every, s.change_every})
+            if (every > 0.0) slack = std::min(slack, 1e-9 * every);
     }
 
-    double due() const { return std::min({output.next(), snapshot.next(), checkpoint.next()}); }
+    static double or_never(double every) {
+        return every > 0.0 ? every : std::numeric_limits<double>::infinity();
+    }
+    double due() const {
+        return std::min({output.next(), snapshot.next(), checkpoint.next(), change.next()});
+    }
     double next() const { return schedule.t_end - due() < slack ? schedule.t_end : due(); }
     void skip(double t) {
-        for (DueTimes* due : {&output, &snapshot, &checkpoint}) due->reached(t, slack);
+        for (DueTimes* due : {&output, &snapshot, &checkpoint, &change}) due->reached(t, slack);
     }
 };
 
@@ -96,6 +101,8 @@ int drive(const std::function<Integrator&()>& integrator, const Schedule& schedu
             if (observers.step) observers.step(t);
             if (row && observers.enough && observers.enough(t)) break;
             if (row && observers.revise && observers.revise(t)) integrator().reset(t);
+            if (stops.change.reached(t, stops.slack) && regular && observers.change)
+                observers.change(t);
             if (stops.checkpoint.reached(t, stops.slack) && regular && observers.checkpoint) {
                 observers.checkpoint(t);
                 at_checkpoint = true;

@@ -57,17 +57,17 @@ void for_each_entry(const FieldLayout<Dim>& layout, std::span<const std::uint32_
 
 template <int Dim>
 PartedMotion<Dim>::PartedMotion(Model<Dim>& model, std::span<const double> y0,
-                                const IntegratorOptions& options, Parts& processes)
+                                const IntegratorOptions& options, Parts& processes, double t0)
     : whole_(model),
       options_(options),
       processes_(processes),
       before_(processes.traffic()) {
     if (alone()) {
-        motion_ = std::make_unique<Motion<Dim>>(model, y0, options);
+        motion_ = std::make_unique<Motion<Dim>>(model, y0, options, t0);
         return;
     }
     y_.assign(y0.begin(), y0.end());
-    part(0.0);
+    part(t0);
 }
 
 template <int Dim>
@@ -103,8 +103,10 @@ void PartedMotion<Dim>::part(double t) {
     std::vector<std::vector<std::uint32_t>> parts(processes_.count());
     bisect<Dim>(x, numbers, parts);
     Archive memory;
-    whole_.remember(memory);
-
+    {
+        const Parts::Here as_a_whole(Parts::alone_here());
+        whole_.remember(memory);
+    }
     const Parts::Here here(processes_);
     if (motion_) pairs_before_ += motion_->pair_interactions();
     motion_.reset();
@@ -126,13 +128,20 @@ void PartedMotion<Dim>::part(double t) {
 /// The same with the integrator's memory.
 template <int Dim>
 void PartedMotion<Dim>::part_anew() {
-    Archive memory;
-    {
-        const Parts::Here here(processes_);
-        motion_->integrator().remember(memory);
-    }
-    part(t());
     const Parts::Here here(processes_);
+    Archive memory;
+    motion_->integrator().remember(memory);
+    part(t());
+    Archive back(memory.bytes());
+    motion_->integrator().remember(back);
+    known_ = now();
+}
+
+template <int Dim>
+void PartedMotion<Dim>::go_on_from(PartedMotion& before) {
+    const Parts::Here here(processes_);
+    Archive memory;
+    before.motion_->integrator().remember(memory);
     Archive back(memory.bytes());
     motion_->integrator().remember(back);
     known_ = now();

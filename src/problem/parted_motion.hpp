@@ -26,7 +26,7 @@ class PartedMotion {
     /// `processes` is here() where there are several (whose whole model `model` is) or one that is alone. Throws
     /// InputError where laws or methods cannot be parted.
     PartedMotion(Model<Dim>& model, std::span<const double> y0, const IntegratorOptions& options,
-                 Parts& processes);
+                 Parts& processes, double t0 = 0.0);
 
     /// What the constructor refuses, before anything is written.
     static void refuse(const Model<Dim>& model, const IntegratorOptions& options, Parts& processes);
@@ -47,6 +47,8 @@ class PartedMotion {
     void remember(Archive& archive);
 
     Parts& processes() const { return processes_; }
+    /// By the memory of its integrator.
+    void go_on_from(PartedMotion& before);
     /// Since the motion was made; all processes must ask for it together.
     RunStatistics::Ranks exchanges() const;
 

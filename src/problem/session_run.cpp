@@ -151,6 +151,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (auto& one : cases) settle_plan(one.plan, memory_->plans.size());
     refuse_idle_balance(cases);
     for (const auto& one : cases) {
+        if (one.plan.rezoning) one.plan.rezoning->check(*one.model);
         refuse_unstable(one);
         refuse_endless(one);
     }
@@ -194,9 +195,9 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     return records;
 }
 
-/// Whether the checkpoint is one of these cases: before anything is written.
+/// Whether the checkpoint is one of these cases: before anything is written. Cases then have its particles.
 template <int Dim>
-void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
+void Session::check_restart(std::vector<Case<Dim>>& cases) const {
     for (std::size_t k = 0; k < cases.size(); ++k) {
         const CaseMemory* earlier = earlier_case(memory_->cases.size() + k);
         if (earlier == nullptr) continue;
@@ -204,6 +205,7 @@ void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
             throw InputError(
                 fmt::format("restart: the checkpoint holds the case '{}' in place of '{}'",
                             earlier->label, cases[k].label));
+        revive(cases[k], *earlier);
         state_of(*earlier, *cases[k].model);
         if (earlier->t > cases[k].plan.t_end)
             throw InputError(
@@ -259,6 +261,7 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
     watchers.last = [this, number](CaseMemory&& state) {
         if (!problem_.muted()) save_last(number, std::move(state));
     };
+    watchers.rezoned = [&one, &snapshots] { snapshots.go_on_with(*one.model); };
     const bool adaptive = integrator_of(one.plan).adaptive();
     watchers.step = [this, &run, adaptive, t_end = one.plan.t_end](double t) {
         const double fraction = t / t_end;

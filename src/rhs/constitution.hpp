@@ -72,6 +72,8 @@ class Constitution {
         return 0.0;
     }
     /// Term::conducts()
+    /// Whether the energy of some particles is a function of their density.
+    virtual bool cold() const { return false; }
     virtual bool conducts() const { return false; }
     /// Term::neighbour_forces() of the stress, by the spacing.
     virtual double stress_forces(const ConstState<Dim>& state,
@@ -116,6 +118,10 @@ class FluidConstitution final : public Constitution<Dim> {
     bool conducts() const override {
         const auto does = [](const Fluid& f) { return f.conduction && f.conduction->kappa > 0.0; };
         return std::any_of(fluids_.begin(), fluids_.end(), does);
+    }
+    bool cold() const override {
+        return std::any_of(fluids_.begin(), fluids_.end(),
+                           [](const Fluid& f) { return f.state.cold; });
     }
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 

@@ -106,6 +106,8 @@ void Elements::set_nature() {
         for (const Field field : one.law.history())
             if (std::find(fields.begin(), fields.end(), field) == fields.end())
                 fields.push_back(field);
+    nature_.no_rezoning =
+        "an element has four corners, which cannot be split or merged; use smooth particles";
     nature_.no_images = "elements do not meet the images of their nodes; use rigid sides";
     nature_.smooth = std::none_of(materials_.begin(), materials_.end(),
                                   [](const Material& material) { return material.law.returns(); });

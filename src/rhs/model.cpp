@@ -136,6 +136,12 @@ void Model<Dim>::set_scales(const TypicalValues& typical) {
     time_scale_ = typical.length / std::max(typical.speed, sound);
 }
 
+template <int Dim>
+void Model<Dim>::take_scales(const Model& other) {
+    for (const auto& block : other.layout_.blocks()) layout_.set_scale(block.field, block.scale);
+    time_scale_ = other.time_scale_;
+}
+
 template class Model<1>;
 template class Model<2>;
 template class Model<3>;

@@ -132,7 +132,7 @@ class ParticleModel : public Model<Dim> {
     /// Of each particle that of the last term that knows one, 1 where none does; empty where none knows any.
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const final;
     void take_over(const Model<Dim>& before, std::span<const double> was, const Change<Dim>& change,
-                   std::span<const double> y) final;
+                   std::span<double> y) final;
     /// Whether a term settles, or the box has walls.
     bool settles() const final;
     /// Whether all terms that settle do so seldom, and the box has no walls.
@@ -171,6 +171,8 @@ class ParticleModel : public Model<Dim> {
                 if (const Wall<Dim>& wall = this->box().wall(a, upper); !wall.open())
                     f(a, upper, wall);
     }
+    void pay_for_potentials(const ParticleModel& before, std::span<const double> was,
+                            const Change<Dim>& change, std::span<double> y) const;
     void refuse_beyond_walls() const;
     void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
