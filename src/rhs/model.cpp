@@ -27,12 +27,6 @@ void Model<Dim>::fail(std::span<double> y_dot, std::string reason) {
 }
 
 template <int Dim>
-void Model<Dim>::take_scales(const Model& other) {
-    time_scale_ = other.time_scale_;
-    for (const auto& block : other.layout_.blocks()) layout_.set_scale(block.field, block.scale);
-}
-
-template <int Dim>
 void Model<Dim>::tangent(double t, std::span<const double> y, std::span<const double> v,
                          std::span<double> Jv) {
     double largest = 0.0;

@@ -169,9 +169,6 @@ class Model {
     /// angular momentum is not kept.
     Promises in_box(Promises promises) const;
 
-    /// Those of fields and times, of a model of the same laws.
-    void take_scales(const Model& other);
-
     /// Ends a right-hand side that has no meaning.
     void fail(std::span<double> y_dot, std::string reason);
 
