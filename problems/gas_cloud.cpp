@@ -19,7 +19,7 @@
 //     --dimension 2 --axes 2,1     an ellipse in the plane
 //     --ranges ellipses            particles are ellipses that are drawn out with the gas (physics/ellipse.hpp)
 //     --ranges density             h = range/rho^(1/D): as many neighbours in the thin gas as in the dense
-//     --rezone                     particles are split where the gas has become thin, and merged where it is dense again:
+//     --rezone                     particles are split where the gas has become thin, and merged where it is dense:
 //                                  the range of particles stays, and they have neighbours enough
 //     --return                     velocities are reversed halfway: the gas comes back to where it began
 #include "gas_cloud/cloud.hpp"

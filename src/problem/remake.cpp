@@ -182,8 +182,8 @@ Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Populatio
     return remade;
 }
 
-/// Of one axis the moment of inertia per mass is the square of d. In space it is seen along the angular momentum: d lies
-/// across it, or two particles could not have it.
+/// Of one axis the moment of inertia per mass is the square of d. In space it is seen along the angular momentum: d
+/// lies across it, or two particles could not have it.
 template <int Dim>
 Point<Dim> twin_offset(const Model<Dim>& model, std::span<const double> y,
                        const std::vector<std::size_t>& group) {

@@ -112,7 +112,7 @@ void Run<Dim>::checkpoint(const Watchers& watchers) {
     watchers.checkpoint(std::move(written));
 }
 
-/// Another number of particles: all that goes on is what a checkpoint would hold, in a model and an integrator made of it.
+/// Other particles: all that goes on is what a checkpoint would hold, in a model and an integrator made of it.
 /// They take the place of those before within this run, so that rows, events, snapshots, accounts and the schedule are
 /// one; a restart before the change comes to it by the same way, and one behind it finds the particles in its
 /// checkpoint (revive).

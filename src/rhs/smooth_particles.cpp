@@ -113,14 +113,7 @@ void SmoothParticles<Dim>::set_nature() {
         nature.no_images =
             "the closest approach is of pairs of particles and lets them come nearer to a "
             "wall; leave --closest-approach out";
-    if (constitution_->cold())
-        nature.no_rezoning =
-            "the energy of '" + constitution_->describe() +
-            "' is a function of the density, and nothing can pay for its change; use a law with an energy, such as "
-            "GammaGas";
-    else if (scheme_.closest_approach > 0.0)
-        nature.no_rezoning =
-            "the closest approach remembers pairs of particles; leave --closest-approach out";
+    nature.no_rezoning = constitution_->why_not_rezoned(scheme_);
     if (scheme_.closest_approach > 0.0)
         nature.events = [this](const std::vector<bool>& held) {
             return std::vector<Event>{closest_approach_event<Dim>(
@@ -314,19 +307,6 @@ template <int Dim>
 void SmoothParticles<Dim>::remember(Memory<Dim>& memory) {
     memory.run(works_kind, gauss_works_, torques_fail_);
     if (torques_) torques_->remember(memory);
-}
-
-/// Halves with the density of the whole, as where it is integrated, have its cold energy; sums have another one.
-template <int Dim>
-void SmoothParticles<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>& /*was*/,
-                                     const Change<Dim>& change, const State<Dim>& /*now*/) {
-    if (!constitution_->cold()) return;
-    for (std::size_t k = 0; k < change.parts.size(); ++k)
-        if (!change.same(k) && (scheme_.density == Density::summed || change.parts[k].size() > 1))
-            throw InputError(fmt::format(
-                "population: the energy of '{}' is a function of the density, which changes where particle {} is "
-                "split or merged, and nothing can pay; use a law with an energy, such as GammaGas",
-                constitution_->describe(), change.id[change.parts[k].front().particle]));
 }
 
 template <int Dim>

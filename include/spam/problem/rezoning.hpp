@@ -47,7 +47,7 @@ struct Rezoning {
     /// one criterion asks for it, and may be merged where all that are given allow it and the matter around it does not
     /// become thinner: else particles on a surface, small by nature, would be merged, and their parts be missing soon.
     std::optional<RezoningLimits> gradient{};
-    /// In which neighbours are counted, gradients measured and groups gathered; 0: as far as the laws of the model reach.
+    /// In which neighbours are counted, gradients measured and groups gathered; 0: as far as the laws reach.
     double range = 0.0;
     /// Children of a particle lie at the corners of a square (cube) of half the edge of its volume; with this there are
     /// two, in the direction in which neighbours are farthest apart.
