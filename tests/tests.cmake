@@ -309,6 +309,8 @@ set_tests_properties(readme.example PROPERTIES LABELS problem TIMEOUT 300)
 
 spam_test(problem/remake property)
 spam_test(problem/remake_solids property)
+spam_test(problem/rezoned_groups property)
+spam_test(problem/rezoning property)
 
 # What users add, each in one file.
 spam_test(extend/external property)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/memory.hpp>
+#include <spam/core/parts.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -52,9 +54,14 @@ void Change<Dim>::carry(Field field, const double* old, double* made,
             value = 0.0;
             if (field.quantity() == Quantity::position)
                 value = of(first) + first.offset[static_cast<Eigen::Index>(c)];
-            else if (field.share() == Share::equal)
+            else if (field.share() == Share::equal) {
                 value = of(first);
-            else
+                for (const Part& part : parts[k])
+                    if (of(part) != value)
+                        throw InputError(fmt::format(
+                            "population: particles {} and {} differ in '{}' and cannot be one",
+                            id[first.particle], id[part.particle], field.name()));
+            } else
                 for (const Part& part : parts[k])
                     value += (field.share() == Share::sum ? part.of : part.share) * of(part);
         }
@@ -89,6 +96,13 @@ void Memory<Dim>::laws(std::string names) {
 
 template <int Dim>
 void Memory<Dim>::among(std::size_t first, std::size_t count) {
+    if (Parts& parts = Parts::here();
+        !parts.alone()) {  // written and read is what holds for the whole run
+        const double own =
+            count > 0 ? parts.number(first) : std::numeric_limits<double>::infinity();
+        first = static_cast<std::size_t>(-parts.most(-own));
+        count = parts.total(count);
+    }
     std::size_t was = first;
     was_ = count_ = count;
     archive_(was, was_);
@@ -103,12 +117,14 @@ void Memory<Dim>::among(std::size_t first, std::size_t count) {
 template <int Dim>
 void Memory<Dim>::particles(Field field, std::vector<double>& values) {
     begin(field, Holder::particle);
-    if (!reading()) return archive_(values);
-    std::vector<double> old;
-    archive_(old);
+    Parts& parts = Parts::here();
     const std::size_t components = field.components<Dim>();
+    std::vector<double> old;
+    if (!reading()) old = parts.by_number(std::span<const double>(values), components);
+    archive_(old);
+    if (!reading()) return;
     expect(field, old.size() == components * was_);
-    if (!carries()) values = std::move(old);
+    if (!carries()) values = parts.own_of(std::span<const double>(old), components);
     if (!carries() || field.role() == Role::derived) return;
     values.resize(components * count_);
     change_.carry(field, old.data(), values.data(), components);
@@ -117,11 +133,13 @@ void Memory<Dim>::particles(Field field, std::vector<double>& values) {
 template <int Dim>
 void Memory<Dim>::particles(Field field, std::vector<std::int32_t>& labels) {
     begin(field, Holder::particle);
-    if (!reading()) return archive_(labels);
+    Parts& own = Parts::here();
     std::vector<std::int32_t> old;
+    if (!reading()) old = own.by_number(std::span<const std::int32_t>(labels));
     archive_(old);
+    if (!reading()) return;
     expect(field, old.size() == was_);
-    if (!carries()) labels = std::move(old);
+    if (!carries()) labels = own.own_of(std::span<const std::int32_t>(old));
     if (!carries() || field.role() == Role::derived) return;
     labels.clear();
     for (const auto& parts : change_.parts) {

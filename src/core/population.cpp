@@ -60,10 +60,23 @@ void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles) {
             throw InputError(fmt::format(
                 "population: particles {} and {} are of different materials and cannot be one",
                 before_.id[particles.front()], before_.id[i]));
+        if (before_.body[i] != before_.body[particles.front()])
+            throw InputError(fmt::format(
+                "population: particles {} and {} are of different bodies and cannot be one",
+                before_.id[particles.front()], before_.id[i]));
     }
     const std::size_t first = *std::min_element(particles.begin(), particles.end());
     change_[first] = static_cast<int>(changes_.size());
     changes_.push_back({particles});
+}
+
+template <int Dim>
+void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles, const Point<Dim>& d) {
+    if (particles.size() < 3 || !d.allFinite() || !(d.norm() > 0.0))
+        throw InputError(
+            "population: it takes three particles or more to merge into two, and a distance above 0");
+    merge(particles);
+    changes_.back().apart = d;
 }
 
 template <int Dim>
@@ -72,14 +85,19 @@ void Repopulation<Dim>::remove(std::size_t i) {
 }
 
 template <int Dim>
-Population<Dim> Repopulation<Dim>::finish() const {
+Population<Dim> Repopulation<Dim>::finish(std::int64_t first_new) const {
     using Part = typename Population<Dim>::Part;
     Population<Dim> after;
     Particles<Dim>& p = after.particles;
     p.spacing = before_.spacing;
-    std::int64_t next_id = 0;
+    std::int64_t next_id = first_new;
     for (const auto id : before_.id) next_id = std::max(next_id, id + 1);
     std::vector<Point<Dim>> reference;
+    const auto in_material = [&](std::size_t i, const Point<Dim>& d) -> Point<Dim> {
+        const Mat<Dim> back = into_material(deformation_.empty() ? Mat<Dim>{} : deformation_[i]);
+        return Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(back.c.data()) *
+               d;
+    };
     const auto add = [&](std::size_t like, double mass, std::int64_t id, const Point<Dim>& place,
                          std::vector<Part> parts) {
         p.mass.push_back(mass);
@@ -103,12 +121,9 @@ Population<Dim> Repopulation<Dim>::finish() const {
         } else if (change.merged.empty()) {
             const Eigen::Index n = change.offsets.cols();
             const double children = static_cast<double>(n);
-            const Mat<Dim> back =
-                into_material(deformation_.empty() ? Mat<Dim>{} : deformation_[i]);
-            const Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>> by(
-                back.c.data());
             for (Eigen::Index k = 0; k < n; ++k)
-                add(i, before_.mass[i] / children, next_id++, X + by * change.offsets.col(k),
+                add(i, before_.mass[i] / children, next_id++,
+                    X + in_material(i, change.offsets.col(k)),
                     {{number, 1.0, change.offsets.col(k), 1.0 / children}});
         } else {
             double mass = 0.0;
@@ -120,7 +135,19 @@ Population<Dim> Repopulation<Dim>::finish() const {
                 centre += share * before_.reference_position.col(static_cast<Eigen::Index>(j));
                 parts.push_back({static_cast<std::uint32_t>(j), share, Point<Dim>::Zero()});
             }
-            add(i, mass, before_.id[change.merged.front()], centre, std::move(parts));
+            if (change.apart.isZero()) {
+                add(i, mass, before_.id[change.merged.front()], centre, std::move(parts));
+                continue;
+            }
+            for (const std::size_t twin : {0u, 1u}) {
+                const Point<Dim> d = twin == 0 ? change.apart : Point<Dim>(-change.apart);
+                for (Part& part : parts) {
+                    part.offset = d;
+                    part.of = 0.5;
+                }
+                add(i, 0.5 * mass, before_.id[change.merged[twin]], centre + in_material(i, d),
+                    parts);
+            }
         }
     }
     p.reference_position.resize(Dim, static_cast<Eigen::Index>(reference.size()));

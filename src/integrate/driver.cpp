@@ -27,24 +27,29 @@ class Once {
 /// The stops of a schedule that are still to come.
 struct Stops {
     const Schedule& schedule;
-    DueTimes output, snapshot, checkpoint;
+    DueTimes output, snapshot, checkpoint, change;
     double slack;
 
     explicit Stops(const Schedule& s)
         : schedule(s),
           output(s.output_every, s.start),
           snapshot(s.snapshot_every, s.start),
-          checkpoint(s.checkpoint_every > 0.0 ? s.checkpoint_every
-                                              : std::numeric_limits<double>::infinity(),
-                     s.start),
+          checkpoint(or_never(s.checkpoint_every), s.start),
+          change(or_never(s.change_every), s.start),
           slack(1e-9 * std::min({s.output_every, s.snapshot_every, s.t_end - s.start})) {
-        if (s.checkpoint_every > 0.0) slack = std::min(slack, 1e-9 * s.checkpoint_every);
+        for (const double every : {s.checkpoint_every, s.change_every})
+            if (every > 0.0) slack = std::min(slack, 1e-9 * every);
     }
 
-    double due() const { return std::min({output.next(), snapshot.next(), checkpoint.next()}); }
+    static double or_never(double every) {
+        return every > 0.0 ? every : std::numeric_limits<double>::infinity();
+    }
+    double due() const {
+        return std::min({output.next(), snapshot.next(), checkpoint.next(), change.next()});
+    }
     double next() const { return schedule.t_end - due() < slack ? schedule.t_end : due(); }
     void skip(double t) {
-        for (DueTimes* due : {&output, &snapshot, &checkpoint}) due->reached(t, slack);
+        for (DueTimes* due : {&output, &snapshot, &checkpoint, &change}) due->reached(t, slack);
     }
 };
 
@@ -59,7 +64,8 @@ bool DueTimes::reached(double t, double slack) {
     return true;
 }
 
-int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers) {
+int drive(const std::function<Integrator&()>& integrator, const Schedule& schedule,
+          const Observers& observers) {
     Once output(observers.output), snapshot(observers.snapshot);
     Stops stops(schedule);
     bool at_checkpoint = schedule.resumed;  // whether (t, y) is that of the latest checkpoint
@@ -69,43 +75,45 @@ int drive(Integrator& integrator, const Schedule& schedule, const Observers& obs
         snapshot(t);
     };
     if (schedule.resumed) {
-        stops.skip(integrator.t());
-        if (observers.enough && observers.enough(integrator.t())) {
-            finish(integrator.t());
+        stops.skip(integrator().t());
+        if (observers.enough && observers.enough(integrator().t())) {
+            finish(integrator().t());
             return 0;
         }
     } else {
-        output(integrator.t());
-        snapshot(integrator.t());
+        output(integrator().t());
+        snapshot(integrator().t());
     }
     InterruptWatch::complete_results();
     try {
-        while (integrator.t() < schedule.t_end && InterruptWatch::received() == 0) {
+        while (integrator().t() < schedule.t_end && InterruptWatch::agreed() == 0) {
             // Where this step would end if the run had a later end: only such states are checkpoints,
             // because a run with that end must pass through them.
             const double due = stops.due();
             at_checkpoint = false;
             const double t =
-                integrator.step(integrator.lands_on_stops() ? stops.next() : schedule.t_end);
-            const bool regular = integrator.lands_on_stops() ? t < schedule.t_end || t == due
-                                                             : integrator.whole_step();
+                integrator().step(integrator().lands_on_stops() ? stops.next() : schedule.t_end);
+            const bool regular = integrator().lands_on_stops() ? t < schedule.t_end || t == due
+                                                               : integrator().whole_step();
             const bool row = stops.output.reached(t, stops.slack);
             if (row) output(t);
             if (stops.snapshot.reached(t, stops.slack)) snapshot(t);
             if (observers.step) observers.step(t);
             if (row && observers.enough && observers.enough(t)) break;
-            if (row && observers.revise && observers.revise(t)) integrator.reset(t);
+            if (row && observers.revise && observers.revise(t)) integrator().reset(t);
+            if (stops.change.reached(t, stops.slack) && regular && observers.change)
+                observers.change(t);
             if (stops.checkpoint.reached(t, stops.slack) && regular && observers.checkpoint) {
                 observers.checkpoint(t);
                 at_checkpoint = true;
             }
         }
-        finish(integrator.t());
+        finish(integrator().t());
     } catch (const GuardStop&) {
-        finish(integrator.t());
+        finish(integrator().t());
         throw;
     }
-    return InterruptWatch::received();
+    return InterruptWatch::agreed();
 }
 
 }  // namespace spam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/integrate/integrator.hpp>
 
 #include <fmt/format.h>
@@ -30,6 +31,12 @@ const char* what_it_is(double x) { return std::isnan(x) ? "nan" : "infinite"; }
 
 }  // namespace
 
+Integrator::Integrator(const Ode& ode, Vector& y, double t0)
+    : ode_(ode),
+      y_(y),
+      t_(t0),
+      size_(Parts::here().total(y.size())) {}
+
 double Integrator::step(double t_stop) {
     if (most_steps_ && statistics_.steps >= *most_steps_)
         throw GuardStop(
@@ -41,11 +48,17 @@ double Integrator::step(double t_stop) {
     return t;
 }
 
-std::string Integrator::non_finite_entry(std::span<const double> z, double t) const {
+/// In several parts of a run the first that has found one speaks for all.
+std::string Integrator::not_finite(const char* of, std::span<const double> z, double t) const {
     const std::size_t k = first_not_finite(z);
-    if (k == z.size()) return {};
-    return fmt::format("{} became {} at t = {:.6g}; a smaller step may help", ode_.entry_name(k),
-                       what_it_is(z[k]), t);
+    return Parts::here().first_of(
+        k == z.size() ? ""
+                      : fmt::format("{}{} became {} at t = {:.6g}; a smaller step may help", of,
+                                    ode_.entry_name(k), what_it_is(z[k]), t));
+}
+
+std::string Integrator::non_finite_entry(std::span<const double> z, double t) const {
+    return not_finite("", z, t);
 }
 
 void Integrator::guard(std::span<const double> z, double t) const {
@@ -53,10 +66,7 @@ void Integrator::guard(std::span<const double> z, double t) const {
 }
 
 std::string Integrator::non_finite_rate(std::span<const double> y_dot, double t) const {
-    const std::size_t k = first_not_finite(y_dot);
-    if (k == y_dot.size()) return {};
-    return fmt::format("the rate of {} became {} at t = {:.6g}; a smaller step may help",
-                       ode_.entry_name(k), what_it_is(y_dot[k]), t);
+    return not_finite("the rate of ", y_dot, t);
 }
 
 void Integrator::remember(Archive& archive) {

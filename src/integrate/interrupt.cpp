@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parts.hpp>
 #include <spam/integrate/interrupt.hpp>
+#include <spam/processes/processes.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,6 +16,8 @@ namespace spam {
 namespace {
 
 constexpr std::array watched{SIGINT, SIGTERM, SIGHUP};
+/// What stands for INT and TERM in processes that mpirun has started (processes/processes.hpp).
+constexpr std::array handed_on{SIGUSR1, SIGUSR2};
 
 // Handlers may use them, and so may the threads of a study, which begin results all at once.
 std::atomic<int> received_signal = 0, results_begun = 0, delayed = 0, at_once = 0;
@@ -32,6 +36,8 @@ Lines without_results, with_results;
 }
 
 extern "C" void on_signal(int signal) {
+    for (std::size_t k = 0; k < handed_on.size(); ++k)
+        if (signal == handed_on[k]) signal = watched[k];
     if ((results_begun == 0 && delayed == 0) || at_once != 0) end_process(signal);
     received_signal = signal;
     if (results_begun != 0) std::signal(signal, SIG_DFL);  // the second one ends the process
@@ -48,6 +54,8 @@ InterruptWatch::InterruptWatch(const std::string& program) {
         if (std::signal(watched[k], on_signal) == SIG_IGN)
             std::signal(watched[k], SIG_IGN);  // nohup and background jobs mean it
     }
+    if (started_with_others())
+        for (const int signal : handed_on) std::signal(signal, on_signal);
     std::signal(SIGPIPE, SIG_IGN);  // whoever reads the output may leave; the run goes on
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is a failed write, reported as such
 }
@@ -73,5 +81,12 @@ InterruptWatch::AtOnce::~AtOnce() { at_once = 0; }
 void InterruptWatch::complete_results() { results_begun = 1; }
 
 int InterruptWatch::received() { return received_signal; }
+
+int InterruptWatch::agreed() {
+    if (!Parts::here().alone())
+        received_signal =
+            static_cast<int>(Parts::here().most(static_cast<double>(received_signal)));
+    return received_signal;
+}
 
 }  // namespace spam

@@ -21,6 +21,10 @@ void RunStatistics::add(const RunStatistics& other) {
     events += other.events;
     wall_seconds += other.wall_seconds;
     pair_interactions += other.pair_interactions;
+    ranks.count = std::max(ranks.count, other.ranks.count);
+    ranks.exchanges += other.ranks.exchanges;
+    ranks.bytes += other.ranks.bytes;
+    ranks.seconds += other.ranks.seconds;
     if (stopped.empty()) stopped = other.stopped;
     invariants.clear();
     for (const Limit& limit : other.limited_by) {
@@ -98,6 +102,11 @@ void write_statistics(const RunFolder& folder, const RunStatistics& s) {
     json["events"] = s.events;
     json["wall_seconds"] = s.wall_seconds;
     json["pair_interactions"] = s.pair_interactions;
+    if (s.ranks.count > 1)
+        json["ranks"] = {{"count", s.ranks.count},
+                         {"exchanges", s.ranks.exchanges},
+                         {"bytes", s.ranks.bytes},
+                         {"exchange_seconds", s.ranks.seconds}};
     if (!s.limited_by.empty()) {
         auto& limits = json["limited_by"] = nlohmann::ordered_json::object();
         for (const auto& limit : s.limited_by) limits[limit.field] = limit.steps;

@@ -181,7 +181,7 @@ std::vector<std::string> SnapshotSeries<Dim>::names() const {
 template <int Dim>
 void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
     const std::string name = snapshot_name(files_.size());
-    folder_.write(name, [&](std::ostream& out) { write_snapshot(out, model_, t, y, units_); });
+    folder_.write(name, [&](std::ostream& out) { write_snapshot(out, *model_, t, y, units_); });
     files_.emplace_back(t, name);
     write_file_series(folder_, "snapshots", files_);
 }

@@ -2,6 +2,7 @@
 #include "file_descriptor.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/terminal.hpp>
+#include <spam/processes/processes.hpp>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -65,7 +66,9 @@ std::string wrap(std::string_view text, std::size_t width) {
     return out;
 }
 
-Terminal::Terminal(bool quiet) : quiet_(quiet), is_terminal_(isatty(STDOUT_FILENO) == 1) {}
+Terminal::Terminal(bool quiet)
+    : quiet_(quiet),
+      is_terminal_(isatty(STDOUT_FILENO) == 1 && !started_with_others()) {}
 
 std::size_t Terminal::width() const {
     winsize size{};

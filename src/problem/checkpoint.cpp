@@ -31,6 +31,7 @@ void write_case(CheckpointWriter& file, const std::string& path, const CaseMemor
         file.numbers(path + "/particles/" + block.name, block.values.all(), block.columns);
     file.integers(path + "/particles/id", one.id.all());
     file.integers32(path + "/particles/body", one.body);
+    if (!one.material.empty()) file.integers32(path + "/particles/material", one.material);
     file.bytes(path + "/motion", one.motion);
     file.bytes(path + "/records", one.records);
 }
@@ -52,6 +53,10 @@ CaseMemory read_case(const CheckpointReader& file, const std::string& path) {
     one.id.kept = file.integers(path + "/particles/id");
     const auto body = file.integers(path + "/particles/body");
     one.body.assign(body.begin(), body.end());
+    if (file.has(path + "/particles/material")) {
+        const auto material = file.integers(path + "/particles/material");
+        one.material.assign(material.begin(), material.end());
+    }
     const auto read = [&](const std::string& group, const std::string& name,
                           std::vector<CaseMemory::Values>& into) {
         into.push_back(
@@ -141,6 +146,32 @@ std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model) 
     return y;
 }
 
+template <int Dim>
+void revive(Case<Dim>& one, const CaseMemory& memory) {
+    const Particles<Dim>& first = one.model->particles();
+    if (!one.plan.rezoning || std::ranges::equal(memory.id.all(), first.id)) return;
+    const auto mass = memory.particles[0].values.all(), place = memory.particles[1].values.all();
+    const auto id = memory.id.all();
+    const std::size_t n = mass.size();
+    const auto good = [](double x) { return std::isfinite(x); };
+    if (n == 0 || id.size() != n || memory.body.size() != n || place.size() != Dim * n ||
+        memory.material.size() != (first.material.empty() ? 0 : n) ||
+        !std::ranges::all_of(mass, [&](double m) { return m > 0.0 && good(m); }) ||
+        !std::ranges::all_of(place, good))
+        throw InputError("restart: the checkpoint holds what are no particles of this case");
+    Particles<Dim> particles{
+        {mass.begin(), mass.end()},
+        {id.begin(), id.end()},
+        memory.body,
+        Eigen::Map<const Points<Dim>>(place.data(), Dim, static_cast<Eigen::Index>(n)),
+        first.spacing,
+        memory.material};
+    auto model = one.plan.rezoning->make(std::move(particles));
+    model->take_scales(*one.model);
+    one.y0 = state_of(memory, *model);
+    one.model = std::move(model);
+}
+
 CheckpointWriter checkpoint_file(const SessionMemory& memory) {
     std::size_t expected = 0;
     for (const CaseMemory& one : memory.cases) expected += size_of(one);
@@ -198,5 +229,8 @@ template CaseMemory case_memory(const Model<3>&, std::span<const double>, double
 template std::vector<double> state_of(const CaseMemory&, const Model<1>&);
 template std::vector<double> state_of(const CaseMemory&, const Model<2>&);
 template std::vector<double> state_of(const CaseMemory&, const Model<3>&);
+template void revive(Case<1>&, const CaseMemory&);
+template void revive(Case<2>&, const CaseMemory&);
+template void revive(Case<3>&, const CaseMemory&);
 
 }  // namespace spam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/io/checkpoint_pair.hpp>
+#include <spam/problem/plan.hpp>
 #include <spam/rhs/model.hpp>
 
 #include <cstddef>
@@ -40,8 +41,9 @@ struct CaseMemory {
     std::vector<Values> particles;  ///< mass, reference position
     Block<std::int64_t> id;
     std::vector<std::int32_t> body;
-    std::vector<std::byte> motion;   ///< model and integrator
-    std::vector<std::byte> records;  ///< rows, remarks, what the problem gathered
+    std::vector<std::int32_t> material;  ///< only where particles change on the way (Rezoning)
+    std::vector<std::byte> motion;       ///< model and integrator
+    std::vector<std::byte> records;      ///< rows, remarks, what the problem gathered
 
     /// From now on without the model.
     void keep();
@@ -74,6 +76,11 @@ CaseMemory case_memory(const Model<Dim>& model, std::span<const double> y, doubl
 /// numbers of particles, particles or masses.
 template <int Dim>
 std::vector<double> state_of(const CaseMemory& memory, const Model<Dim>& model);
+
+/// Where particles have changed on the way the model of those that the memory holds, and its y, take the place of the
+/// model of the start. Throws InputError where they are no particles.
+template <int Dim>
+void revive(Case<Dim>& one, const CaseMemory& memory);
 
 /// The whole memory as a file. Writing it is left to the caller.
 CheckpointWriter checkpoint_file(const SessionMemory& memory);

@@ -9,12 +9,15 @@
 #include <spam/integrate/interrupt.hpp>
 #include <spam/kernel/weight_integrals.hpp>
 #include <spam/problem/session.hpp>
+#include <spam/processes/processes.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
@@ -26,6 +29,11 @@ namespace {
 void keep_standard_descriptors() {
     for (int fd = 0; fd <= 2; ++fd)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDWR) < 0) std::abort();
+}
+
+/// Of a process that writes for nobody.
+std::string scratch_folder() {
+    return std::filesystem::temp_directory_path() / fmt::format("spam-rank-{}", getpid());
 }
 
 InputError too_large() {
@@ -57,6 +65,10 @@ Problem::Problem(std::string name, std::string summary, double default_dt, std::
             "are enough particles to gain by it. Results do not depend on it",
             between(1, 1024))
         .or_word("auto");
+    options_.integer(
+        "ranks", common_.ranks,
+        "processes among which the particles are parted (MPI). Results do not depend on it",
+        between(1, 1024));
     options_.number("t-end", common_.t_end, "time at which the run ends", positive());
     options_.number("output-every", common_.output_every, "time between rows of invariants.csv",
                     positive());
@@ -70,7 +82,7 @@ Problem::Problem(std::string name, std::string summary, double default_dt, std::
                   "continue from a checkpoint file with its case, or from the last scheduled "
                   "checkpoint of a result folder");
     options_.exclude_from_case(
-        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "restart"});
+        {"out", "force", "dry-run", "smoke", "quiet", "no-plots", "threads", "ranks", "restart"});
     options_.case_from(
         "restart", [this](const std::string& file) { return recall_case(file); },
         {"t-end", "output-every", "snapshot-every", "checkpoint-every", "max-steps"});
@@ -80,6 +92,20 @@ Problem::Problem(std::string name, std::string summary, double default_dt, std::
 }
 
 Problem::~Problem() = default;
+
+/// As many as there are.
+void Problem::settle_ranks() {
+    const auto wanted = static_cast<std::size_t>(common_.ranks.value_or(1));
+    if (wanted > 1 && !why_one_process().empty()) throw InputError("ranks: " + why_one_process());
+    if (common_.ranks && wanted != processes().count())
+        throw InputError(fmt::format(
+            "ranks: {} processes have been started, not {}; leave --ranks out, or mpirun",
+            processes().count(), wanted));
+    if (!muted()) return;
+    common_.out = scratch_folder();
+    common_.force = false;
+    common_.no_plots = true;
+}
 
 void Problem::units(UnitNames units) {
     units_ = std::move(units);
@@ -173,18 +199,45 @@ void Problem::use_scheme(const Scheme& standard) {
     options_.group("Problem");
 }
 
+int Problem::complain(const std::exception& error, int status) const {
+    // fputs, not fmt::print: nothing to throw when standard error is closed.
+    std::fputs(fmt::format("{}: {}\n", name_, one_line(error.what())).c_str(), stderr);
+    return status;
+}
+
+/// With --ranks this process starts others, and waits. Each of these does what one alone would do (PartedMotion), but
+/// the first alone has a terminal and a result folder; others write into a folder of their own that is not kept.
 int Problem::main(int argc, char** argv, const std::function<void(Session&)>& body) {
+    keep_standard_descriptors();
+    try {
+        const std::size_t ranks = ranks_asked_for(argc, argv);
+        if (ranks > 1 && !started_with_others() && why_one_process().empty())
+            return start_processes(ranks, argv);
+        if (started_with_others()) processes_ = join_processes();
+    } catch (const InputError& error) {
+        return complain(error, 2);
+    } catch (const OutputError& error) {
+        return complain(error, 4);
+    }
+    if (!muted()) {
+        const int status = run(argc, argv, body);
+        return processes().alone() ? status : report_status(status);
+    }
+    if (const int null = open("/dev/null", O_WRONLY); null >= 0)
+        for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) dup2(null, fd);
+    run(argc, argv, body);
+    std::error_code ignored;
+    std::filesystem::remove_all(scratch_folder(), ignored);
+    return 0;
+}
+
+int Problem::run(int argc, char** argv, const std::function<void(Session&)>& body) {
     std::string command = name_;
     for (int k = 1; k < argc; ++k) command += fmt::format(" {}", argv[k]);
-    const auto complain = [&](const std::exception& error, int status) {
-        // fputs, not fmt::print: nothing to throw when standard error is closed.
-        std::fputs(fmt::format("{}: {}\n", name_, one_line(error.what())).c_str(), stderr);
-        return status;
-    };
-    keep_standard_descriptors();
     const InterruptWatch watch(name_);
     try {
         if (!options_.parse(argc, argv)) return 0;
+        settle_ranks();
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
         options_.settle();
@@ -206,13 +259,34 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
             body(session);
         } catch (const DryRunDone&) {
             return 0;
+        } catch (const PartLeft&) {
+            throw;
         } catch (...) {
             // Once there are results the input has been accepted: what fails then is the run.
             const std::string reason = session.folder_ ? why_a_run_stops() : "";
             if (reason.empty()) throw;
             throw GuardStop(reason);
         }
-        return session.finish();
+        const int status = session.finish();
+        processes().agree();
+        return status;
+    } catch (const PartLeft& error) {
+        return complain(error, 4);
+    } catch (...) {
+        return refusal();
+    }
+}
+
+/// The exit status of the exception just caught, with its line on standard error. Other processes are told, so that
+/// they end too.
+int Problem::refusal() const {
+    try {
+        try {
+            throw;
+        } catch (const std::exception& error) {
+            processes().leave(error.what());
+            throw;
+        }
     } catch (const InputError& error) {
         return complain(error, 2);
     } catch (const GuardStop& error) {

@@ -22,7 +22,9 @@ std::string Problem::recall_case(const std::string& name) {
     // Held before anything in it is read: else another run could put its results in place of these between
     // reading and going on. Whoever only reads a checkpoint lets go of it soon.
     constexpr std::chrono::seconds patience{1};
-    if (fs::exists(folder / "run.log", error)) restarted_ = RunFolder::reopen(folder, patience);
+    if (!muted() && fs::exists(folder / "run.log", error))
+        restarted_ = RunFolder::reopen(folder, patience);
+    processes().agree();  // the first one holds it for all
     if (is_folder) {
         const auto newest = newest_checkpoint(name);
         if (!newest)
@@ -31,7 +33,7 @@ std::string Problem::recall_case(const std::string& name) {
                 "written one, or a checkpoint file",
                 name));
         file = newest->string();
-        if (!restarted_)
+        if (!restarted_ && !muted())
             throw InputError(fmt::format(
                 "restart: '{}' is no folder of results any more (it has no run.log); give its "
                 "checkpoint, --restart {}, and another --out",

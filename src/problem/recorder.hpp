@@ -22,7 +22,7 @@ class Recorder {
     /// `folder`: null for rows in memory only. Throws InputError, and writes nothing, where two columns have one
     /// name.
     Recorder(const Model<Dim>& model, const Plan<Dim>& plan, const RunFolder* folder)
-        : model_(model),
+        : model_(&model),
           bodies_(model.particles().bodies()),
           columns_(columns_of(plan)),
           history_(names()) {
@@ -30,7 +30,7 @@ class Recorder {
     }
 
     void add(double t, double dt, std::span<const double> y) {
-        const auto now = measure_invariants(model_, y);
+        const auto now = measure_invariants(*model_, y);
         std::vector<double> row{t, dt, now.mass};
         for (int a = 0; a < Dim; ++a) row.push_back(now.momentum[a]);
         for (int p = 0; p < Invariants<Dim>::planes; ++p) row.push_back(now.angular_momentum[p]);
@@ -40,20 +40,26 @@ class Recorder {
                        y.data() + account.offset + account.size);
         if constexpr (Dim > 1)
             if (bodies_ > 1) {
-                auto L = angular_momentum_of_bodies(model_, y);
+                auto L = angular_momentum_of_bodies(*model_, y);
                 // the columns of the start
                 L.resize(static_cast<std::size_t>(bodies_ * Invariants<Dim>::planes));
                 row.insert(row.end(), L.begin(), L.end());
             }
-        for (const auto& column : columns_) row.push_back(column.measure(model_, y));
+        for (const auto& column : columns_) row.push_back(column.measure(*model_, y));
         if (csv_) csv_->add(row);
         history_.add(std::move(row));
-        scales_.add(t, measure_scales(model_, y));
+        scales_.add(t, measure_scales(*model_, y));
         if (swing_) swing_->add_to(scales_, t, y);
     }
 
     /// Of a method that is symplectic with steps dt; `model`: that of the rows.
-    void expect_swing(double dt, Model<Dim>& model) { swing_.emplace(Swing{dt, model}); }
+    void expect_swing(double dt, Model<Dim>& model) { swing_.emplace(Swing{dt, &model}); }
+
+    /// Rows go on with a model of other particles and the same laws.
+    void go_on_with(Model<Dim>& model) {
+        model_ = &model;
+        if (swing_) swing_->model = &model;
+    }
 
     const History& history() const { return history_; }
 
@@ -78,7 +84,7 @@ class Recorder {
         for (const auto& row : history_.rows()) csv_->add(row);
     }
     std::vector<Drift> drifts(double integrator_limit) const {
-        return measure_drifts(history_, model_.promises(), scales_, integrator_limit);
+        return measure_drifts(history_, model_->promises(), scales_, integrator_limit);
     }
 
     /// Of the latest row against the first.
@@ -86,7 +92,7 @@ class Recorder {
         History both(history_.names());
         both.add(history_.rows().front());
         both.add(history_.rows().back());
-        return measure_drifts(both, model_.promises(), scales_, integrator_limit);
+        return measure_drifts(both, model_->promises(), scales_, integrator_limit);
     }
 
   private:
@@ -102,15 +108,15 @@ class Recorder {
     /// follows from how forces change in a step along v.
     struct Swing {
         double dt;
-        Model<Dim>& model;
+        Model<Dim>* model;
 
         void add_to(DriftScales& scales, double t, std::span<const double> y) const {
-            const auto v = ConstState<Dim>(model.layout(), y).velocity();
+            const auto v = ConstState<Dim>(model->layout(), y).velocity();
             const Points<Dim> after = accelerations(0.5 * dt, t, y),
                               before = accelerations(-0.5 * dt, t, y);
-            const auto [squares, bent] = exact_sums(model.particles().size(), [&](std::size_t k) {
+            const auto [squares, bent] = exact_sums(model->particles().size(), [&](std::size_t k) {
                 const auto i = static_cast<Eigen::Index>(k);
-                const double m = model.particles().mass[k];
+                const double m = model->particles().mass[k];
                 return std::array<double, 2>{
                     0.5 * m * (after.col(i).squaredNorm() + before.col(i).squaredNorm()),
                     m * v.col(i).dot(before.col(i) - after.col(i)) / dt};
@@ -122,17 +128,17 @@ class Recorder {
         /// Where the particles would be after so long a time without forces.
         Points<Dim> accelerations(double drift, double t, std::span<const double> y) const {
             std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
-            const State<Dim> state(model.layout(), moved);
+            const State<Dim> state(model->layout(), moved);
             state.position() += drift * state.velocity();
-            model.rates(t, moved, y_dot);
-            return ConstState<Dim>(model.layout(), y_dot).velocity();
+            model->rates(t, moved, y_dot);
+            return ConstState<Dim>(model->layout(), y_dot).velocity();
         }
     };
 
     /// What externals and walls have given.
     std::vector<typename FieldLayout<Dim>::Block> accounts() const {
         std::vector<typename FieldLayout<Dim>::Block> accounts;
-        for (const auto& block : model_.layout().blocks())
+        for (const auto& block : model_->layout().blocks())
             if (block.field.role() == Role::account) accounts.push_back(block);
         return accounts;
     }
@@ -163,7 +169,7 @@ class Recorder {
         return result;
     }
 
-    const Model<Dim>& model_;
+    const Model<Dim>* model_;
     std::int32_t bodies_;
     std::vector<Column<Dim>> columns_;  ///< of the observers
     History history_;

@@ -2,6 +2,7 @@
 #include <spam/core/error.hpp>
 #include <spam/problem/remake.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,11 +12,13 @@ namespace spam {
 namespace {
 
 template <int Dim>
-using PartsOf = std::vector<typename Population<Dim>::Part>;
+using MadeOf = std::vector<typename Population<Dim>::Part>;
+template <int Dim>
+using SquareMatrix = Eigen::Matrix<double, Dim, Dim>;
 
 /// Sets the offsets of the parts to their centre of mass, by the images nearest to the first.
 template <int Dim>
-void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, PartsOf<Dim>& parts) {
+void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, MadeOf<Dim>& parts) {
     const Point<Dim> first = x.col(static_cast<Eigen::Index>(parts.front().particle));
     Point<Dim> away = Point<Dim>::Zero();
     for (auto& part : parts) {
@@ -28,16 +31,67 @@ void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, PartsOf<
     for (auto& part : parts) part.offset += away;
 }
 
-/// What the parts move about their centre, by mass.
+/// What parts do about their centre, which moves with `mean`, by their mass.
 template <int Dim>
-double inner_motion(const ConstState<Dim>& from, const PartsOf<Dim>& parts,
-                    const Point<Dim>& centre) {
-    const auto v = from.velocity();
+struct InnerMotion {
     double energy = 0.0;
-    for (const auto& part : parts)
-        energy += 0.5 * part.share *
-                  (v.col(static_cast<Eigen::Index>(part.particle)) - centre).squaredNorm();
-    return energy;
+    SquareMatrix<Dim> flow = SquareMatrix<Dim>::Zero();    ///< sum share r u
+    SquareMatrix<Dim> spread = SquareMatrix<Dim>::Zero();  ///< sum share r r
+
+    /// r_of(part): from the centre to the part.
+    template <class Where>
+    InnerMotion(const ConstState<Dim>& from, const MadeOf<Dim>& parts, const Point<Dim>& mean,
+                const Where& r_of) {
+        for (const auto& part : parts) {
+            const Point<Dim> u =
+                from.velocity().col(static_cast<Eigen::Index>(part.particle)) - mean;
+            const Point<Dim> r = r_of(part);
+            energy += 0.5 * part.share * u.squaredNorm();
+            flow += part.share * r * u.transpose();
+            spread += part.share * r * r.transpose();
+        }
+    }
+    /// The angular momentum, as a tensor.
+    SquareMatrix<Dim> turning() const { return flow - flow.transpose(); }
+    /// Projects on the plane across the angular momentum in space; where there is none, across the shortest axis.
+    SquareMatrix<Dim> across() const {
+        SquareMatrix<Dim> plane = SquareMatrix<Dim>::Identity();
+        if constexpr (Dim == 3) {
+            const auto L = turning();
+            Point<3> l(L(1, 2), L(2, 0), L(0, 1));
+            if (l.norm() > 1e-12 * std::sqrt(2.0 * energy * spread.trace()))
+                l.normalize();
+            else
+                l = Eigen::SelfAdjointEigenSolver<SquareMatrix<3>>(spread).eigenvectors().col(0);
+            plane -= l * l.transpose();
+        }
+        return plane;
+    }
+    /// Of the particle at d, where another is at -d: the two turn with the angular momentum of the parts and come
+    /// together or part as fast as these do across it. That is a part of their motion: it takes no more energy.
+    Point<Dim> of_twin(const Point<Dim>& d) const {
+        return (turning().transpose() * d + (across() * flow).trace() * d) / d.squaredNorm();
+    }
+};
+
+/// Gives what was merged the motion of its parts about their centre: as heat, where particles have a heat, and where
+/// two are made of more, as V + L x d/(M d^2) + a d of one and V - ... of the other, a what they come together with.
+template <int Dim>
+void pass_inner_motion(const ConstState<Dim>& from, const Change<Dim>& change,
+                       const Population<Dim>& population, const State<Dim>& to) {
+    for (std::size_t k = 0; k < change.parts.size(); ++k) {
+        const auto& parts = change.parts[k];
+        if (parts.size() == 1) continue;
+        const auto column = static_cast<Eigen::Index>(k);
+        const Point<Dim> d = population.parts[k].front().offset, V = to.velocity().col(column);
+        const InnerMotion<Dim> inner(
+            from, parts, V, [&](const auto& part) -> Point<Dim> { return d - part.offset; });
+        Point<Dim> turn = Point<Dim>::Zero();
+        if (Population<Dim>::is_twin(parts)) turn = inner.of_twin(d);
+        to.velocity().col(column) += turn;
+        if (to.has(Field::energy))
+            to.energy()(0, column) += inner.energy - 0.5 * turn.squaredNorm();
+    }
 }
 
 template <int Dim>
@@ -101,22 +155,17 @@ Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Populatio
         std::vector<double>(next.layout().size(), 0.0), measure_invariants<Dim>(model, y), {}};
     const ConstState<Dim> from(model.layout(), y);
     const State<Dim> to(next.layout(), remade.y);
+    next.take_scales(model);
     for (const auto& block : next.layout().blocks()) {
         const auto* old = model.layout().find(block.field, block.holder);
         if (old == nullptr) continue;
-        next.layout().set_scale(block.field, old->scale);
         double* const made = remade.y.data() + block.offset;
         if (block.field.role() == Role::account || block.holder == Holder::element)
             std::ranges::copy(y.subspan(old->offset, old->size), made);
         else
             change.carry(block.field, y.data() + old->offset, made, block.components);
     }
-    if (to.has(Field::energy))
-        for (std::size_t k = 0; k < change.parts.size(); ++k) {
-            const auto column = static_cast<Eigen::Index>(k);
-            to.energy()(0, column) +=
-                inner_motion<Dim>(from, change.parts[k], to.velocity().col(column));
-        }
+    pass_inner_motion<Dim>(from, change, population, to);
     Archive memory;
     model.remember(memory);
     Archive remembered(memory.bytes());
@@ -126,10 +175,35 @@ Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Populatio
     next.take_over(model, y, change, remade.y);
     remade.after = measure_invariants<Dim>(next, remade.y);
     auto& gains = next.gains();
+    gains = model.gains();
     gains.work += remade.after.energy - remade.before.energy;
     gains.impulse += remade.after.momentum - remade.before.momentum;
     gains.angular_impulse += remade.after.angular_momentum - remade.before.angular_momentum;
     return remade;
+}
+
+/// Of one axis the moment of inertia per mass is the square of d. In space it is seen along the angular momentum: d
+/// lies across it, or two particles could not have it.
+template <int Dim>
+Point<Dim> twin_offset(const Model<Dim>& model, std::span<const double> y,
+                       const std::vector<std::size_t>& group) {
+    const ConstState<Dim> state(model.layout(), y);
+    MadeOf<Dim> parts;
+    double mass = 0.0;
+    for (const std::size_t i : group) mass += model.particles().mass[i];
+    Point<Dim> mean = Point<Dim>::Zero();
+    for (const std::size_t i : group) {
+        parts.push_back(
+            {static_cast<std::uint32_t>(i), model.particles().mass[i] / mass, Point<Dim>::Zero()});
+        mean += parts.back().share * state.velocity().col(static_cast<Eigen::Index>(i));
+    }
+    place<Dim>(state.position(), model.box(), parts);
+    const InnerMotion<Dim> inner(state, parts, mean,
+                                 [](const auto& part) -> Point<Dim> { return -part.offset; });
+    using Eigensystem = Eigen::SelfAdjointEigenSolver<SquareMatrix<Dim>>;
+    const SquareMatrix<Dim> across = inner.across(), spread = across * inner.spread * across;
+    return std::sqrt(std::max(0.0, spread.trace())) *
+           Eigensystem(spread).eigenvectors().col(Dim - 1);
 }
 
 template <int Dim>
@@ -152,6 +226,12 @@ std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
 template Remade<1> remake(Model<1>&, std::span<const double>, const Population<1>&, Model<1>&);
 template Remade<2> remake(Model<2>&, std::span<const double>, const Population<2>&, Model<2>&);
 template Remade<3> remake(Model<3>&, std::span<const double>, const Population<3>&, Model<3>&);
+template Point<1> twin_offset(const Model<1>&, std::span<const double>,
+                              const std::vector<std::size_t>&);
+template Point<2> twin_offset(const Model<2>&, std::span<const double>,
+                              const std::vector<std::size_t>&);
+template Point<3> twin_offset(const Model<3>&, std::span<const double>,
+                              const std::vector<std::size_t>&);
 template std::vector<double> restated(const Model<1>&, std::span<const double>, const Model<1>&);
 template std::vector<double> restated(const Model<2>&, std::span<const double>, const Model<2>&);
 template std::vector<double> restated(const Model<3>&, std::span<const double>, const Model<3>&);

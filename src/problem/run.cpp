@@ -12,17 +12,18 @@
 namespace spam {
 
 template <int Dim>
-Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder)
+Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder,
+              Parts& processes)
     : one_(one),
       promise_limit_(promise_limit(options, *one.model)),
-      motion_(*one.model, one.y0, options),
+      options_(options),
+      motion_(std::make_unique<PartedMotion<Dim>>(*one.model, one.y0, options, processes)),
       recorder_(*one.model, one.plan, folder),
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
     one.y0 = {};  // the motion holds it from now on
     if (const auto dt = symplectic_step(options)) recorder_.expect_swing(*dt, *one.model);
     record_.label = one.label;
-    record_.statistics.particles = one.model->particles().size();
     if (folder != nullptr) events_ = *folder / "events.csv";
 }
 
@@ -51,7 +52,7 @@ void Run<Dim>::snapshot(double t, const Watchers& watchers) {
     snapshot_times_.push_back(t);
     if (watchers.snapshot) watchers.snapshot(t);
     for (const Observer<Dim>& observer : one_.plan.observers)
-        if (observer.on_snapshot) observer.on_snapshot(t, *one_.model, motion_.y());
+        if (observer.on_snapshot) observer.on_snapshot(t, *one_.model, motion_->y());
 }
 
 template <int Dim>
@@ -63,7 +64,7 @@ void Run<Dim>::remember_records(Archive& archive) {
     archive(record_.remarks, pairs, so_far, snapshot_times_);
     if (archive.reading()) {
         seconds_before_ = so_far;
-        pairs_before_ = pairs - motion_.pair_interactions();
+        pairs_before_ = pairs - motion_->pair_interactions();
     }
     for (const Observer<Dim>& observer : one_.plan.observers)
         if (observer.memory) observer.memory(archive);
@@ -71,25 +72,29 @@ void Run<Dim>::remember_records(Archive& archive) {
 
 template <int Dim>
 CaseMemory Run<Dim>::memory() {
-    CaseMemory memory = case_memory<Dim>(*one_.model, motion_.y(), motion_.t());
+    CaseMemory memory = case_memory<Dim>(*one_.model, motion_->y(), motion_->t());
     memory.label = one_.label;
     Archive motion, records;
-    motion_.remember(motion);
+    motion_->remember(motion);
     memory.motion = motion.take();
     remember_records(records);
     memory.records = records.take();
+    if (one_.plan.rezoning) {  // the model may be gone when it is written
+        memory.material = one_.model->particles().material;
+        memory.keep();
+    }
     return memory;
 }
 
 template <int Dim>
 void Run<Dim>::recall(const CaseMemory& memory) {
     const auto y = state_of(memory, *one_.model);
-    motion_.edit([&](std::span<double> now) {
+    motion_->edit([&](std::span<double> now) {
         std::copy(y.begin(), y.end(), now.begin());
         return true;
     });
     Archive motion(memory.motion), records(memory.records);
-    motion_.remember(motion);
+    motion_->remember(motion);
     motion.expect_end();
     remember_records(records);
     records.expect_end();
@@ -103,8 +108,30 @@ template <int Dim>
 void Run<Dim>::checkpoint(const Watchers& watchers) {
     CaseMemory written = memory();
     Archive back(written.motion);
-    motion_.remember(back);
+    motion_->remember(back);
     watchers.checkpoint(std::move(written));
+}
+
+/// Other particles: all that goes on is what a checkpoint would hold, in a model and an integrator made of it.
+/// They take the place of those before within this run, so that rows, events, snapshots, accounts and the schedule are
+/// one; a restart before the change comes to it by the same way, and one behind it finds the particles in its
+/// checkpoint (revive).
+template <int Dim>
+void Run<Dim>::rezone(double t, const Watchers& watchers) {
+    auto next = one_.plan.rezoning->change(*one_.model, motion_->y());
+    if (!next) return;
+    auto motion = std::make_unique<PartedMotion<Dim>>(*next->model, next->y, options_,
+                                                      motion_->processes(), t);
+    motion->go_on_from(*motion_);
+    pairs_before_ += motion_->pair_interactions();
+    motion_ = std::move(motion);
+    one_.model = std::move(next->model);
+    recorder_.go_on_with(*one_.model);
+    if (watchers.rezoned) watchers.rezoned();
+    for (const Remark& remark : next->remarks) {
+        remember(t, remark);
+        if (watchers.remark) watchers.remark(t, remark);
+    }
 }
 
 template <int Dim>
@@ -118,7 +145,7 @@ void Run<Dim>::rewrite_events() {
 
 template <int Dim>
 void Run<Dim>::watch(double t, const Watchers& watchers) {
-    for (const Remark& remark : one_.model->watch(t, motion_.y())) {
+    for (const Remark& remark : motion_->watch()) {
         remember(t, remark);
         if (watchers.remark) watchers.remark(t, remark);
         if (remark.stop)
@@ -148,8 +175,8 @@ void Run<Dim>::guard(double t, const Watchers& watchers) {
 template <int Dim>
 std::string Run<Dim>::limiting() const {
     const auto block = statistics().limiting;
-    return block && *block < motion_.ode().blocks.size() ? motion_.ode().blocks[*block].name
-                                                         : std::string{};
+    return block && *block < motion_->ode().blocks.size() ? motion_->ode().blocks[*block].name
+                                                          : std::string{};
 }
 
 /// Nothing for fixed steps.
@@ -159,15 +186,16 @@ std::vector<RunStatistics::Limit> Run<Dim>::limits() const {
     const auto& s = statistics();
     if (std::all_of(s.limited_by.begin(), s.limited_by.end(), [](auto n) { return n == 0; }))
         return limits;
-    for (std::size_t b = 0; b < std::min(motion_.ode().blocks.size(), s.limited_by.size()); ++b)
-        limits.push_back({motion_.ode().blocks[b].name, s.limited_by[b], s.error_share[b]});
+    for (std::size_t b = 0; b < std::min(motion_->ode().blocks.size(), s.limited_by.size()); ++b)
+        limits.push_back({motion_->ode().blocks[b].name, s.limited_by[b], s.error_share[b]});
     return limits;
 }
 
 template <int Dim>
 void Run<Dim>::complete() {
     RunStatistics& s = record_.statistics;
-    s.t_end = motion_.t();
+    s.particles = one_.model->particles().size();
+    s.t_end = motion_->t();
     s.pair_interactions = pair_interactions();
     s.steps = statistics().steps;
     s.rejected_steps = statistics().rejected_steps;
@@ -175,14 +203,15 @@ void Run<Dim>::complete() {
     s.events = statistics().events;
     s.limited_by = limits();
     s.wall_seconds = seconds();
+    s.ranks = motion_->exchanges();
     record_.history = recorder_.history();
     record_.drifts = s.invariants = drifts();
-    record_.y.assign(motion_.y().begin(), motion_.y().end());
+    record_.y.assign(motion_->y().begin(), motion_->y().end());
 }
 
 template <int Dim>
 bool Run<Dim>::revise(double t) {
-    return motion_.edit([&](std::span<double> y) {
+    return motion_->edit([&](std::span<double> y) {
         bool changed = false;
         for (const Observer<Dim>& observer : one_.plan.observers)
             if (observer.revise && observer.revise(t, *one_.model, y)) changed = true;
@@ -198,8 +227,8 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         const auto& rows = recorder_.history().rows();
         if (!rows.empty() && rows.back().front() == t) return;
         for (const Observer<Dim>& observer : plan.observers)
-            if (observer.on_row) observer.on_row(t, *one_.model, motion_.y());
-        recorder_.add(t, statistics().last_step, motion_.y());
+            if (observer.on_row) observer.on_row(t, *one_.model, motion_->y());
+        recorder_.add(t, statistics().last_step, motion_->y());
         guard(t, watchers);
     };
     observers.snapshot = [&](double t) { snapshot(t, watchers); };
@@ -209,6 +238,7 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
         watch(t, watchers);
         if (watchers.step) watchers.step(t);
     };
+    if (plan.rezoning) observers.change = [&](double t) { return rezone(t, watchers); };
     if (plan.may_change()) observers.revise = [&](double t) { return revise(t); };
     observers.enough = [&](double) {
         return std::any_of(plan.observers.begin(), plan.observers.end(), [&](const auto& one) {
@@ -220,13 +250,29 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     try {
         Schedule schedule{plan.t_end, plan.output_every, plan.snapshot_every,
                           plan.checkpoint_every};
+        schedule.change_every = plan.rezoning ? plan.rezoning->every : 0.0;
         schedule.resumed = resumed_;
-        const int signal = spam::drive(motion_.integrator(), schedule, observers);
+        // Steps are of all processes together; what observers see is the whole, with nothing to exchange.
+        const auto as_a_whole = [](auto& observer) {
+            if (observer)
+                observer = [of_all = std::move(observer)](double t) {
+                    const Parts::Here here(Parts::alone_here());
+                    return of_all(t);
+                };
+        };
+        as_a_whole(observers.output), as_a_whole(observers.snapshot), as_a_whole(observers.step);
+        as_a_whole(observers.revise), as_a_whole(observers.change),
+            as_a_whole(observers.checkpoint);
+        as_a_whole(observers.last), as_a_whole(observers.enough);
+        const Parts::Here here(motion_->processes());
+        const int signal = spam::drive([&]() -> Integrator& { return motion_->integrator(); },
+                                       schedule, observers);
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const OutputError& error) {
         record_.statistics.stopped = error.what();
-        complete();
+        motion_->processes().leave(error.what());  // it is one process that could not write
+        if (motion_->processes().alone()) complete();
         throw;
     } catch (...) {
         reason = record_.statistics.stopped = why_a_run_stops();
@@ -238,6 +284,7 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
 
 template <int Dim>
 RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
+    if (one.plan.rezoning) one.plan.rezoning->check(*one.model);
     Run<Dim> run(one, integrator, nullptr);
     run.drive({});
     return std::move(run.record());

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "checkpoint.hpp"
+#include "parted_motion.hpp"
 #include "recorder.hpp"
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/methods.hpp>
-#include <spam/problem/motion.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <chrono>
@@ -20,8 +20,9 @@ namespace spam {
 template <int Dim>
 class Run {
   public:
-    /// `folder`: where invariants.csv and events.csv go; null for none.
-    Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder);
+    /// `folder`: where invariants.csv and events.csv go; null for none. `processes`: among which its particles are parted.
+    Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder,
+        Parts& processes = Parts::alone_here());
 
     struct Watchers {
         std::function<void(double t)> snapshot, step;
@@ -31,6 +32,8 @@ class Run {
         /// The same at the end of a run that ends off the schedule.
         std::function<void(CaseMemory&&)> last;
         std::function<void(double t, const Remark&)> remark;
+        /// There are other particles, and the case has another model.
+        std::function<void()> rezoned;
         std::function<void(double t, const std::string& text)> warning;
     };
     /// To the end, a signal, or a guard; only OutputError is thrown, with record() up to date.
@@ -44,8 +47,8 @@ class Run {
     /// When snapshots were taken.
     const std::vector<double>& snapshot_times() const { return snapshot_times_; }
 
-    std::span<const double> y() const { return motion_.y(); }
-    const Integrator::Statistics& statistics() const { return motion_.statistics(); }
+    std::span<const double> y() { return motion_->y(); }
+    const Integrator::Statistics& statistics() const { return motion_->statistics(); }
     /// The field that kept the latest step short; empty where none did.
     std::string limiting() const;
     double seconds() const;
@@ -58,18 +61,20 @@ class Run {
     void watch(double t, const Watchers& watchers);
     void snapshot(double t, const Watchers& watchers);
     void checkpoint(const Watchers& watchers);
+    void rezone(double t, const Watchers& watchers);
     void remember_records(Archive& archive);
     void rewrite_events();
     std::vector<RunStatistics::Limit> limits() const;
     void guard(double t, const Watchers& watchers);
     bool revise(double t);
     void complete();
-    std::size_t pair_interactions() const { return pairs_before_ + motion_.pair_interactions(); }
+    std::size_t pair_interactions() { return pairs_before_ + motion_->pair_interactions(); }
 
     Case<Dim>& one_;
     double promise_limit_;
     RunRecord record_;
-    Motion<Dim> motion_;
+    IntegratorOptions options_;
+    std::unique_ptr<PartedMotion<Dim>> motion_;
     Recorder<Dim> recorder_;
     DriftGuard guard_;
     std::optional<std::filesystem::path> events_;

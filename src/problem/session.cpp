@@ -56,7 +56,8 @@ void Session::prefer_leapfrog(double dt) {
 /// As many as gain by it, of those that can be had, where none were asked for.
 void Session::choose_threads(std::size_t particles) {
     if (!chooses_threads_) return;
-    const int wanted = worthwhile_threads(particles, usable_cores());
+    const int each = std::max(1, usable_cores() / static_cast<int>(problem_.processes().count()));
+    const int wanted = worthwhile_threads(particles / problem_.processes().count(), each);
     if (wanted <= threads_) return;
     try {
         start_threads(wanted);
@@ -122,6 +123,10 @@ void Session::describe_environment() {
                               EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__));
     terminal_.say(fmt::format("machine     {}, {} thread{}, {}", host.data(), threads_,
                               threads_ == 1 ? "" : "s", to_string(instruction_set())));
+    if (!problem_.processes().alone())
+        terminal_.say(
+            fmt::format("ranks       {}, among which particles are parted by recursive bisection",
+                        problem_.processes().count()));
     terminal_.say(fmt::format("results     {}", folder_->path().string()));
     say_units();
     const SessionMemory* earlier = problem_.earlier_.get();

@@ -151,6 +151,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     for (auto& one : cases) settle_plan(one.plan, memory_->plans.size());
     refuse_idle_balance(cases);
     for (const auto& one : cases) {
+        if (one.plan.rezoning) one.plan.rezoning->check(*one.model);
         refuse_unstable(one);
         refuse_endless(one);
     }
@@ -161,6 +162,7 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
         const SundialsContext context;
         Vector y(problem_.common_.dry_run ? 1 : numbers, context);
         const IntegratorOptions own = integrator_of(one.plan);
+        PartedMotion<Dim>::refuse(*one.model, own, problem_.processes());
         if (own.dt != integrator_.dt) leave_out_of_case({"dt"});
         Ode ode = as_ode(*one.model, own, unused);
         ode.absolute_tolerance.resize(std::min(y.size(), ode.absolute_tolerance.size()));
@@ -181,7 +183,9 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     }
     std::vector<RunRecord> records;
     for (auto& one : cases) {
-        if (!records.empty() && InterruptWatch::received() != 0) break;
+        const Parts::Here all(problem_.processes());
+        if (!records.empty() && InterruptWatch::agreed() != 0) break;
+        const Parts::Here here(Parts::alone_here());
         if (one.start && !records.back().complete) break;
         describe(one);
         if (one.start) one.y0 = one.start(records.back());
@@ -191,9 +195,9 @@ std::vector<RunRecord> Session::run_all(std::vector<Case<Dim>> cases) {
     return records;
 }
 
-/// Whether the checkpoint is one of these cases: before anything is written.
+/// Whether the checkpoint is one of these cases: before anything is written. Cases then have its particles.
 template <int Dim>
-void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
+void Session::check_restart(std::vector<Case<Dim>>& cases) const {
     for (std::size_t k = 0; k < cases.size(); ++k) {
         const CaseMemory* earlier = earlier_case(memory_->cases.size() + k);
         if (earlier == nullptr) continue;
@@ -201,6 +205,7 @@ void Session::check_restart(const std::vector<Case<Dim>>& cases) const {
             throw InputError(
                 fmt::format("restart: the checkpoint holds the case '{}' in place of '{}'",
                             earlier->label, cases[k].label));
+        revive(cases[k], *earlier);
         state_of(*earlier, *cases[k].model);
         if (earlier->t > cases[k].plan.t_end)
             throw InputError(
@@ -226,7 +231,7 @@ void Session::resume(Run<Dim>& run, CaseMemory& earlier, const RunFolder& folder
     run.recall(earlier);
     snapshots.resume(run.snapshot_times());
     memory_->cases.back() = std::move(earlier);  // until this run comes to a checkpoint of its own
-    if (problem_.reopened_) return;
+    if (problem_.reopened_ || problem_.muted()) return;
     const auto from =
         std::filesystem::path(problem_.common_.restart).parent_path() / run.record().label;
     for (const auto& name : snapshots.names()) {
@@ -245,12 +250,18 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
                                                  SnapshotSeries<Dim>& snapshots) {
     const std::size_t number = memory_->cases.size() - 1;
     typename Run<Dim>::Watchers watchers;
-    watchers.snapshot = [&run, &snapshots](double t) { snapshots.add(t, run.y()); };
+    watchers.snapshot = [&run, &snapshots, writes = !problem_.muted()](double t) {
+        const auto y = run.y();
+        if (writes) snapshots.add(t, y);
+    };
     watchers.checkpoint = [this, number](CaseMemory&& state) {
         memory_->cases[number] = std::move(state);
-        save_checkpoint();
+        if (!problem_.muted()) save_checkpoint();
     };
-    watchers.last = [this, number](CaseMemory&& state) { save_last(number, std::move(state)); };
+    watchers.last = [this, number](CaseMemory&& state) {
+        if (!problem_.muted()) save_last(number, std::move(state));
+    };
+    watchers.rezoned = [&one, &snapshots] { snapshots.go_on_with(*one.model); };
     const bool adaptive = integrator_of(one.plan).adaptive();
     watchers.step = [this, &run, adaptive, t_end = one.plan.t_end](double t) {
         const double fraction = t / t_end;
@@ -282,7 +293,7 @@ template <int Dim>
 RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     CaseMemory* earlier = earlier_case(memory_->cases.size());
     memory_->cases.emplace_back().label = one.label;
-    Run<Dim> run(one, integrator_of(one.plan), &folder);
+    Run<Dim> run(one, integrator_of(one.plan), &folder, problem_.processes());
     run.record().statistics.problem = problem_.name_;
     run.record().statistics.units = problem_.units_;
     run.record().statistics.dim = Dim;

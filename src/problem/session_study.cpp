@@ -46,6 +46,10 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
             terminal_.say(fmt::format("integrator  {}", study != nullptr ? integrator_.describe()
                                                                          : "none: nothing moves"));
     };
+    if (!problem_.processes().alone())
+        throw InputError(fmt::format(
+            "ranks: {} computes no single run whose particles could be parted; leave --ranks out",
+            problem_.name_));
     if (problem_.common_.dry_run) {
         terminal_.say(fmt::format("{}: {}", problem_.name_, problem_.summary_));
         say_units();

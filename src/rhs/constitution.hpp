@@ -75,6 +75,18 @@ class Constitution {
         return 0.0;
     }
     /// Term::conducts()
+    /// Whether the energy of some particles is a function of their density.
+    virtual bool cold() const { return false; }
+    /// Term::Nature::no_rezoning
+    std::string why_not_rezoned(const Scheme& scheme) const {
+        if (cold())
+            return "the energy of '" + describe() +
+                   "' is a function of the density, and nothing can pay for its change; use a law with an energy, "
+                   "such as GammaGas";
+        return scheme.closest_approach > 0.0
+                   ? "the closest approach remembers pairs of particles; leave --closest-approach out"
+                   : "";
+    }
     virtual bool conducts() const { return false; }
     /// Term::neighbour_forces() of the stress, by the spacing.
     virtual double stress_forces(const ConstState<Dim>& state,
@@ -119,6 +131,10 @@ class FluidConstitution final : public Constitution<Dim> {
     bool conducts() const override {
         const auto does = [](const Fluid& f) { return f.conduction && f.conduction->kappa > 0.0; };
         return std::any_of(fluids_.begin(), fluids_.end(), does);
+    }
+    bool cold() const override {
+        return std::any_of(fluids_.begin(), fluids_.end(),
+                           [](const Fluid& f) { return f.state.cold; });
     }
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 

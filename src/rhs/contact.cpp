@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "term_sweeps.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/core_potential.hpp>
 #include <spam/rhs/contact.hpp>
@@ -32,7 +33,8 @@ ContactScheme validated(const ContactScheme& scheme, const Particles<Dim>& parti
             "contact: particles of one body that are {:g} apart in the reference configuration are "
             "neighbours, which the contact range {:g} would push apart; use 2.5 spacings",
             scheme.folds_beyond, scheme.range));
-    if (scheme.folds_beyond == 0.0 &&
+    // A part of a run may hold one of several bodies.
+    if (scheme.folds_beyond == 0.0 && Parts::here().alone() &&
         std::all_of(particles.body.begin(), particles.body.end(),
                     [&](std::int32_t body) { return body == particles.body.front(); }))
         throw InputError(

@@ -237,6 +237,9 @@ void MaterialVectors<Dim>::set_nature() {
     nature.settles_seldom = !material_.flows() && !parts_->brittle;
     // A return to the yield surface makes the order of a fixed step less than the method's.
     nature.smooth = !material_.flows();
+    nature.no_rezoning =
+        "bonds are what a solid with material vectors remembers, and one that flows through many changes would "
+        "forget; use an updated solid, or remake() between two runs";
     nature.no_images = "particles have no bonds with their images behind a wall; use rigid sides";
     std::string words = fmt::format(
         "material vectors, {}, density {:.6g}, range {}, penalty kappa = {}, stable up to a tension "

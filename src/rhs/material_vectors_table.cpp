@@ -128,7 +128,11 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
 /// moved about their centre is heat.
 template <int Dim>
 void MaterialVectors<Dim>::take_over(const Term<Dim>& before, const ConstState<Dim>& was,
-                                     const Change<Dim>& change, const ConstState<Dim>& now) {
+                                     const Change<Dim>& change, const State<Dim>& now) {
+    if (std::ranges::any_of(change.parts, Population<Dim>::is_twin))
+        throw InputError(
+            "population: particles with material vectors cannot be merged into two, which would turn about each other "
+            "against their bonds; merge them into one");
     const auto& from = dynamic_cast<const MaterialVectors&>(before);
     Parts& p = *parts_;
     const double *const x = now.position().data(), *const x_was = was.position().data();
@@ -187,7 +191,7 @@ auto MaterialVectors<Dim>::bonds_at(const double* x, std::size_t k) const -> std
     template bool MaterialVectors<D>::settle(double, const State<D>&);                           \
     template bool MaterialVectors<D>::update(const ConstState<D>&);                              \
     template void MaterialVectors<D>::take_over(const Term<D>&, const ConstState<D>&,            \
-                                                const Change<D>&, const ConstState<D>&);         \
+                                                const Change<D>&, const State<D>&);              \
     template std::vector<MaterialVectors<D>::Bond> MaterialVectors<D>::bonds(                    \
         std::span<const double>, std::size_t) const;                                             \
     template std::vector<MaterialVectors<D>::Bond> MaterialVectors<D>::bonds_at(                 \

@@ -97,8 +97,8 @@ void Model<Dim>::remember(Memory<Dim>& memory) {
     auto body = particles_.body;
     memory.particles(body_kind, body);
     if (!memory.reading() || memory.carries()) return;
-    const auto most =
-        std::max<std::int32_t>(particles_.bodies(), static_cast<std::int32_t>(particles_.size()));
+    const auto most = static_cast<std::int32_t>(Parts::here().most(
+        std::max(particles_.bodies(), static_cast<std::int32_t>(memory.among_all()))));
     if (body.size() != particles_.size() ||
         std::any_of(body.begin(), body.end(), [most](auto b) { return b < 0 || b >= most; }))
         throw InputError("the bodies that were remembered are not those of these particles");
@@ -128,6 +128,12 @@ void Model<Dim>::set_scales(const TypicalValues& typical) {
     }
     const double sound = std::sqrt(typical.stress / typical.density);
     time_scale_ = typical.length / std::max(typical.speed, sound);
+}
+
+template <int Dim>
+void Model<Dim>::take_scales(const Model& other) {
+    for (const auto& block : other.layout_.blocks()) layout_.set_scale(block.field, block.scale);
+    time_scale_ = other.time_scale_;
 }
 
 template class Model<1>;

@@ -276,6 +276,15 @@ std::vector<double> OwnRanges<Dim>::start(const Points<Dim>& position, const Poi
 }
 
 template <int Dim>
+void OwnRanges<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>& /*was*/,
+                               const Change<Dim>& change, const State<Dim>& now) {
+    bool all_same = true;
+    for (std::size_t k = 0; k < change.parts.size(); ++k) all_same = all_same && change.same(k);
+    if (all_same) return;
+    std::ranges::copy(solve_densities(now.position()), now.density().data());
+}
+
+template <int Dim>
 std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
     const auto rho = this->state_of(y).density();
     std::vector<double> h(range_.size());

@@ -156,7 +156,10 @@ template <int Dim>
 bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
     const State<Dim> state(this->layout(), y);
     bool changed = false;
-    for (const auto& term : terms_) changed = term->settle(t, term->among().of(state)) || changed;
+    for (const auto& term : terms_) {
+        const Parts::Among numbers(Parts::here(), term->among().first());
+        changed = term->settle(t, term->among().of(state)) || changed;
+    }
     return Parts::here().any((walled_ && reflect(state)) || changed);
 }
 

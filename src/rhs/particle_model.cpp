@@ -27,10 +27,6 @@ ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
 template <int Dim>
 void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
     refuse_walls(*term);
-    if (!Parts::here().alone() && !term->among().whole())
-        throw InputError(fmt::format(
-            "parts: '{}' acts among some of the particles, and cannot be parted; run it in one part",
-            term->nature().description));
     for (const auto& other : terms_) {
         if (!other->nature().elements.empty() && !term->nature().elements.empty())
             throw InputError(fmt::format(
@@ -65,9 +61,26 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
 }
 
 template <int Dim>
-void ParticleModel<Dim>::add(std::unique_ptr<External<Dim>> external) {
+void ParticleModel<Dim>::add(std::shared_ptr<External<Dim>> external) {
+    again_.push_back([external](ParticleModel& part, auto) { part.add(external); });
     externals_.push_back(std::move(external));
     add_accounts();
+}
+
+template <int Dim>
+std::unique_ptr<ParticleModel<Dim>> ParticleModel<Dim>::part(
+    std::span<const std::uint32_t> numbers) const {
+    auto part = std::make_unique<ParticleModel>(this->particles().some(numbers), this->box());
+    for (const Again& add : again_) add(*part, numbers);
+    part->take_scales(*this);
+    return part;
+}
+
+template <int Dim>
+void ParticleModel<Dim>::refuse_parts() {
+    throw InputError(
+        "ranks: a law is made of what cannot be copied, and not for a part of the particles; leave "
+        "--ranks out");
 }
 
 template <int Dim>
@@ -93,6 +106,7 @@ bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::sp
         const Selection<Dim>& among = term->among();
         const bool in_place = whole_ && term == terms_.front();
         double* const found = in_place ? v_dot : more_.data() + Dim * among.first();
+        const Parts::Among numbers(Parts::here(), among.first());
         if (auto reason = term->rates({t, among.of(state), among.of(rate), found});
             !reason.empty()) {
             this->fail(y_dot, std::move(reason));
@@ -129,7 +143,8 @@ void ParticleModel<Dim>::find_rates(double t, std::span<const double> y, std::sp
     for (const auto& b : this->layout().blocks())
         if (b.field.role() != Role::integrated)
             std::fill_n(y_dot.begin() + static_cast<std::ptrdiff_t>(b.offset), b.size, 0.0);
-    const typename External<Dim>::Now now{t, this->particles(), {this->layout(), y}, rate};
+    const typename External<Dim>::Now now{
+        t, this->particles(), {this->layout(), y}, rate, Parts::here().numbers()};
     if (this->box().has_images()) book_walls(now);
     for (const auto& external : externals_) {
         external->prepare(now);
@@ -180,7 +195,7 @@ std::vector<Event> ParticleModel<Dim>::events() const {
     bool guided = false;
     for (std::size_t i = 0; i < held.size(); ++i)
         for (const auto& external : externals_) {
-            const int axes = external->prescribed_axes(i);
+            const int axes = external->prescribed_axes(Parts::here().number(i));
             held[i] = held[i] || axes == Dim;
             guided = guided || (axes > 0 && axes < Dim);
         }
@@ -196,8 +211,8 @@ std::vector<Event> ParticleModel<Dim>::events() const {
             "axis; hold those particles altogether, or leave the closest approach out");
     if (!Parts::here().alone())
         throw InputError(
-            "closest-approach: pairs of particles in different parts are not watched; run it in one "
-            "part, or leave it out");
+            "closest-approach: pairs of particles in different parts are not watched; leave --ranks "
+            "out, or the closest approach");
     if (std::find(held.begin(), held.end(), true) == held.end()) return events;
     for (Event& event : events)
         event.apply = [this, apply = std::move(event.apply)](double t, std::span<double> y) {
@@ -310,8 +325,10 @@ std::size_t ParticleModel<Dim>::list_builds() const {
 template <int Dim>
 std::vector<Remark> ParticleModel<Dim>::watch(double t, std::span<const double> y) {
     std::vector<Remark> remarks;
-    for (const auto& term : terms_)
+    for (const auto& term : terms_) {
+        const Parts::Among numbers(Parts::here(), term->among().first());
         for (Remark& remark : term->watch(t, y)) remarks.push_back(std::move(remark));
+    }
     return remarks;
 }
 

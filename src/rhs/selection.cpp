@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/rhs/selection.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace spam {
-namespace {
-
-template <class Value>
-std::vector<Value> part_of(const std::vector<Value>& all, std::size_t first, std::size_t count) {
-    if (all.empty()) return {};
-    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
-    return {begin, begin + static_cast<std::ptrdiff_t>(count)};
-}
-
-}  // namespace
 
 template <int Dim>
 Selection<Dim>::Selection(Model<Dim>& model, std::size_t first, std::size_t count)
@@ -24,23 +16,24 @@ Selection<Dim>::Selection(Model<Dim>& model, std::size_t first, std::size_t coun
       first_(first),
       count_(count) {
     const Particles<Dim>& all = model.particles();
-    if (count == 0 || first >= all.size() || count > all.size() - first)
+    const bool none = count == 0 && Parts::here().alone();  // a part of a run may have none of them
+    if (none || first > all.size() || count > all.size() - first)
         throw InputError(
             fmt::format("selection: {} particles from number {} on are not among {}; choose some "
                         "of those",
                         count, first, all.size()));
     if (count == all.size()) return;
-    part_ = std::make_shared<Particles<Dim>>(
-        Particles<Dim>{part_of(all.mass, first, count), part_of(all.id, first, count),
-                       part_of(all.body, first, count),
-                       all.reference_position.middleCols(static_cast<Eigen::Index>(first),
-                                                         static_cast<Eigen::Index>(count)),
-                       all.spacing, part_of(all.material, first, count)});
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
+    part_ = std::make_shared<Particles<Dim>>(all.some(numbers));
 }
 
 template <int Dim>
 void Selection<Dim>::update_bodies() {
-    if (part_) part_->body = part_of(model_->particles().body, first_, count_);
+    const auto& body = model_->particles().body;
+    if (part_ && !body.empty())
+        std::copy_n(body.begin() + static_cast<std::ptrdiff_t>(first_), count_,
+                    part_->body.begin());
 }
 
 template class Selection<1>;

@@ -2,7 +2,10 @@
 // What can be asked of smooth particles only where they are fluid.
 #include "carried_energy.hpp"
 #include "constitution.hpp"
+#include <spam/core/error.hpp>
 #include <spam/rhs/smooth_particles.hpp>
+
+#include <fmt/format.h>
 
 namespace spam {
 
@@ -61,6 +64,19 @@ std::vector<double> SmoothParticles<Dim>::start(const Points<Dim>& position,
         velocity, rho, T);
 }
 
+/// Halves with the density of the whole, as where it is integrated, have its cold energy; sums have another one.
+template <int Dim>
+void SmoothParticles<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>& /*was*/,
+                                     const Change<Dim>& change, const State<Dim>& /*now*/) {
+    if (!constitution_->cold()) return;
+    for (std::size_t k = 0; k < change.parts.size(); ++k)
+        if (!change.same(k) && (scheme_.density == Density::summed || change.parts[k].size() > 1))
+            throw InputError(fmt::format(
+                "population: the energy of '{}' is a function of the density, which changes where particle {} is "
+                "split or merged, and nothing can pay; use a law with an energy, such as GammaGas",
+                constitution_->describe(), change.id[change.parts[k].front().particle]));
+}
+
 template std::vector<double> FluidConstitution<1>::pressures(std::span<const double>,
                                                              std::span<const double>) const;
 template std::vector<double> FluidConstitution<2>::pressures(std::span<const double>,
@@ -85,5 +101,12 @@ template const Fluid& SmoothParticles<3>::fluid() const;
 template std::vector<double> SmoothParticles<3>::pressure(std::span<const double>) const;
 template std::vector<double> SmoothParticles<3>::temperature(std::span<const double>) const;
 template std::vector<double> SmoothParticles<3>::start(const Points<3>&, const Points<3>&, double);
+
+template void SmoothParticles<1>::take_over(const Term<1>&, const ConstState<1>&, const Change<1>&,
+                                            const State<1>&);
+template void SmoothParticles<2>::take_over(const Term<2>&, const ConstState<2>&, const Change<2>&,
+                                            const State<2>&);
+template void SmoothParticles<3>::take_over(const Term<3>&, const ConstState<3>&, const Change<3>&,
+                                            const State<3>&);
 
 }  // namespace spam

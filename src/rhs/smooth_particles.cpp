@@ -113,6 +113,7 @@ void SmoothParticles<Dim>::set_nature() {
         nature.no_images =
             "the closest approach is of pairs of particles and lets them come nearer to a "
             "wall; leave --closest-approach out";
+    nature.no_rezoning = constitution_->why_not_rezoned(scheme_);
     if (scheme_.closest_approach > 0.0)
         nature.events = [this](const std::vector<bool>& held) {
             return std::vector<Event>{closest_approach_event<Dim>(

@@ -42,6 +42,9 @@ Springs<Dim>::Springs(const Selection<Dim>& among, const HarmonicSpring& spring)
         "neighbours",
         this->counts().pairs, spring_.kappa, spring_.rest_length);
     this->nature_.reach = near_.range();
+    this->nature_.no_rezoning =
+        "all springs have one length, and those of a split or merged particle would have others; use smooth "
+        "particles";
 }
 
 template <int Dim>
@@ -148,7 +151,7 @@ std::vector<SymTensor<Dim>> Springs<Dim>::stress(std::span<const double> y, doub
 
 template <int Dim>
 void Springs<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>& /*was*/,
-                             const Change<Dim>& change, const ConstState<Dim>& /*now*/) {
+                             const Change<Dim>& change, const State<Dim>& /*now*/) {
     for (std::size_t k = 0; k < change.parts.size(); ++k)
         if (!change.same(k))
             throw InputError(fmt::format(

@@ -23,8 +23,8 @@ template <int Dim>
 void Term<Dim>::require_one_part(const std::string& what) const {
     if (!Parts::here().alone())
         throw InputError(fmt::format(
-            "parts: {} cannot be parted, because neighbours in other parts are not known to it; run it in "
-            "one part",
+            "ranks: {} cannot be parted, because neighbours in other parts are not known to it; leave "
+            "--ranks out",
             what));
 }
 

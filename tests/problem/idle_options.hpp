@@ -96,6 +96,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"free_expansion", {"--compare", "--t-end", "6"}},
     {"gas_cloud", {"--size", "3", "--time", "0.5"}},
     {"gas_cloud", {"--ranges", "ellipses", "--size", "3", "--time", "0.5"}},
+    {"gas_cloud", {"--rezone", "--dimension", "2", "--size", "3", "--time", "1"}},
     {"gas_cloud", {"--return", "--size", "3", "--time", "0.5", "--axes", "2,1,1"}},
     {"cavitating_drop", {"--radius", "6", "--rate", "0.3"}},
     {"phase_separation", {"--cells", "12", "--t-end", "8"}},

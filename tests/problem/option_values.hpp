@@ -232,6 +232,7 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"gas_cloud", "dimension"}, "2"},
     {{"gas_cloud", "ranges"}, "density"},
     {{"gas_cloud", "aspect"}, "1.02"},
+    {{"gas_cloud", "largest-volume"}, "1.3"},
     {{"gas_cloud", "gradient-axes"}, "0.3"},
     {{"rotating_body", "size"}, "5"},
     {{"torsion", "formulation"}, "material_vectors"},

@@ -172,7 +172,7 @@ void compare(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions&
         try {
             found = in_parts<Dim>(count, make, box, options);
         } catch (const InputError& refused) {
-            BOOST_TEST(std::string(refused.what()).find("in one part") != std::string::npos,
+            BOOST_TEST(std::string(refused.what()).find("--ranks") != std::string::npos,
                        refused.what());
             ++counts.refused;
             return;

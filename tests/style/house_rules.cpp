@@ -17,15 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> rooms{"core",    "kernel",   "material", "neighbors", "boundary",
-                                     "physics", "external", "rhs",      "integrate", "diagnostics",
-                                     "setup",   "analysis", "io",       "picture",   "problem",
-                                     "study",   "view",     "python"};
+const std::vector<std::string> rooms{
+    "core",     "processes", "kernel",    "material",    "neighbors", "boundary", "physics",
+    "external", "rhs",       "integrate", "diagnostics", "setup",     "analysis", "io",
+    "picture",  "problem",   "study",     "view",        "python"};
 
 /// kernel and material are neighbours on one floor: both include only core.
-/// integrate knows vectors and callables, not particles: only core as well.
+/// integrate knows vectors and callables, not particles: core, and processes for the signals of a run on several.
 const std::map<std::string, std::set<std::string>> special{
-    {"kernel", {"core"}}, {"material", {"core"}}, {"integrate", {"core"}}};
+    {"kernel", {"core"}}, {"material", {"core"}}, {"integrate", {"core", "processes"}}};
 
 bool is_room(const std::string& name) {
     return std::find(rooms.begin(), rooms.end(), name) != rooms.end();
@@ -110,6 +110,19 @@ BOOST_AUTO_TEST_CASE(the_direction_check_can_fail) {
     BOOST_TEST(wrong_includes("rhs", {"#include <spam/physics/record.hpp>"}).empty());
     BOOST_TEST(wrong_includes("rhs", {"#include \"../core/levels.hpp\""}).empty());
     BOOST_TEST(wrong_includes("core", {"#include <sundials/sundials_types.h>"}).empty());
+}
+
+BOOST_AUTO_TEST_CASE(mpi_is_called_in_one_place) {
+    static const std::regex pattern("^\\s*#\\s*include\\s*<mpi\\.h>.*");
+    std::size_t places = 0;
+    for (const auto& path : sources({"include", "src", "problems"}))
+        for (const auto& line : lines_of(path))
+            if (std::regex_match(line, pattern)) {
+                ++places;
+                BOOST_TEST(fs::relative(path, SPAM_SOURCE).generic_string() ==
+                           "src/processes/mpi/mpi_processes.cpp");
+            }
+    BOOST_TEST(places == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(sundials_is_called_in_two_places) {

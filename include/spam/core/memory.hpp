@@ -63,6 +63,8 @@ class Memory {
     void laws(std::string names);
     /// From here on particles are numbered from `first` on, and there are `count` of them: those of a law.
     void among(std::size_t first, std::size_t count);
+    /// How many there are in all parts of a run.
+    std::size_t among_all() const { return was_; }
     /// Of the whole system: anything that an Archive takes.
     template <class... Values>
     void run(Field field, Values&... values) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace spam {
@@ -25,6 +26,18 @@ struct Particles {
 
     /// N
     std::size_t size() const { return mass.size(); }
+    /// Those of these numbers, in their order.
+    Particles some(std::span<const std::uint32_t> numbers) const {
+        const auto chosen = [&]<class Value>(const std::vector<Value>& all) {
+            std::vector<Value> values;
+            for (const auto i : numbers)
+                if (!all.empty()) values.push_back(all[i]);
+            return values;
+        };
+        return {chosen(mass), chosen(id),
+                chosen(body), reference_position(Eigen::all, numbers),
+                spacing,      chosen(material)};
+    }
     /// How many bodies there are: the largest number in `body`, and one more.
     std::int32_t bodies() const {
         std::int32_t n = 0;

@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace spam {
 
 /// Some part cannot go on (Parts::give_up): thrown in all others, with its reason.
 struct PartGaveUp : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Some part makes no more calls at all (Parts::leave): thrown in all others. Their runs end as well.
+struct PartLeft : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
@@ -28,6 +36,8 @@ class Parts {
   public:
     /// Those that this thread works for: one that is alone and exchanges nothing, unless there is a Here.
     static Parts& here();
+    /// One that is alone, whatever here() is: for what is looked at as a whole.
+    static Parts& alone_here();
     /// Makes parts those of this thread, as long as it lives.
     class Here {
       public:
@@ -53,18 +63,40 @@ class Parts {
     std::span<const std::uint32_t> numbers() const { return numbers_; }
     void set_numbers(std::vector<std::uint32_t> numbers) { numbers_ = std::move(numbers); }
     std::uint32_t number(std::size_t i) const {
-        return numbers_.empty() ? static_cast<std::uint32_t>(i) : numbers_[i];
+        return numbers_.empty() ? static_cast<std::uint32_t>(i) : numbers_[first_ + i];
     }
+    /// As long as it lives number(i) is that of this part's particle first + i: for laws among some of them.
+    class Among {
+      public:
+        Among(Parts& parts, std::size_t first)
+            : parts_(parts),
+              before_(std::exchange(parts.first_, first)) {}
+        ~Among() { parts_.first_ = before_; }
+        Among(const Among&) = delete;
+        Among& operator=(const Among&) = delete;
+
+      private:
+        Parts& parts_;
+        std::size_t before_;
+    };
     /// How many entries at the end of y every part has a copy of (accounts of the whole run).
     std::size_t copies = 0;
 
     using Bytes = std::vector<std::byte>;
     /// What is exchanged.
     enum class Content { sums, images, others };
-    /// Gives to[p] to part p; what part p has given to this one is then in [p]. Throws PartGaveUp.
+    /// Gives to[p] to part p; what part p has given to this one is then in [p]. Throws PartGaveUp, PartLeft.
     std::vector<Bytes> exchange(std::vector<Bytes> to, Content content = Content::others);
+    /// What this part has sent so far, and how long exchanges took it.
+    struct Traffic {
+        std::size_t exchanges = 0, bytes = 0;
+        double seconds = 0.0;
+    };
+    const Traffic& traffic() const { return traffic_; }
     /// For this part alone: it makes no more of the calls that others are at, which end there with this reason.
     void give_up(const std::string& reason);
+    /// The same for good: its last call.
+    void leave(const std::string& reason);
     /// Waits for the others, so that what has been found counts only where none has given up.
     void agree() {
         if (!alone()) exchange({});
@@ -76,6 +108,8 @@ class Parts {
     double most(double own);
     /// The sum.
     std::size_t total(std::size_t own);
+    /// Of the first part that has one; empty where none has.
+    std::string first_of(const std::string& own);
 
     /// The same values for all parts; what each has given, in the order of the parts.
     template <class Value>
@@ -86,6 +120,33 @@ class Parts {
         for (const Bytes& bytes : exchange(std::vector<Bytes>(count_, bytes_of(own)), content))
             all.push_back(values_of<Value>(bytes));
         return all;
+    }
+
+    /// `components` values of each of our particles, put in order with those of the others: of all, by number.
+    template <class Value>
+    std::vector<Value> by_number(std::span<const Value> own, std::size_t components = 1) {
+        if (alone()) return {own.begin(), own.end()};
+        const auto theirs = gather(std::span<const std::uint32_t>(numbers_));
+        const auto values = gather(own);
+        std::size_t n = 0;
+        for (const auto& one : theirs) n += one.size();
+        std::vector<Value> all(n * components);
+        for (std::size_t p = 0; p < count_; ++p)
+            for (std::size_t k = 0; k < theirs[p].size(); ++k)
+                std::copy_n(values[p].begin() + static_cast<std::ptrdiff_t>(k * components),
+                            components,
+                            all.begin() + static_cast<std::ptrdiff_t>(theirs[p][k] * components));
+        return all;
+    }
+    /// The other way round.
+    template <class Value>
+    std::vector<Value> own_of(std::span<const Value> all, std::size_t components = 1) const {
+        if (alone()) return {all.begin(), all.end()};
+        std::vector<Value> own;
+        own.reserve(numbers_.size() * components);
+        for (const std::uint32_t i : numbers_)
+            for (std::size_t c = 0; c < components; ++c) own.push_back(all[i * components + c]);
+        return own;
     }
 
     template <class Value>
@@ -105,11 +166,15 @@ class Parts {
     Parts(std::size_t count, std::size_t own) : count_(count), own_(own) {}
 
   private:
+    void end(std::byte how, const std::string& reason);
     /// exchange() of bytes as they are; never called where a part is alone.
     virtual std::vector<Bytes> transport(std::vector<Bytes> to, Content content) = 0;
 
     std::size_t count_, own_;
     std::vector<std::uint32_t> numbers_;
+    std::size_t first_ = 0;  ///< Among
+    Traffic traffic_;
+    std::optional<std::string> left_;  ///< why there are no more calls
 };
 
 }  // namespace spam

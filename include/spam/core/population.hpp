@@ -20,11 +20,15 @@ struct Population {
         std::uint32_t particle;
         /// Of the new particle's mass, 0 to 1.
         double share;
-        /// From the old particle to the new one, in units of length.
+        /// From the old particle to the new one, in units of length; of several from their centre of mass.
         Point<Dim> offset;
         /// Of the old particle's mass, 0 to 1.
         double of = 1.0;
     };
+    /// Whether these parts were merged into two particles, which turn about each other as the parts did.
+    static bool is_twin(const std::vector<Part>& parts) {
+        return parts.size() > 1 && parts.front().of < 1.0;
+    }
     /// The new set.
     Particles<Dim> particles;
     std::vector<std::vector<Part>> parts;  ///< by new particle; shares of each sum to 1
@@ -54,19 +58,25 @@ class Repopulation {
     /// F^-1 d from its reference position; their sum must be zero (then momentum and angular momentum are
     /// kept), or InputError.
     void split(std::size_t i, const Points<Dim>& offsets);
-    /// Two or more particles in one, at their centre of mass, now and in the reference positions. Throws InputError for different materials.
+    /// Two or more particles in one, at their centre of mass, now and in the reference positions. Throws InputError
+    /// for different materials or bodies.
     void merge(const std::vector<std::size_t>& particles);
+    /// Three or more particles in two of equal mass, at d and -d from their centre of mass (Rezoning says which d is
+    /// best): they turn about each other so that the angular momentum is kept. Throws InputError as the other.
+    void merge(const std::vector<std::size_t>& particles, const Point<Dim>& d);
     /// Takes particle i away. Throws InputError where it is split, merged or removed already.
     void remove(std::size_t i);
 
-    /// The new set, and what each of its particles is made of; remake() carries a state over.
-    Population<Dim> finish() const;
+    /// The new set, and what each of its particles is made of; remake() carries a state over. Children have numbers
+    /// from `first_new` on, or above all that there are: a run that does so often keeps the numbers of those gone free.
+    Population<Dim> finish(std::int64_t first_new = 0) const;
 
   private:
     struct Change {
         std::vector<std::size_t> merged{};
         Points<Dim> offsets{};
         bool removed = false;
+        Point<Dim> apart = Point<Dim>::Zero();  ///< of two that are made of more
     };
     Change& change_of(std::size_t i);
 

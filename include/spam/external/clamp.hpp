@@ -39,7 +39,7 @@ class Clamp final : public External<Dim> {
              Eigen::Index last) const override {
         auto x_dot = now.rate.position(), v_dot = now.rate.velocity();
         for (Eigen::Index i = first; i < last; ++i)
-            if (is_in(group_, i))
+            if (is_in(group_, now.number(i)))
                 for (int a = 0; a < Dim; ++a)
                     if (along_[static_cast<std::size_t>(a)]) {
                         x_dot(a, i) = V_[a];

@@ -25,7 +25,8 @@ class DistributedLoad final : public External<Dim> {
     void add(const typename External<Dim>::Now& now, Eigen::Index first,
              Eigen::Index last) const override {
         auto v_dot = now.rate.velocity();
-        for (Eigen::Index i = first; i < last; ++i) v_dot.col(i) += f_ * pattern_.col(i);
+        for (Eigen::Index i = first; i < last; ++i)
+            v_dot.col(i) += f_ * pattern_.col(now.number(i));
     }
     std::string inseparable() const override {
         return "the work of its load depends on velocities";

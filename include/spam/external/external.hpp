@@ -33,6 +33,14 @@ class External {
         const Particles<Dim>& particles;
         ConstState<Dim> state;
         State<Dim> rate;
+        std::span<const std::uint32_t>
+            numbers{};  ///< in the whole run, of a part of it (core/parts.hpp)
+        /// Of particle i in the whole run: what an external knows of single particles is by this number.
+        Eigen::Index number(Eigen::Index i) const {
+            return numbers.empty()
+                       ? i
+                       : static_cast<Eigen::Index>(numbers[static_cast<std::size_t>(i)]);
+        }
     };
 
     /// Sums over all particles that add() needs (a centre of mass, a temperature), found once a
@@ -71,7 +79,7 @@ class External {
     /// Why velocities and positions cannot be advanced in turn; empty where only positions matter.
     virtual std::string inseparable() const { return {}; }
     /// Along how many axes the motion of a particle is prescribed, whatever acts on it.
-    virtual int prescribed_axes(std::size_t /*particle*/) const { return 0; }
+    virtual int prescribed_axes(std::size_t /*number in the whole run*/) const { return 0; }
 
     /// "friction gamma = 0.1 of all motion"
     virtual std::string describe() const = 0;

@@ -21,7 +21,7 @@ class Load final : public External<Dim> {
              Eigen::Index last) const override {
         auto v_dot = now.rate.velocity();
         for (Eigen::Index i = first; i < last; ++i)
-            if (is_in(group_, i)) v_dot.col(i) += a_;
+            if (is_in(group_, now.number(i))) v_dot.col(i) += a_;
     }
     std::string inseparable() const override {
         return "the work of its load depends on velocities";

@@ -11,6 +11,7 @@ struct Schedule {
     double output_every = 0.0;      ///< rows of invariants; t = 0 and t_end always
     double snapshot_every = 0.0;    ///< configurations; t = 0 and t_end always
     double checkpoint_every = 0.0;  ///< 0: never
+    double change_every = 0.0;      ///< changes of the number of particles; 0: never
     double start = 0.0;             ///< intervals are counted from here
     bool resumed = false;           ///< what was due up to the integrator's time has been done
 };
@@ -22,6 +23,9 @@ struct Observers {
     std::function<void(double t)> step;  ///< after every step: progress
     /// After every output: whether y was changed, or the rates, so that the integrator begins anew.
     std::function<bool(double t)> revise;
+    /// At its times: what has been made of the run's y with other particles goes on from there, by another integrator.
+    /// Not where a run ends off its schedule: one with a later end would not pass through that state.
+    std::function<void(double t)> change;
     /// After all else at a time of the schedule: a run that goes on from here later is the same, bit
     /// for bit, as one that was never stopped. May change what the integrator remembers.
     std::function<void(double t)> checkpoint;
@@ -50,6 +54,11 @@ class DueTimes {
 /// Returns the signal that interrupted the run (see InterruptWatch), 0 if it went to the end.
 /// GuardStop, of a step or an observer, passes through.
 /// In every case the final accepted state has been given to `output` and `snapshot` exactly once.
-int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers);
+/// `integrator` may be another one after an observer was called.
+int drive(const std::function<Integrator&()>& integrator, const Schedule& schedule,
+          const Observers& observers);
+inline int drive(Integrator& integrator, const Schedule& schedule, const Observers& observers) {
+    return drive([&]() -> Integrator& { return integrator; }, schedule, observers);
+}
 
 }  // namespace spam

@@ -107,7 +107,7 @@ struct IntegratorOptions {
 ///   integrator does that was made there: bit for bit the same whether it was or not.
 class Integrator {
   public:
-    Integrator(const Ode& ode, Vector& y, double t0) : ode_(ode), y_(y), t_(t0) {}
+    Integrator(const Ode& ode, Vector& y, double t0);
     virtual ~Integrator() = default;
     Integrator(const Integrator&) = delete;
     Integrator& operator=(const Integrator&) = delete;
@@ -159,7 +159,7 @@ class Integrator {
     std::string non_finite_rate(std::span<const double> y_dot, double t) const;
 
     /// Whether to find out what limited this adaptive step.
-    bool errors_due() const { return y_.size() < 8192 || statistics_.steps % 8 == 0; }
+    bool errors_due() const { return size_ < 8192 || statistics_.steps % 8 == 0; }
 
     const Ode& ode_;
     Vector& y_;
@@ -168,6 +168,9 @@ class Integrator {
     Statistics statistics_;
 
   private:
+    std::string not_finite(const char* of, std::span<const double> z, double t) const;
+
+    std::size_t size_;  ///< of y in all parts of a run
     std::optional<std::size_t> most_steps_;
 };
 

@@ -43,6 +43,8 @@ class InterruptWatch {
 
     /// The signal noted, 0 if none.
     static int received();
+    /// That of any part of a run (core/parts.hpp), which is then noted here as well.
+    static int agreed();
 };
 
 }  // namespace spam

@@ -30,7 +30,7 @@ class SnapshotSeries {
   public:
     SnapshotSeries(const RunFolder& folder, const Model<Dim>& model, UnitNames units = {})
         : folder_(folder),
-          model_(model),
+          model_(&model),
           units_(std::move(units)) {}
 
     /// Goes on after earlier ones at these times; removes what an earlier run left after them. Throws
@@ -39,12 +39,15 @@ class SnapshotSeries {
     /// Names of the files so far.
     std::vector<std::string> names() const;
 
+    /// Further ones are of a model of other particles.
+    void go_on_with(const Model<Dim>& model) { model_ = &model; }
+
     /// Throws OutputError.
     void add(double t, std::span<const double> y);
 
   private:
     RunFolder folder_;
-    const Model<Dim>& model_;
+    const Model<Dim>* model_;
     UnitNames units_;
     std::vector<std::pair<double, std::string>> files_;
 };

@@ -20,7 +20,9 @@ inline constexpr FieldKind plastic_strain{"plastic_strain", Rank::scalar, Role::
 /// The same where it has a rate.
 inline constexpr FieldKind flowing_plastic_strain{"plastic_strain", Rank::scalar, Role::integrated,
                                                   "1"};
-inline constexpr FieldKind broken{"broken", Rank::scalar, Role::history, "1"};  ///< 1, or 0
+/// 1, or 0; what has broken cannot be one particle with what has not.
+inline constexpr FieldKind broken{"broken", Rank::scalar,     Role::history, "1",
+                                  100,      Quantity::scalar, Share::equal};
 /// sigma_zz of plane strain.
 inline constexpr FieldKind stress_zz{"stress_zz", Rank::scalar, Role::integrated, "m l^(2-D)/t^2"};
 /// When the latest step ended.

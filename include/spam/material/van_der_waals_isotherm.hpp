@@ -6,8 +6,8 @@
 namespace spam {
 
 /// Van der Waals' fluid held at one temperature, as a cold law: its free energy per mass (particles of mass 1, k = 1,
-/// up to a function of T) takes the place of the energy,
-///     e = -T ln((1 - b rho)/rho) - a rho,   P = rho^2 de/d rho = rho T/(1 - b rho) - a rho^2,
+/// up to a function of T, here such that no logarithm has a unit) takes the place of the energy,
+///     e = -T ln((1 - b rho)/(b rho)) - a rho,   P = rho^2 de/d rho = rho T/(1 - b rho) - a rho^2,
 ///     c^2 = dP/d rho = T/(1 - b rho)^2 - 2 a rho
 /// for 0 < rho < 1/b; NaN elsewhere. Below the critical temperature c^2 < 0 between two densities (spinodal()), and
 /// liquid and vapour part (coexistence()): analysis/coexistence.hpp.
@@ -24,7 +24,7 @@ struct VanDerWaalsIsotherm {
         return only_where(inside(rho), T / (room * room) - 2.0 * a * rho);
     }
     double cold_energy(double rho) const {
-        return only_where(inside(rho), T * std::log(rho / (1.0 - b * rho)) - a * rho);
+        return only_where(inside(rho), T * std::log(b * rho / (1.0 - b * rho)) - a * rho);
     }
 
     /// The law with an energy equation whose temperature this is.

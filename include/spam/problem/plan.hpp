@@ -5,6 +5,7 @@
 #include <spam/io/results.hpp>
 #include <spam/problem/drift_guard.hpp>
 #include <spam/problem/observer.hpp>
+#include <spam/problem/rezoning.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -39,8 +40,16 @@ struct Plan {
     /// Checked after every row. Off unless the session's options say otherwise.
     DriftLimits guard{};
 
+    /// How the number of particles changes on the way; nothing where it stays.
+    std::optional<Rezoning<Dim>> rezoning{};
+
     /// Adds an observer.
     void observe(Observer<Dim> observer) { observers.push_back(std::move(observer)); }
+    /// Lets the number of particles change, and records what that does (Rezoning::observer).
+    void rezone(Rezoning<Dim> how) {
+        observe(how.observer());
+        rezoning = std::move(how);
+    }
     /// Adds columns to invariants.csv.
     void record(std::vector<Column<Dim>> columns) { observe({.columns = std::move(columns)}); }
     /// Whether an observer may change the state or the bodies.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/parts.hpp>
 #include <spam/core/unit_names.hpp>
 #include <spam/io/options.hpp>
 #include <spam/io/run_folder.hpp>
@@ -28,6 +29,7 @@ struct CommonOptions {
     bool quiet = false;                      ///< --quiet: errors only
     bool no_plots = false;                   ///< --no-plots
     std::optional<int> threads;              ///< unset: as many as gain
+    std::optional<int> ranks;                ///< --ranks: processes; unset: one
     std::optional<double> t_end;             ///< --t-end; unset: what the problem plans
     std::optional<double> output_every;      ///< --output-every, between rows of invariants.csv
     std::optional<double> snapshot_every;    ///< --snapshot-every
@@ -81,6 +83,16 @@ class Problem {
     CommonOptions common_;
     Scheme scheme_;
     Kernel standard_kernel_ = scheme_.kernel;
+    int run(int argc, char** argv, const std::function<void(Session&)>& body);
+    int refusal() const;
+    void settle_ranks();
+    int complain(const std::exception& error, int status) const;
+    /// Those among which runs are parted; one that is alone where there is one.
+    Parts& processes() const { return processes_ ? *processes_ : Parts::alone_here(); }
+    /// Whether another process writes what this one finds as well.
+    bool muted() const { return processes().own() > 0; }
+
+    std::unique_ptr<Parts> processes_;
     double relative_step_ = 1.0;              ///< of the weight function chosen
     std::unique_ptr<SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;

@@ -141,7 +141,7 @@ class Session {
     void save_last(std::size_t number, CaseMemory&& state);
     CaseMemory* earlier_case(std::size_t number) const;
     template <int Dim>
-    void check_restart(const std::vector<Case<Dim>>& cases) const;
+    void check_restart(std::vector<Case<Dim>>& cases) const;
     template <int Dim>
     void begin_anew(const RunFolder& folder, SnapshotSeries<Dim>& snapshots);
     template <int Dim>

@@ -104,7 +104,7 @@ class MaterialVectors final : public Term<Dim> {
     void remember(Memory<Dim>& memory) override;
     /// Of particles whose bonds are others now, what they store less is heat; where it were more, F stays.
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
-                   const ConstState<Dim>& now) override;
+                   const State<Dim>& now) override;
     /// Once a run: that the tension is above the one that the penalty keeps stable. Looks at every 32nd state,
     /// because what grows takes longer than that. And when the first pairs break, and whenever twice as many have as
     /// at the last remark.

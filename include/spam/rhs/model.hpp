@@ -112,7 +112,7 @@ class Model {
     /// this one and `y` (problem/remake.hpp): laws take up what follows from the change, and where they have a heat,
     /// the energy that it takes from the motion. Throws InputError where a law forbids such a change.
     virtual void take_over(const Model& /*before*/, std::span<const double> /*was*/,
-                           const Change<Dim>& /*change*/, std::span<const double> /*y*/) {}
+                           const Change<Dim>& /*change*/, std::span<double> /*y*/) {}
     /// What changes of particles have given so far, as accounts say what externals have.
     struct Gains {
         double work = 0.0;
@@ -159,6 +159,8 @@ class Model {
     const FieldLayout<Dim>& layout() const { return layout_; }
     /// Scales of all fields of the layout, by their units.
     void set_scales(const TypicalValues& typical);
+    /// Those of a model of the same laws.
+    void take_scales(const Model& other);
     /// The time in which what is fastest, particles or sound, passes a typical length; 1 before set_scales().
     double time_scale() const { return time_scale_; }
 

@@ -43,6 +43,9 @@ class OwnRanges final : public Term<Dim> {
     /// A range that has grown to half of a periodic length ends the run.
     std::string rates(const Now& now) override;
     Answer answer(Ask what, std::span<const double> y) const override;
+    /// Densities and ranges that belong to each other are found anew, as at a start.
+    void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
+                   const State<Dim>& now) override;
 
     const Fluid& fluid() const { return fluid_; }
     const VariableRangeScheme& scheme() const { return scheme_; }

@@ -38,6 +38,17 @@ struct PairLaw {
     /// Sets energy and force of two particles, whose numbers are those of the selection. `periods`: r_ij less the
     /// difference of their positions. Null where forces are not along r_ij (friction), or unknown.
     std::function<void(PairForce<Dim>& pair, const Point<Dim>& periods)> of_pair{};
+
+    /// Of some of the particles.
+    PairLaw of_part(std::span<const std::uint32_t> numbers) const {
+        PairLaw part = *this;
+        part.of_pair = {};  // by numbers of the whole
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            part.columns[c].clear();
+            for (const auto i : numbers) part.columns[c].push_back(columns[c].at(i));
+        }
+        return part;
+    }
 };
 
 /// Forces between pairs: by a potential of their distance, or friction.

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/external/external.hpp>
 #include <spam/rhs/term.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <memory>
+#include <tuple>
 #include <type_traits>
 
 namespace spam {
@@ -19,7 +23,7 @@ class ParticleModel : public Model<Dim> {
     /// Laws between particles, in the order in which they were added.
     using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
     /// Laws from outside, likewise.
-    using Externals = std::vector<std::unique_ptr<External<Dim>>>;
+    using Externals = std::vector<std::shared_ptr<External<Dim>>>;
 
     /// Without a term nothing moves but by externals. Walls of the box (neighbors/wall.hpp) act by images of
     /// particles in every term, rigid ones by reflections; what they give is booked in the accounts, as a whole
@@ -33,22 +37,47 @@ class ParticleModel : public Model<Dim> {
     /// velocity, or what a wall of the box means nothing to (Term::Nature).
     template <class Law, class... Arguments>
     Law& add_term(Arguments&&... arguments) {
-        auto term = std::make_unique<Law>(*this, std::forward<Arguments>(arguments)...);
-        Law& law = *term;
-        take(std::move(term));
-        return law;
+        return add_term_among<Law>(0, this->particles().size(),
+                                   std::forward<Arguments>(arguments)...);
     }
     /// The same among the particles stored as first, ..., first + count - 1 alone: populations that do
     /// not meet, or meet by a further term, in one y. Terms of different particles may find the same
     /// fields; those of particles that no term integrates stay as they are.
     template <class Law, class... Arguments>
     Law& add_term_among(std::size_t first, std::size_t count, Arguments&&... arguments) {
-        auto term = std::make_unique<Law>(Selection<Dim>(*this, first, count),
-                                          std::forward<Arguments>(arguments)...);
+        if constexpr ((std::is_copy_constructible_v<std::decay_t<Arguments>> && ...))
+            again_.push_back(
+                [first, count, kept = std::tuple<std::decay_t<Arguments>...>(arguments...)](
+                    ParticleModel& part, std::span<const std::uint32_t> numbers) {
+                    const auto place = [&](std::size_t number) {
+                        return static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) -
+                                                        numbers.begin());
+                    };
+                    const std::size_t from = place(first), own = place(first + count) - from;
+                    std::vector<std::uint32_t> among;  // by number among those of the law
+                    for (const auto i : numbers.subspan(from, own))
+                        among.push_back(i - static_cast<std::uint32_t>(first));
+                    std::apply(
+                        [&](const auto&... whole) {
+                            part.add_term_among<Law>(from, own, of_part(whole, among)...);
+                        },
+                        kept);
+                });
+        else
+            again_.push_back([](ParticleModel&, auto) { refuse_parts(); });
+        const Parts::Among numbers(Parts::here(), first);
+        const bool all = count == this->particles().size();
+        auto term =
+            std::make_unique<Law>(all ? Selection<Dim>(*this) : Selection<Dim>(*this, first, count),
+                                  std::forward<Arguments>(arguments)...);
         Law& law = *term;
         take(std::move(term));
         return law;
     }
+    /// A model of the particles of these numbers alone, of the same laws: that of one part of a run, whose parts make it
+    /// together (core/parts.hpp; numbers are those of Parts::here()). Externals are shared. Throws InputError where a
+    /// law cannot be parted.
+    std::unique_ptr<ParticleModel> part(std::span<const std::uint32_t> numbers) const;
     /// Whether x_dot = v, by every term.
     bool moves_with_velocity() const;
     /// In the order in which they are called.
@@ -62,7 +91,7 @@ class ParticleModel : public Model<Dim> {
     }
 
     /// Adds an external behind those there are. y grows by the accounts (external.hpp).
-    void add(std::unique_ptr<External<Dim>> external);
+    void add(std::shared_ptr<External<Dim>> external);
     /// In the order in which they are applied.
     const Externals& externals() const { return externals_; }
 
@@ -103,7 +132,7 @@ class ParticleModel : public Model<Dim> {
     /// Of each particle that of the last term that knows one, 1 where none does; empty where none knows any.
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const final;
     void take_over(const Model<Dim>& before, std::span<const double> was, const Change<Dim>& change,
-                   std::span<const double> y) final;
+                   std::span<double> y) final;
     /// Whether a term settles, or the box has walls.
     bool settles() const final;
     /// Whether all terms that settle do so seldom, and the box has no walls.
@@ -142,9 +171,22 @@ class ParticleModel : public Model<Dim> {
                 if (const Wall<Dim>& wall = this->box().wall(a, upper); !wall.open())
                     f(a, upper, wall);
     }
+    void pay_for_potentials(const ParticleModel& before, std::span<const double> was,
+                            const Change<Dim>& change, std::span<double> y) const;
     void refuse_beyond_walls() const;
     void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
+    [[noreturn]] static void refuse_parts();
+    /// What a law is made of, for a part of the particles: what holds numbers by particle says what becomes of them.
+    template <class Argument>
+    static Argument of_part(const Argument& whole, std::span<const std::uint32_t> numbers) {
+        if constexpr (requires { whole.of_part(numbers); })
+            return whole.of_part(numbers);
+        else
+            return whole;
+    }
+    /// Again what has been added, to a model of a part of the particles.
+    using Again = std::function<void(ParticleModel& part, std::span<const std::uint32_t> numbers)>;
     void find_rates(double t, std::span<const double> y, std::span<double> y_dot);
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
@@ -168,6 +210,7 @@ class ParticleModel : public Model<Dim> {
 
     Terms terms_;
     Externals externals_;
+    std::vector<Again> again_;  ///< in the order in which it was added
     bool walled_;               ///< the box has walls
     bool whole_ = true;         ///< every term acts among all particles
     std::vector<double> more_;  ///< v_dot of a term that is not the first, or of a part

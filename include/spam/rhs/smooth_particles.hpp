@@ -76,6 +76,8 @@ class SmoothParticles final : public Term<Dim> {
     void set_bodies() override;
     void remember(Memory<Dim>& memory) override;
     bool settle(double t, const State<Dim>& state) override;
+    void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
+                   const State<Dim>& now) override;
 
     /// The choices it was made with.
     const Scheme& scheme() const { return scheme_; }

@@ -29,7 +29,7 @@ class Springs final : public Term<Dim>, public ForcesOfPairs<Dim> {
         std::span<const double> y) const override;
     /// Throws InputError where particles are split or merged: all springs have one length.
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
-                   const ConstState<Dim>& now) override;
+                   const State<Dim>& now) override;
 
     /// Stress of every particle from its own bonds (virial), tension-positive:
     /// sigma_i = -1/(2 V) sum_j r_ij (x) F_ij, V the volume of a particle.

@@ -91,8 +91,9 @@ class Term {
         bool settles = false;  ///< settle() may do anything although y holds no history of the term
         bool settles_seldom = false;  ///< and leaves the rates as they are but now and then
         Promises promises{.angular_momentum = Promise::integrator_error};  ///< in open space
-        double reach = 0.0;       ///< no two particles farther apart act on each other
-        std::string no_images{};  ///< why images behind a wall mean nothing to it
+        double reach = 0.0;         ///< no two particles farther apart act on each other
+        std::string no_images{};    ///< why images behind a wall mean nothing to it
+        std::string no_rezoning{};  ///< why its particles cannot be split and merged in a run
         /// Model::events(); of the particles of the model that are held or driven.
         std::function<std::vector<Event>(const std::vector<bool>&)> events{};
     };
@@ -114,7 +115,7 @@ class Term {
     virtual void remember(Memory<Dim>&) {}
     /// Model::take_over(); `before` is the same law, was and now are states of the particles of either.
     virtual void take_over(const Term& /*before*/, const ConstState<Dim>& /*was*/,
-                           const Change<Dim>& /*change*/, const ConstState<Dim>& /*now*/) {}
+                           const Change<Dim>& /*change*/, const State<Dim>& /*now*/) {}
 
     const Selection<Dim>& among() const { return among_; }
     void bodies_changed() {

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parted_motion.hpp"
+
+#include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
+#include <spam/integrate/methods.hpp>
+#include <spam/neighbors/neighbourhood.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace spam {
+namespace {
+
+/// Recursive bisection: the numbers of each part, by cuts across the longest extent, as many particles on either side as
+/// parts lie there (to one). Particles at one place go by number, so that all processes find the same.
+template <int Dim>
+void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
+            std::span<std::vector<std::uint32_t>> parts) {
+    if (parts.size() == 1) {
+        parts.front().assign(numbers.begin(), numbers.end());
+        std::sort(parts.front().begin(), parts.front().end());
+        return;
+    }
+    const Points<Dim> own = x(Eigen::all, numbers);
+    Eigen::Index axis = 0;
+    if (own.cols() > 0) (own.rowwise().maxCoeff() - own.rowwise().minCoeff()).maxCoeff(&axis);
+    const std::size_t below = parts.size() / 2, cut = numbers.size() * below / parts.size();
+    std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(cut),
+                     numbers.end(), [&](std::uint32_t i, std::uint32_t j) {
+                         return std::pair(x(axis, i), i) < std::pair(x(axis, j), j);
+                     });
+    bisect<Dim>(x, numbers.first(cut), parts.first(below));
+    bisect<Dim>(x, numbers.subspan(cut), parts.subspan(below));
+}
+
+/// f(where in y of all, where in y of the part with these particles, how many numbers).
+template <int Dim, class F>
+void for_each_entry(const FieldLayout<Dim>& layout, std::span<const std::uint32_t> numbers,
+                    std::size_t n, const F& f) {
+    std::size_t all = 0, own = 0;
+    for (const auto& block : layout.blocks()) {
+        if (block.field.role() == Role::account) {
+            f(all, own, block.size);
+            all += block.size, own += block.size;
+            continue;
+        }
+        const std::size_t c = block.components;
+        for (std::size_t k = 0; k < numbers.size(); ++k) f(all + numbers[k] * c, own + k * c, c);
+        all += n * c, own += numbers.size() * c;
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+PartedMotion<Dim>::PartedMotion(Model<Dim>& model, std::span<const double> y0,
+                                const IntegratorOptions& options, Parts& processes, double t0)
+    : whole_(model),
+      options_(options),
+      processes_(processes),
+      before_(processes.traffic()) {
+    if (alone()) {
+        motion_ = std::make_unique<Motion<Dim>>(model, y0, options, t0);
+        return;
+    }
+    y_.assign(y0.begin(), y0.end());
+    part(t0);
+}
+
+template <int Dim>
+void PartedMotion<Dim>::refuse(const Model<Dim>& model, const IntegratorOptions& options,
+                               Parts& processes) {
+    if (processes.alone()) return;
+    const auto* const particles = dynamic_cast<const ParticleModel<Dim>*>(&model);
+    if (particles == nullptr)
+        throw InputError("ranks: this model is not one of particles; leave --ranks out");
+    if (options.adaptive() && options.method.find("gsl:") == 0)
+        throw InputError(
+            "ranks: GSL's adaptive methods choose steps by the particles of one rank; use arkode: or "
+            "cvode: ones, or a fixed step");
+    if (processes.count() > model.particles().size())
+        throw InputError(fmt::format("ranks: there are {} of them for {} particles; give fewer",
+                                     processes.count(), model.particles().size()));
+    const Parts::Here here(processes);
+    std::vector<std::uint32_t> all(model.particles().size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<std::vector<std::uint32_t>> parts(processes.count());
+    bisect<Dim>(model.particles().reference_position, all, parts);
+    processes.set_numbers(parts[processes.own()]);
+    particles->part(processes.numbers())->events();
+}
+
+/// Of the state in y_ and of what the whole model remembers.
+template <int Dim>
+void PartedMotion<Dim>::part(double t) {
+    const Points<Dim> x = whole_.box().wrapped(Eigen::Map<const Points<Dim>>(
+        y_.data(), Dim, static_cast<Eigen::Index>(whole_.particles().size())));
+    std::vector<std::uint32_t> numbers(whole_.particles().size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    std::vector<std::vector<std::uint32_t>> parts(processes_.count());
+    bisect<Dim>(x, numbers, parts);
+    Archive memory;
+    {
+        const Parts::Here as_a_whole(Parts::alone_here());
+        whole_.remember(memory);
+    }
+    const Parts::Here here(processes_);
+    if (motion_) pairs_before_ += motion_->pair_interactions();
+    motion_.reset();
+    part_.reset();
+    processes_.set_numbers(parts[processes_.own()]);
+    part_ = dynamic_cast<const ParticleModel<Dim>&>(whole_).part(processes_.numbers());
+    Archive back(memory.bytes());
+    part_->remember(back);
+    std::vector<double> own(part_->layout().size());
+    for_each_entry(part_->layout(), processes_.numbers(), whole_.particles().size(),
+                   [&](std::size_t all, std::size_t mine, std::size_t count) {
+                       std::copy_n(&y_[all], count, &own[mine]);
+                   });
+    motion_ = std::make_unique<Motion<Dim>>(*part_, own, options_, t);
+    known_ = now();
+    images_ = 0;
+}
+
+/// The same with the integrator's memory.
+template <int Dim>
+void PartedMotion<Dim>::part_anew() {
+    const Parts::Here here(processes_);
+    Archive memory;
+    motion_->integrator().remember(memory);
+    part(t());
+    Archive back(memory.bytes());
+    motion_->integrator().remember(back);
+    known_ = now();
+}
+
+template <int Dim>
+void PartedMotion<Dim>::go_on_from(PartedMotion& before) {
+    const Parts::Here here(processes_);
+    Archive memory;
+    before.motion_->integrator().remember(memory);
+    Archive back(memory.bytes());
+    motion_->integrator().remember(back);
+    known_ = now();
+}
+
+/// Whether so many more images of others' particles are needed than at first that parting anew pays.
+template <int Dim>
+bool PartedMotion<Dim>::mixed() {
+    const Parts::Here here(processes_);
+    std::size_t images = 0;
+    for (const auto& term : part_->terms())
+        for (const auto* near : term->neighbourhoods())
+            images += near->list().slots() - near->list().size();
+    images = processes_.total(images);
+    if (images_ == 0) images_ = images;
+    return images > images_ + images_ / 2;
+}
+
+template <int Dim>
+std::span<const double> PartedMotion<Dim>::y() {
+    if (alone()) return motion_->y();
+    if (known_ == now()) return y_;
+    known_ = now();
+    {
+        const Parts::Here here(processes_);
+        const auto numbers = processes_.gather(processes_.numbers());
+        const auto ys = processes_.gather(motion_->y());
+        for (std::size_t p = 0; p < ys.size(); ++p)
+            for_each_entry(part_->layout(), numbers[p], whole_.particles().size(),
+                           [&](std::size_t all, std::size_t theirs, std::size_t count) {
+                               std::copy_n(&ys[p][theirs], count, &y_[all]);
+                           });
+    }
+    tell_whole();
+    // A method with fixed steps and no memory goes the same way from here.
+    if (options_.dt && options_.method.find("cvode:") != 0 && mixed()) part_anew();
+    return y_;
+}
+
+template <int Dim>
+bool PartedMotion<Dim>::edit(const std::function<bool(std::span<double> y)>& change) {
+    if (alone()) return motion_->edit(change);
+    y();
+    if (!change(y_)) return false;
+    Archive memory;  // bodies may be others now
+    whole_.remember(memory);
+    const Parts::Here here(processes_);
+    Archive back(memory.bytes());
+    part_->remember(back);
+    motion_->edit([&](std::span<double> own) {
+        for_each_entry(part_->layout(), processes_.numbers(), whole_.particles().size(),
+                       [&](std::size_t all, std::size_t mine, std::size_t count) {
+                           std::copy_n(&y_[all], count, &own[mine]);
+                       });
+        return true;
+    });
+    return true;
+}
+
+template <int Dim>
+std::size_t PartedMotion<Dim>::pair_interactions() {
+    return processes_.total(pairs_before_ + motion_->pair_interactions());
+}
+
+template <int Dim>
+std::vector<Remark> PartedMotion<Dim>::watch() {
+    const Parts::Here here(processes_);
+    return motion_->model().watch(t(), motion_->y());
+}
+
+template <int Dim>
+void PartedMotion<Dim>::remember(Archive& archive) {
+    if (!alone() && archive.reading()) y(), part(t());
+    {
+        const Parts::Here here(processes_);
+        motion_->remember(archive);
+    }
+    if (alone() || !archive.reading()) return;
+    known_ = now();
+    tell_whole();
+}
+
+template <int Dim>
+RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
+    const Parts::Traffic now = processes_.traffic();
+    return {processes_.count(), now.exchanges - before_.exchanges,
+            processes_.total(now.bytes - before_.bytes),
+            processes_.most(now.seconds - before_.seconds)};
+}
+
+/// What parts remember beyond y.
+template <int Dim>
+void PartedMotion<Dim>::tell_whole() {
+    Archive memory;
+    {
+        const Parts::Here here(processes_);
+        part_->remember(memory);
+    }
+    Archive back(memory.bytes());
+    whole_.remember(back);
+}
+
+template class PartedMotion<1>;
+template class PartedMotion<2>;
+template class PartedMotion<3>;
+
+}  // namespace spam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <spam/core/parts.hpp>
+#include <spam/io/results.hpp>
+#include <spam/problem/motion.hpp>
+#include <spam/rhs/particle_model.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace spam {
+
+/// A Motion whose particles may be parted among processes, with the bits of one that is not.
+///
+///     every process:  model of the whole run, which rows, snapshots and checkpoints look at, and y of it
+///                     part of the model, moved by a Motion of its own      <- numbers of its particles
+///     y()             gathers the parts' y for all processes               <- at rows, snapshots, checkpoints
+///
+/// Every process then finds the same rows, and makes the same decisions, without another word. Parts are made anew
+/// where the whole y is known anyway and a run that is not parted begins anew, or remembers nothing: at checkpoints,
+/// with fixed steps at rows as well.
+template <int Dim>
+class PartedMotion {
+  public:
+    /// `processes` is here() where there are several (whose whole model `model` is) or one that is alone. Throws
+    /// InputError where laws or methods cannot be parted.
+    PartedMotion(Model<Dim>& model, std::span<const double> y0, const IntegratorOptions& options,
+                 Parts& processes, double t0 = 0.0);
+
+    /// What the constructor refuses, before anything is written.
+    static void refuse(const Model<Dim>& model, const IntegratorOptions& options, Parts& processes);
+
+    double t() const { return motion_->t(); }
+    /// Of the whole; all processes must ask for it together.
+    std::span<const double> y();
+    bool edit(const std::function<bool(std::span<double> y)>& change);
+    const Integrator::Statistics& statistics() const { return motion_->statistics(); }
+    /// Of all processes, which must ask for it together.
+    std::size_t pair_interactions();
+    const Ode& ode() const { return motion_->ode(); }
+    /// It may be another one after y() and remember().
+    Integrator& integrator() { return motion_->integrator(); }
+    /// Model::watch() of the state reached.
+    std::vector<Remark> watch();
+    /// As Motion::remember(); the memory of the whole, whatever the parts.
+    void remember(Archive& archive);
+
+    Parts& processes() const { return processes_; }
+    /// By the memory of its integrator.
+    void go_on_from(PartedMotion& before);
+    /// Since the motion was made; all processes must ask for it together.
+    RunStatistics::Ranks exchanges() const;
+
+  private:
+    struct State {
+        double t;
+        std::size_t steps;
+        bool operator==(const State&) const = default;
+    };
+    bool alone() const { return processes_.alone(); }
+    State now() const { return {t(), statistics().steps}; }
+    void part(double t);
+    void part_anew();
+    void tell_whole();
+    bool mixed();
+
+    Model<Dim>& whole_;
+    IntegratorOptions options_;
+    Parts& processes_;
+    std::unique_ptr<ParticleModel<Dim>> part_;  ///< null where there is one process
+    std::unique_ptr<Motion<Dim>> motion_;
+    std::vector<double> y_;  ///< of the whole
+    State known_{};          ///< where it is known
+    Parts::Traffic before_;
+    std::size_t images_ = 0, pairs_before_ = 0;
+};
+
+}  // namespace spam

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
+#include <spam/core/program.hpp>
+#include <spam/core/threads.hpp>
+#include <spam/processes/processes.hpp>
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace spam {
+namespace {
+
+constexpr const char* status_variable = "SPAM_STATUS_FILE";
+
+std::atomic<pid_t> launcher = 0;
+std::atomic<int> passed_on = 0;
+
+/// The first signal lets the processes complete their results, as InterruptWatch says; a second one ends them.
+extern "C" void pass_on(int signal) {
+    const bool again = passed_on.exchange(signal) != 0;
+    if (launcher > 0) kill(launcher, again ? SIGTERM : signal == SIGINT ? SIGUSR1 : SIGUSR2);
+}
+
+void set_unless_given(const char* name, const char* value) { setenv(name, value, 0); }
+
+/// In a process group of its own: what a terminal sends on Ctrl-C comes to us alone. It ends with us.
+[[noreturn]] void become_mpirun(std::size_t count, char** argv) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (usable_cores() < static_cast<int>(count))
+        set_unless_given("OMPI_MCA_mpi_yield_when_idle", "1");
+    set_unless_given("OMPI_MCA_rmaps_base_oversubscribe", "1");
+    set_unless_given("OMP_WAIT_POLICY", "passive");
+    if (geteuid() == 0) {  // a container, most often; mpirun would refuse
+        set_unless_given("OMPI_ALLOW_RUN_AS_ROOT", "1");
+        set_unless_given("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+    }
+    const std::string n = std::to_string(count),
+                      self = std::filesystem::read_symlink("/proc/self/exe");
+    std::vector<const char*> words{"mpirun",    "-q",   "-n",        n.c_str(),
+                                   "--bind-to", "none", self.c_str()};
+    for (char** word = argv + 1; *word != nullptr; ++word) words.push_back(*word);
+    words.push_back(nullptr);
+    if (freopen("/dev/null", "r", stdin) == nullptr) _exit(127);
+    execvp("mpirun", const_cast<char**>(words.data()));
+    _exit(127);
+}
+
+}  // namespace
+
+std::size_t ranks_asked_for(int argc, const char* const* argv) {
+    for (int k = 1; k < argc; ++k) {
+        const std::string word = argv[k];
+        std::string number;
+        if (word == "--ranks" && k + 1 < argc) number = argv[k + 1];
+        if (word.rfind("--ranks=", 0) == 0) number = word.substr(std::strlen("--ranks="));
+        std::size_t count = 0;
+        const auto [end, error] =
+            std::from_chars(number.data(), number.data() + number.size(), count);
+        if (!number.empty() && error == std::errc() && end == number.data() + number.size() &&
+            count <= 1024)
+            return count;
+    }
+    return 1;
+}
+
+int start_processes(std::size_t count, char** argv) {
+    if (find_program("mpirun").empty())
+        throw InputError(
+            "ranks: there is no mpirun on PATH, which starts them; install it (Debian: openmpi-bin), "
+            "or leave --ranks out");
+    std::string name = std::filesystem::temp_directory_path() / "spam-status-XXXXXX";
+    const int file = mkstemp(name.data());
+    if (file < 0) throw OutputError(fmt::format("cannot write '{}'", name));
+    close(file);
+    setenv(status_variable, name.c_str(), 1);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (std::signal(signal, pass_on) == SIG_IGN) std::signal(signal, SIG_IGN);
+    const pid_t child = fork();
+    if (child == 0) become_mpirun(count, argv);
+    launcher = child;
+    int ended = 0;
+    while (waitpid(child, &ended, 0) < 0 && errno == EINTR) {
+    }
+    int status = -1;
+    std::ifstream(name) >> status;
+    std::error_code ignored;
+    std::filesystem::remove(name, ignored);
+    if (status >= 0) return status;
+    // It has not come to its end: a signal at once, or a process that was killed, of which mpirun has said more.
+    if (passed_on != 0) return 128 + passed_on;
+    return WIFEXITED(ended) && WEXITSTATUS(ended) != 0 ? WEXITSTATUS(ended) : 4;
+}
+
+int report_status(int status) {
+    const char* name = std::getenv(status_variable);
+    if (name == nullptr) return status;
+    std::ofstream(name) << status;
+    return 0;
+}
+
+}  // namespace spam
