@@ -8,7 +8,7 @@
 //       o o o o o  ->         in equilibrium with its vapour; v = gamma r
 //        o o o o o  ->
 //         o o o               m v_dot_i = -d Phi/d r_i,   Phi = sum_i m e(rho_i),
-//                             e = -T ln((1 - b rho)/rho) - a rho,   P = rho T/(1 - b rho) - a rho^2
+//                             e = -T ln((1 - b rho)/(b rho)) - a rho,   P = rho T/(1 - b rho) - a rho^2
 //
 // Where it is slow the liquid holds together, and swings. Faster, its density falls below that at which the liquid
 // bears the largest tension (spinodal), and it breaks: into a few pieces, into many small ones, and then into vapour

@@ -155,7 +155,7 @@ void add_options(Options& options, Parameters& p) {
                    between(1.0, 1e4));
     options.number("yield-stress", p.yield_stress,
                    "stress difference at which the sheet yields; its moduli are 0.433",
-                   between(1e-6, 1e6));
+                   between(1e-3, 1e6));
     options.number("hardening", p.hardening, "growth of the yield stress with plastic strain",
                    between(0.0, 1e3));
     options.number("amplitude", p.amplitude, "speed across the sheet at the start",

@@ -6,7 +6,7 @@
 // one temperature,
 //
 //     o  o  o  o  o          ooo      o         m v_dot_i = -d Phi/d r_i - m gamma v_i,   Phi = sum_i m e(rho_i)
-//     o  o  o  o  o          oooo               e = -T ln((1 - b rho)/rho) - a rho
+//     o  o  o  o  o          oooo               e = -T ln((1 - b rho)/(b rho)) - a rho
 //     o  o  o  o  o   ->   oooooo     o         P = rho^2 de/d rho = rho T/(1 - b rho) - a rho^2
 //     o  o  o  o  o        ooooo    o
 //     o  o  o  o  o         oo                  a = 9/8, b = 1/3: critical density and temperature are 1

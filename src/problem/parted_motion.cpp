@@ -36,23 +36,6 @@ void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
     bisect<Dim>(x, numbers.subspan(cut), parts.subspan(below));
 }
 
-/// f(where in y of all, where in y of the part with these particles, how many numbers).
-template <int Dim, class F>
-void for_each_entry(const FieldLayout<Dim>& layout, std::span<const std::uint32_t> numbers,
-                    std::size_t n, const F& f) {
-    std::size_t all = 0, own = 0;
-    for (const auto& block : layout.blocks()) {
-        if (block.field.role() == Role::account) {
-            f(all, own, block.size);
-            all += block.size, own += block.size;
-            continue;
-        }
-        const std::size_t c = block.components;
-        for (std::size_t k = 0; k < numbers.size(); ++k) f(all + numbers[k] * c, own + k * c, c);
-        all += n * c, own += numbers.size() * c;
-    }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -107,20 +90,16 @@ void PartedMotion<Dim>::part(double t) {
         const Parts::Here as_a_whole(Parts::alone_here());
         whole_.remember(memory);
     }
+    known_memory_ = memory.take();
     const Parts::Here here(processes_);
     if (motion_) pairs_before_ += motion_->pair_interactions();
     motion_.reset();
     part_.reset();
     processes_.set_numbers(parts[processes_.own()]);
     part_ = dynamic_cast<const ParticleModel<Dim>&>(whole_).part(processes_.numbers());
-    Archive back(memory.bytes());
+    Archive back(known_memory_);
     part_->remember(back);
-    std::vector<double> own(part_->layout().size());
-    for_each_entry(part_->layout(), processes_.numbers(), whole_.particles().size(),
-                   [&](std::size_t all, std::size_t mine, std::size_t count) {
-                       std::copy_n(&y_[all], count, &own[mine]);
-                   });
-    motion_ = std::make_unique<Motion<Dim>>(*part_, own, options_, t);
+    motion_ = std::make_unique<Motion<Dim>>(*part_, own_y(), options_, t);
     known_ = now();
     images_ = 0;
 }
@@ -165,15 +144,18 @@ std::span<const double> PartedMotion<Dim>::y() {
     if (alone()) return motion_->y();
     if (known_ == now()) return y_;
     known_ = now();
+    looked_at_ = true;
     {
         const Parts::Here here(processes_);
-        const auto numbers = processes_.gather(processes_.numbers());
-        const auto ys = processes_.gather(motion_->y());
-        for (std::size_t p = 0; p < ys.size(); ++p)
-            for_each_entry(part_->layout(), numbers[p], whole_.particles().size(),
-                           [&](std::size_t all, std::size_t theirs, std::size_t count) {
-                               std::copy_n(&ys[p][theirs], count, &y_[all]);
-                           });
+        std::vector<double> all;
+        for (const auto& block : part_->layout().blocks()) {
+            const auto own = motion_->y().subspan(block.offset, block.size);
+            const bool account = block.field.role() == Role::account;
+            const auto values = account ? std::vector<double>(own.begin(), own.end())
+                                        : processes_.by_number(own, block.components);
+            all.insert(all.end(), values.begin(), values.end());
+        }
+        y_ = std::move(all);
     }
     tell_whole();
     // A method with fixed steps and no memory goes the same way from here.
@@ -186,16 +168,10 @@ bool PartedMotion<Dim>::edit(const std::function<bool(std::span<double> y)>& cha
     if (alone()) return motion_->edit(change);
     y();
     if (!change(y_)) return false;
-    Archive memory;  // bodies may be others now
-    whole_.remember(memory);
+    tell_part();
     const Parts::Here here(processes_);
-    Archive back(memory.bytes());
-    part_->remember(back);
     motion_->edit([&](std::span<double> own) {
-        for_each_entry(part_->layout(), processes_.numbers(), whole_.particles().size(),
-                       [&](std::size_t all, std::size_t mine, std::size_t count) {
-                           std::copy_n(&y_[all], count, &own[mine]);
-                       });
+        std::ranges::copy(own_y(), own.begin());
         return true;
     });
     return true;
@@ -232,6 +208,19 @@ RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
             processes_.most(now.seconds - before_.seconds)};
 }
 
+template <int Dim>
+std::vector<double> PartedMotion<Dim>::own_y() const {
+    std::vector<double> own;
+    for (const auto& block : whole_.layout().blocks()) {
+        const auto all = std::span<const double>(y_).subspan(block.offset, block.size);
+        const bool account = block.field.role() == Role::account;
+        const auto values = account ? std::vector<double>(all.begin(), all.end())
+                                    : processes_.own_of(all, block.components);
+        own.insert(own.end(), values.begin(), values.end());
+    }
+    return own;
+}
+
 /// What parts remember beyond y.
 template <int Dim>
 void PartedMotion<Dim>::tell_whole() {
@@ -240,8 +229,25 @@ void PartedMotion<Dim>::tell_whole() {
         const Parts::Here here(processes_);
         part_->remember(memory);
     }
-    Archive back(memory.bytes());
+    known_memory_ = memory.take();
+    Archive back(known_memory_);
     whole_.remember(back);
+}
+
+/// The other way round, where it is not the same any more: bodies found anew, counts of sums that an observer took.
+template <int Dim>
+void PartedMotion<Dim>::tell_part() {
+    looked_at_ = false;
+    Archive memory;
+    {
+        const Parts::Here as_a_whole(Parts::alone_here());
+        whole_.remember(memory);
+    }
+    if (memory.bytes() == known_memory_) return;
+    known_memory_ = memory.take();
+    const Parts::Here here(processes_);
+    Archive back(known_memory_);
+    part_->remember(back);
 }
 
 template class PartedMotion<1>;

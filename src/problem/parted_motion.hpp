@@ -40,7 +40,10 @@ class PartedMotion {
     std::size_t pair_interactions();
     const Ode& ode() const { return motion_->ode(); }
     /// It may be another one after y() and remember().
-    Integrator& integrator() { return motion_->integrator(); }
+    Integrator& integrator() {
+        if (looked_at_) tell_part();
+        return motion_->integrator();
+    }
     /// Model::watch() of the state reached.
     std::vector<Remark> watch();
     /// As Motion::remember(); the memory of the whole, whatever the parts.
@@ -62,7 +65,9 @@ class PartedMotion {
     State now() const { return {t(), statistics().steps}; }
     void part(double t);
     void part_anew();
+    std::vector<double> own_y() const;
     void tell_whole();
+    void tell_part();
     bool mixed();
 
     Model<Dim>& whole_;
@@ -70,8 +75,11 @@ class PartedMotion {
     Parts& processes_;
     std::unique_ptr<ParticleModel<Dim>> part_;  ///< null where there is one process
     std::unique_ptr<Motion<Dim>> motion_;
-    std::vector<double> y_;  ///< of the whole
-    State known_{};          ///< where it is known
+    std::vector<double> y_;                ///< of the whole
+    std::vector<std::byte> known_memory_;  ///< what it and the part have remembered alike
+    bool looked_at_ =
+        false;  ///< the whole has been looked at since, which may have changed what it remembers
+    State known_{};  ///< where it is known
     Parts::Traffic before_;
     std::size_t images_ = 0, pairs_before_ = 0;
 };

@@ -145,6 +145,7 @@ BOOST_AUTO_TEST_CASE(values_out_of_range) {
         {{"--size", "99999999999999999999"}, {"size", "between 1 and 2000"}},
         {{"--size", "4\n5"}, {"size", "whole number"}},
         {{"--threads", "0"}, {"threads", "0", "between 1 and"}},
+        {{"--ranks", "0"}, {"ranks", "0", "between 1 and"}},
         {{"--rtol", "1", "--integrator", dormand}, {"rtol", "1", "below 1"}},
         {{"--safety", "1.5", "--integrator", dormand}, {"safety", "1.5", "below 1"}},
         {{"--max-step", "1e-13", "--integrator", dormand}, {"max-step", "steps to t"}},

@@ -109,7 +109,8 @@ Words ends_of(const std::string& program, const std::string& option) {
 /// One of the ends of an option's range, empty where it has none or the end is a large whole number, which says how
 /// many there are of something.
 std::string end_of(const std::string& program, const std::string& option, std::mt19937& random) {
-    const bool whole = option == "threads" || option == "jobs" || option == "max-steps";
+    const bool whole =
+        option == "threads" || option == "ranks" || option == "jobs" || option == "max-steps";
     Words ends = whole ? Words{} : ends_of(program, option);
     if (ends.empty()) return {};
     if (ends[1].find('e') == std::string::npos && ends[1].size() >= 4) ends.pop_back();

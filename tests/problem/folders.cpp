@@ -154,14 +154,17 @@ BOOST_AUTO_TEST_CASE(help_names_every_option) {
     const Outcome outcome = hexagon(folder, {"--help"});
     BOOST_TEST(outcome.status == 0);
     BOOST_TEST(outcome.err == "");
-    for (const char* name :
-         {"out",        "force",    "config",    "dry-run",      "smoke",
-          "quiet",      "no-plots", "threads",   "t-end",        "output-every",
-          "integrator", "dt",       "rtol",      "atol",         "kernel",
-          "range",      "density",  "transport", "mean-density", "angular-momentum",
-          "size",       "speed",    "turns",     "model",        "controller",
-          "safety",     "min-step", "max-step",  "initial-step", "max-steps",
-          "atol-stress"})
+    for (const char* name : {"out",       "force",        "config",
+                             "dry-run",   "smoke",        "quiet",
+                             "no-plots",  "threads",      "ranks",
+                             "t-end",     "output-every", "integrator",
+                             "dt",        "rtol",         "atol",
+                             "kernel",    "range",        "density",
+                             "transport", "mean-density", "angular-momentum",
+                             "size",      "speed",        "turns",
+                             "model",     "controller",   "safety",
+                             "min-step",  "max-step",     "initial-step",
+                             "max-steps", "atol-stress"})
         BOOST_TEST(outcome.out.find(std::string("--") + name + " ") != std::string::npos, name);
     BOOST_TEST(folder.listing().empty());
 }

@@ -17,8 +17,8 @@ using Words = std::vector<std::string>;
 
 /// How to run, not what to compute.
 inline const std::set<std::string> no_part_of_the_case{
-    "config",   "out",     "force", "dry-run", "smoke",   "quiet", "help",
-    "no-plots", "threads", "jobs",  "version", "restart", "movie"};
+    "config",   "out",     "force", "dry-run", "smoke",   "quiet",   "help",
+    "no-plots", "threads", "ranks", "jobs",    "version", "restart", "movie"};
 
 /// Of the session and its integrator: they act, or are refused, in code that all cases of a program share. A case
 /// that leaves the same kind of results as an earlier one (one run, several, none) does not try them again. What

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(every_problem_leaves_the_bytes_of_one_rank) {
             require_ran(run_in(folder, name, with(common, {"--out", "whole"})));
             check_same(files_of(folder / "whole"), files_of(folder / "parted"));
         }
-    const std::set<std::string> cannot{REFUSED};
+    const std::set<std::string> cannot{"mesh_modes", "pierced_bar", "water_column"};
     BOOST_TEST(refused == cannot, boost::test_tools::per_element());
 }
 
@@ -107,10 +107,10 @@ BOOST_AUTO_TEST_CASE(ends) {
         BOOST_TEST(lines(outcome.err) == 1U, outcome.err);
     };
     check({"--size", "none"}, 2, "size");
-    check({"--out", "out", "--no-plots", "--transport", "plain", "--dt", "4"}, 3, "stopped: ");
+    check({"--out", "out", "--no-plots", "--transport", "plain", "--dt", "10", "--size", "3"}, 3,
+          "density");
     BOOST_TEST(fs::exists(folder / "out/checkpoint_0.h5"));
     check({"--out", "out"}, 2, "out: ");
-    check({"--out", "/proc/none"}, 4, "/proc/none");
     check({"--integrator", "gsl:rkf45", "--no-plots", "--out", "gsl"}, 2, "ranks: ");
 }
 

@@ -332,7 +332,7 @@ inline const std::map<std::string, Add<Dim>> externals{
              [a = 1.0 / (s.units.time * s.units.time), T = s.units.time](double t) {
                  return a * (0.01 + 0.02 * t / T);
              },
-             s.model.particles().reference_position);
+             of_whole<Dim>(s.model.particles().reference_position));
      }},
     {"RigidWall",
      [](Sample<Dim>& s) {
@@ -342,9 +342,8 @@ inline const std::map<std::string, Add<Dim>> externals{
              s.energy(0.2), s.length(1.0));
      }},
     {"Clamp", [](Sample<Dim>& s) {
-         add_external<Clamp<Dim>>(
-             s, select<Dim>(s.model.particles(),
-                            [most = s.length(1.2)](const Point<Dim>& x) { return x.x() < most; }));
+         const auto left = [most = s.length(1.2)](const Point<Dim>& x) { return x.x() < most; };
+         add_external<Clamp<Dim>>(s, of_whole(select<Dim>(s.model.particles(), left)));
      }}};
 
 }  // namespace spam::test
