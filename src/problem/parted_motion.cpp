@@ -142,9 +142,9 @@ bool PartedMotion<Dim>::mixed() {
 template <int Dim>
 std::span<const double> PartedMotion<Dim>::y() {
     if (alone()) return motion_->y();
+    looked_at_ = true;
     if (known_ == now()) return y_;
     known_ = now();
-    looked_at_ = true;
     {
         const Parts::Here here(processes_);
         std::vector<double> all;

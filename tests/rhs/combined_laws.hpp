@@ -197,7 +197,7 @@ void add_springs(Sample<Dim>& s) {
 inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
     const auto most = std::max_element(particles.id.begin(), particles.id.end());
     std::vector<std::uint32_t> stored(static_cast<std::size_t>(*most) + 1);
-    for (std::uint32_t k = 0; k < stored.size(); ++k)
+    for (std::uint32_t k = 0; k < particles.size(); ++k)
         stored[static_cast<std::size_t>(particles.id[k])] = k;
     std::vector<Quadrilateral> mesh;
     for (std::size_t i = 0; i + 9 < stored.size(); ++i)
