@@ -143,7 +143,10 @@ template <int Dim>
 std::span<const double> PartedMotion<Dim>::y() {
     if (alone()) return motion_->y();
     looked_at_ = true;
-    if (known_ == now()) return y_;
+    if (known_ == now()) {
+        if (watched_) tell_whole();
+        return y_;
+    }
     known_ = now();
     {
         const Parts::Here here(processes_);
@@ -184,7 +187,9 @@ std::size_t PartedMotion<Dim>::pair_interactions() {
 
 template <int Dim>
 std::vector<Remark> PartedMotion<Dim>::watch() {
+    if (looked_at_) tell_part();
     const Parts::Here here(processes_);
+    watched_ = true;
     return motion_->model().watch(t(), motion_->y());
 }
 
@@ -229,6 +234,7 @@ void PartedMotion<Dim>::tell_whole() {
         const Parts::Here here(processes_);
         part_->remember(memory);
     }
+    watched_ = false;
     known_memory_ = memory.take();
     Archive back(known_memory_);
     whole_.remember(back);

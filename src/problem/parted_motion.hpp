@@ -79,7 +79,8 @@ class PartedMotion {
     std::vector<std::byte> known_memory_;  ///< what it and the part have remembered alike
     bool looked_at_ =
         false;  ///< the whole has been looked at since, which may have changed what it remembers
-    State known_{};  ///< where it is known
+    bool watched_ = false;  ///< what the part remembers may be more than what the whole was told
+    State known_{};         ///< where it is known
     Parts::Traffic before_;
     std::size_t images_ = 0, pairs_before_ = 0;
 };
