@@ -15,6 +15,14 @@
 namespace spam {
 namespace {
 
+// Of any size: one instance of these solvers, each of which takes seconds to compile.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& moments, const Eigen::MatrixXd& sums) {
+    return moments.completeOrthogonalDecomposition().solve(sums);
+}
+Eigen::VectorXd least_axis(const Eigen::MatrixXd& symmetric) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);
+}
+
 /// What is known of all particles before any is changed.
 template <int Dim>
 class Candidates {
@@ -110,7 +118,7 @@ class Candidates {
             moments += w * r * r.transpose();
             sums += w * r * (value_of(j) - own).transpose();
         }
-        return moments.completeOrthogonalDecomposition().solve(sums);
+        return least_squares(moments, sums);
     }
     double steepness(std::size_t i) const {
         const auto rho = [&](std::size_t j) { return Point<1>(rho_[j]); };
@@ -146,9 +154,7 @@ class Candidates {
             const Point<Dim> r = way(j, i);
             if (j != i) near += r * r.transpose() / std::pow(r.squaredNorm(), 0.5 * Dim + 2.0);
         }
-        return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>(near)
-            .eigenvectors()
-            .col(0);
+        return least_axis(near);
     }
 
     bool beyond_walls(std::size_t i, const Points<Dim>& offsets) const {
