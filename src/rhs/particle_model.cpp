@@ -77,6 +77,14 @@ std::unique_ptr<ParticleModel<Dim>> ParticleModel<Dim>::part(
 }
 
 template <int Dim>
+ParticleModel<Dim>::Own::Own(std::span<const std::uint32_t> numbers, std::size_t from,
+                             std::size_t count)
+    : first(static_cast<std::size_t>(std::ranges::lower_bound(numbers, from) - numbers.begin())) {
+    for (const auto i : numbers.subspan(first))
+        if (i < from + count) among.push_back(static_cast<std::uint32_t>(i - from));
+}
+
+template <int Dim>
 void ParticleModel<Dim>::refuse_parts() {
     throw InputError(
         "ranks: a law is made of what cannot be copied, and not for a part of the particles; leave "

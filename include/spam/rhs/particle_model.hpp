@@ -6,10 +6,8 @@
 #include <spam/external/external.hpp>
 #include <spam/rhs/term.hpp>
 
-#include <algorithm>
 #include <functional>
 #include <memory>
-#include <tuple>
 #include <type_traits>
 
 namespace spam {
@@ -46,33 +44,14 @@ class ParticleModel : public Model<Dim> {
     template <class Law, class... Arguments>
     Law& add_term_among(std::size_t first, std::size_t count, Arguments&&... arguments) {
         if constexpr ((std::is_copy_constructible_v<std::decay_t<Arguments>> && ...))
-            again_.push_back(
-                [first, count, kept = std::tuple<std::decay_t<Arguments>...>(arguments...)](
-                    ParticleModel& part, std::span<const std::uint32_t> numbers) {
-                    const auto place = [&](std::size_t number) {
-                        return static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) -
-                                                        numbers.begin());
-                    };
-                    const std::size_t from = place(first), own = place(first + count) - from;
-                    std::vector<std::uint32_t> among;  // by number among those of the law
-                    for (const auto i : numbers.subspan(from, own))
-                        among.push_back(i - static_cast<std::uint32_t>(first));
-                    std::apply(
-                        [&](const auto&... whole) {
-                            part.add_term_among<Law>(from, own, of_part(whole, among)...);
-                        },
-                        kept);
-                });
+            again_.push_back([first, count, ... kept = std::decay_t<Arguments>(arguments)](
+                                 ParticleModel& part, std::span<const std::uint32_t> numbers) {
+                const Own own(numbers, first, count);
+                part.make_term<Law>(own.first, own.among.size(), of_part(kept, own.among)...);
+            });
         else
             again_.push_back([](ParticleModel&, auto) { refuse_parts(); });
-        const Parts::Among numbers(Parts::here(), first);
-        const bool all = count == this->particles().size();
-        auto term =
-            std::make_unique<Law>(all ? Selection<Dim>(*this) : Selection<Dim>(*this, first, count),
-                                  std::forward<Arguments>(arguments)...);
-        Law& law = *term;
-        take(std::move(term));
-        return law;
+        return make_term<Law>(first, count, std::forward<Arguments>(arguments)...);
     }
     /// A model of the particles of these numbers alone, of the same laws: that of one part of a run, whose parts make it
     /// together (core/parts.hpp; numbers are those of Parts::here()). Externals are shared. Throws InputError where a
@@ -176,6 +155,26 @@ class ParticleModel : public Model<Dim> {
     void refuse_beyond_walls() const;
     void refuse_walls(const Term<Dim>& term) const;
     void take(std::unique_ptr<Term<Dim>> term);
+    template <class Law, class... Arguments>
+    Law& make_term(std::size_t first, std::size_t count, Arguments&&... arguments) {
+        const Parts::Among numbers(Parts::here(), first);
+        auto term =
+            std::make_unique<Law>(among(first, count), std::forward<Arguments>(arguments)...);
+        Law& law = *term;
+        take(std::move(term));
+        return law;
+    }
+    Selection<Dim> among(std::size_t first, std::size_t count) {
+        return count == this->particles().size() ? Selection<Dim>(*this)
+                                                 : Selection<Dim>(*this, first, count);
+    }
+    /// Those of a part's particles that are first, ..., first + count - 1 of the whole: the first of them in the part, and
+    /// their numbers from `first` on.
+    struct Own {
+        Own(std::span<const std::uint32_t> numbers, std::size_t first, std::size_t count);
+        std::size_t first;
+        std::vector<std::uint32_t> among;
+    };
     [[noreturn]] static void refuse_parts();
     /// What a law is made of, for a part of the particles: what holds numbers by particle says what becomes of them.
     template <class Argument>
