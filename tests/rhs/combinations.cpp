@@ -30,28 +30,12 @@ std::set<std::string> classes_derived_from(const std::string& base, const std::s
     return names;
 }
 
-/// What the text forbids, by name.
-template <int Dim>
-void potentials_need_plain_velocities() {
-    const auto refused = [](const char* law, const Add<Dim>& add, const Scheme& scheme) {
-        return combine<Dim>(with_scheme<Dim>.at(law), add, scheme, externals<Dim>.at("")).refused;
-    };
-    for (const auto& [more, add] : further<Dim>) {
-        if (more.empty() || more == "ArtificialViscosity" || more == "ReflectedPairs") continue;
-        BOOST_TEST(refused("SmoothParticles, solid", add, {.transport = Transport::monaghan})
-                           .find("averaged velocity") != std::string::npos,
-                   more);
-    }
-    BOOST_TEST(refused("SmoothParticles, gas", further<Dim>.at(""),
-                       {.density = Density::summed, .transport = Transport::monaghan})
-                   .find("gains energy without limit") != std::string::npos);
-}
-
 }  // namespace
 
 // In combinations_in_space.cpp, because it takes long to compile.
 extern template Tally spam::test::every_scheme<3>();
 extern template Tally spam::test::every_external<3>();
+extern template void spam::test::potentials_need_plain_velocities<3>();
 
 BOOST_AUTO_TEST_CASE(no_term_and_no_external_is_left_out) {
     std::set<std::string> terms, outside;

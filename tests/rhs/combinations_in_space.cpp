@@ -4,3 +4,4 @@
 
 template spam::test::Tally spam::test::every_scheme<3>();
 template spam::test::Tally spam::test::every_external<3>();
+template void spam::test::potentials_need_plain_velocities<3>();

@@ -35,4 +35,21 @@ Tally every_external() {
     return tally;
 }
 
+/// What the text forbids, by name.
+template <int Dim>
+void potentials_need_plain_velocities() {
+    const auto refused = [](const char* law, const Add<Dim>& add, const Scheme& scheme) {
+        return combine<Dim>(with_scheme<Dim>.at(law), add, scheme, externals<Dim>.at("")).refused;
+    };
+    for (const auto& [more, add] : further<Dim>) {
+        if (more.empty() || more == "ArtificialViscosity" || more == "ReflectedPairs") continue;
+        BOOST_TEST(refused("SmoothParticles, solid", add, {.transport = Transport::monaghan})
+                           .find("averaged velocity") != std::string::npos,
+                   more);
+    }
+    BOOST_TEST(refused("SmoothParticles, gas", further<Dim>.at(""),
+                       {.density = Density::summed, .transport = Transport::monaghan})
+                   .find("gains energy without limit") != std::string::npos);
+}
+
 }  // namespace spam::test
