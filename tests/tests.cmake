@@ -347,3 +347,7 @@ spam_test_of_problem(test.rhs.fluid_transport diffusion_waves/diffusion_waves.cp
 set_property(SOURCE rhs/accounts.cpp rhs/combinations.cpp rhs/combinations_in_space.cpp rhs/parts.cpp
   rhs/parts_in_space.cpp rhs/units.cpp rhs/units_in_space.cpp rhs/walled_combinations.cpp APPEND PROPERTY
   COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
+foreach(test accounts combinations parts parts_in_space units units_in_space)
+  target_precompile_headers(test.rhs.${test} PRIVATE <Eigen/Geometry> <Eigen/Eigenvalues> <boost/test/unit_test.hpp>
+    <functional> <map> <regex>)
+endforeach()
