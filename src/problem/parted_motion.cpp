@@ -2,7 +2,7 @@
 #include "parted_motion.hpp"
 
 #include <spam/core/error.hpp>
-#include <spam/core/parts.hpp>
+#include <spam/core/parted_state.hpp>
 #include <spam/integrate/methods.hpp>
 #include <spam/neighbors/neighbourhood.hpp>
 
@@ -150,15 +150,7 @@ std::span<const double> PartedMotion<Dim>::y() {
     known_ = now();
     {
         const Parts::Here here(processes_);
-        std::vector<double> all;
-        for (const auto& block : part_->layout().blocks()) {
-            const auto own = motion_->y().subspan(block.offset, block.size);
-            const bool account = block.field.role() == Role::account;
-            const auto values = account ? std::vector<double>(own.begin(), own.end())
-                                        : processes_.by_number(own, block.components);
-            all.insert(all.end(), values.begin(), values.end());
-        }
-        y_ = std::move(all);
+        y_ = whole_state(processes_, part_->layout(), motion_->y());
     }
     tell_whole();
     // A method with fixed steps and no memory goes the same way from here.
@@ -215,15 +207,7 @@ RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
 
 template <int Dim>
 std::vector<double> PartedMotion<Dim>::own_y() const {
-    std::vector<double> own;
-    for (const auto& block : whole_.layout().blocks()) {
-        const auto all = std::span<const double>(y_).subspan(block.offset, block.size);
-        const bool account = block.field.role() == Role::account;
-        const auto values = account ? std::vector<double>(all.begin(), all.end())
-                                    : processes_.own_of(all, block.components);
-        own.insert(own.end(), values.begin(), values.end());
-    }
-    return own;
+    return own_state<Dim>(processes_, whole_.layout(), whole_.particles().size(), y_);
 }
 
 /// What parts remember beyond y.

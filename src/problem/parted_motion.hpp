@@ -77,10 +77,9 @@ class PartedMotion {
     std::unique_ptr<Motion<Dim>> motion_;
     std::vector<double> y_;                ///< of the whole
     std::vector<std::byte> known_memory_;  ///< what it and the part have remembered alike
-    bool looked_at_ =
-        false;  ///< the whole has been looked at since, which may have changed what it remembers
-    bool watched_ = false;  ///< what the part remembers may be more than what the whole was told
-    State known_{};         ///< where it is known
+    // Whether either may remember more than that: observers were shown the whole, or the part was watched.
+    bool looked_at_ = false, watched_ = false;
+    State known_{};  ///< where y_ is known
     Parts::Traffic before_;
     std::size_t images_ = 0, pairs_before_ = 0;
 };

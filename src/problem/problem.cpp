@@ -31,7 +31,7 @@ void keep_standard_descriptors() {
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDWR) < 0) std::abort();
 }
 
-/// Of a process that writes for nobody.
+/// Of a process whose results are not kept.
 std::string scratch_folder() {
     return std::filesystem::temp_directory_path() / fmt::format("spam-rank-{}", getpid());
 }
@@ -65,10 +65,9 @@ Problem::Problem(std::string name, std::string summary, double default_dt, std::
             "are enough particles to gain by it. Results do not depend on it",
             between(1, 1024))
         .or_word("auto");
-    options_.integer(
-        "ranks", common_.ranks,
-        "processes among which the particles are parted (MPI). Results do not depend on it",
-        between(1, 1024));
+    options_.integer("ranks", common_.ranks,
+                     "MPI processes that share the particles of a run. Results do not depend on it",
+                     between(1, 1024));
     options_.number("t-end", common_.t_end, "time at which the run ends", positive());
     options_.number("output-every", common_.output_every, "time between rows of invariants.csv",
                     positive());

@@ -84,7 +84,7 @@ void bind_solids(py::module_& module) {
         module, "Material",
         "A stress law of one's own, f(grad_v, stress) -> sigma_dot: for m particles at a time (256 at most)\n"
         "grad_v (m, D, D) with grad_v[:, a, b] = d v_b/d x_a, stress and sigma_dot (m, D(D+1)/2): xx; xx, yy,\n"
-        "xy; xx, yy, zz, xy, xz, yz. It must not depend on which particles are asked for together. An\n"
+        "xy; xx, yy, zz, xy, yz, xz. It must not depend on which particles are asked for together. An\n"
         "exception of f ends the run and arrives unchanged; NaN stops the run (GuardStop).\n"
         "`sound_speed` (length/time), a number or a function of the density, is needed by schemes with\n"
         "viscosity; `modulus`, a typical one, is the\n"

@@ -68,30 +68,6 @@ void ParticleModel<Dim>::add(std::shared_ptr<External<Dim>> external) {
 }
 
 template <int Dim>
-std::unique_ptr<ParticleModel<Dim>> ParticleModel<Dim>::part(
-    std::span<const std::uint32_t> numbers) const {
-    auto part = std::make_unique<ParticleModel>(this->particles().some(numbers), this->box());
-    for (const Again& add : again_) add(*part, numbers);
-    part->take_scales(*this);
-    return part;
-}
-
-template <int Dim>
-ParticleModel<Dim>::Own::Own(std::span<const std::uint32_t> numbers, std::size_t from,
-                             std::size_t count)
-    : first(static_cast<std::size_t>(std::ranges::lower_bound(numbers, from) - numbers.begin())) {
-    for (const auto i : numbers.subspan(first))
-        if (i < from + count) among.push_back(static_cast<std::uint32_t>(i - from));
-}
-
-template <int Dim>
-void ParticleModel<Dim>::refuse_parts() {
-    throw InputError(
-        "ranks: a law is made of what cannot be copied, and not for a part of the particles; leave "
-        "--ranks out");
-}
-
-template <int Dim>
 bool ParticleModel<Dim>::moves_with_velocity() const {
     return std::all_of(terms_.begin(), terms_.end(),
                        [](const auto& term) { return term->nature().moves_with_velocity; });

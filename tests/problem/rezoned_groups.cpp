@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups of particles merged into two, and particles split: what is kept group by group, and who may be merged.
+#include "problem/rezoned_gas.hpp"
 #include "support/refusal.hpp"
 #include <spam/material/gamma_gas.hpp>
 #include <spam/problem/remake.hpp>
@@ -11,16 +12,10 @@
 #include <random>
 
 using namespace spam;
+using spam::test::gas_of;
 using spam::test::refusal;
 
 namespace {
-
-const Scheme summed{.density = Density::summed, .kernel = Kernel::w4, .range = 3.0};
-
-template <int Dim>
-std::shared_ptr<Model<Dim>> gas_of(Particles<Dim> particles) {
-    return std::make_shared<FluidModel<Dim>>(std::move(particles), Fluid{GammaGas{2.0}}, summed);
-}
 
 /// Groups of 3 to 6 at random in boxes of their own, each in two; every seventh particle beside them in 2^Dim.
 template <int Dim>

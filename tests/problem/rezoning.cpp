@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Particles split and merged on the way of a run: what criteria do, and what is refused.
+#include "problem/rezoned_gas.hpp"
 #include "support/refusal.hpp"
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
@@ -22,16 +23,11 @@
 #include <limits>
 
 using namespace spam;
+using spam::test::gas_of;
 using spam::test::refusal;
+using spam::test::summed;
 
 namespace {
-
-const Scheme summed{.density = Density::summed, .kernel = Kernel::w4, .range = 3.0};
-
-template <int Dim>
-std::shared_ptr<Model<Dim>> gas_of(Particles<Dim> particles) {
-    return std::make_shared<FluidModel<Dim>>(std::move(particles), Fluid{GammaGas{2.0}}, summed);
-}
 
 /// A square of gas in motion, with a Rezoning.
 template <int Dim>

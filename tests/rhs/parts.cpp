@@ -5,6 +5,7 @@
 #include "rhs/walled.hpp"
 #include "support/parts_in_threads.hpp"
 #include "support/refusal.hpp"
+#include <spam/core/parted_state.hpp>
 
 #include <cstring>
 #include <mutex>
@@ -39,53 +40,6 @@ std::vector<std::uint32_t> own_numbers(std::size_t count, std::size_t own, int s
     }
     std::sort(numbers.begin(), numbers.end());
     return numbers;
-}
-
-/// f(where in the whole, where in the part, how many numbers): of all entries of a part's y.
-template <int Dim, class F>
-void for_each_entry(const FieldLayout<Dim>& layout, std::span<const std::uint32_t> numbers,
-                    std::size_t n, const F& f) {
-    std::size_t whole = 0;
-    for (const auto& block : layout.blocks()) {
-        if (block.field.role() == Role::account) {
-            f(whole, block.offset, block.size);
-            whole += block.size;
-            continue;
-        }
-        for (std::size_t k = 0; k < numbers.size(); ++k)
-            f(whole + numbers[k] * block.components, block.offset + k * block.components,
-              block.components);
-        whole += n * block.components;
-    }
-}
-
-template <int Dim>
-std::vector<double> gathered(const FieldLayout<Dim>& layout, std::span<const double> y,
-                             std::size_t n) {
-    Parts& parts = Parts::here();
-    const auto numbers = parts.gather(parts.numbers());
-    const auto ys = parts.gather(y);
-    std::size_t size = 0;
-    for (const auto& block : layout.blocks())
-        size += block.field.role() == Role::account ? block.size : n * block.components;
-    std::vector<double> whole(size);
-    for (std::size_t p = 0; p < parts.count(); ++p) {
-        std::vector<Field> fields;
-        std::size_t offset = 0;  // of the layout of part p
-        std::size_t to = 0;
-        for (const auto& block : layout.blocks()) {
-            const bool account = block.field.role() == Role::account;
-            const std::size_t c = block.components;
-            if (account)
-                std::copy_n(&ys[p][offset], block.size, &whole[to]);
-            else
-                for (std::size_t k = 0; k < numbers[p].size(); ++k)
-                    std::copy_n(&ys[p][offset + k * c], c, &whole[to + numbers[p][k] * c]);
-            offset += account ? block.size : numbers[p].size() * c;
-            to += account ? block.size : n * c;
-        }
-    }
-    return whole;
 }
 
 template <int Dim>
@@ -126,13 +80,9 @@ std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<
             make(sample);
             sample.model.events();
             std::vector<double> y = sample.start();
-            if (segment > 0)
-                for_each_entry(sample.model.layout(), parts.numbers(), n,
-                               [&](std::size_t from, std::size_t to, std::size_t size) {
-                                   std::copy_n(&all[from], size, &y[to]);
-                               });
+            if (segment > 0) y = own_state<Dim>(parts, sample.model.layout(), n, all);
             y = moved(sample, y, options);
-            all = gathered(sample.model.layout(), y, n);
+            all = whole_state<Dim>(parts, sample.model.layout(), y);
             x = Eigen::Map<const Points<Dim>>(all.data(), Dim, X.cols());
         }
         if (parts.own() == 0) result = all;

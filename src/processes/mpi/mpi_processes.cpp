@@ -13,8 +13,8 @@
 namespace spam {
 namespace {
 
-/// An exchange is one message to every other process, whose length is asked for where it arrives. Who waits looks for a
-/// while and then sleeps for moments: on a machine with fewer cores than processes the others need its core.
+/// An exchange is one message to every other process, whose length is asked for where it arrives. A process that
+/// waits looks for a while and then sleeps for moments: where there are fewer cores than processes the others need its core.
 class MpiProcesses final : public Parts {
   public:
     MpiProcesses(int count, int own)
