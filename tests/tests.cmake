@@ -343,11 +343,11 @@ spam_test_of_problem(test.physics.lattice_strength lattice_stability/lattice_str
 spam_test_of_problem(test.diagnostics.convection_grid rayleigh_benard/grid.cpp)
 spam_test_of_problem(test.diagnostics.gas_dynamics shock_tube/riemann.cpp blast/sedov.cpp)
 spam_test_of_problem(test.rhs.fluid_transport diffusion_waves/diffusion_waves.cpp)
-# All laws in one source: what takes time in these tests is the library's.
-set_property(SOURCE rhs/accounts.cpp rhs/combinations.cpp rhs/combinations_in_space.cpp rhs/parts.cpp
-  rhs/parts_in_space.cpp rhs/units.cpp rhs/units_in_space.cpp rhs/walled_combinations.cpp APPEND PROPERTY
-  COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
-foreach(test accounts combinations parts parts_in_space units units_in_space)
-  target_precompile_headers(test.rhs.${test} PRIVATE <Eigen/Geometry> <Eigen/Eigenvalues> <boost/test/unit_test.hpp>
-    <functional> <map> <regex>)
+# All laws of the tests that combine them, compiled once.
+add_library(spam_test_laws STATIC rhs/law_tables.cpp rhs/law_tables_in_space.cpp rhs/more_law_tables.cpp
+                                  rhs/more_law_tables_in_space.cpp)
+target_link_libraries(spam_test_laws PUBLIC spam::spam spam_test_main PRIVATE spam_flags)
+target_include_directories(spam_test_laws PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+foreach(test accounts combinations walled_combinations parts parts_in_space units units_in_space)
+  target_link_libraries(test.rhs.${test} PRIVATE spam_test_laws)
 endforeach()
