@@ -4,6 +4,7 @@
 #pragma once
 
 #include <spam/external/rigid_wall.hpp>
+#include <spam/problem/variant.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 #include <spam/spam.hpp>
 

@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(embedded_atoms_keep_half_of_their_speed_and_more) {
 
 // One run depends on its last digits; the mean of five does not.
 BOOST_AUTO_TEST_CASE(slow_balls_of_embedded_atoms_in_the_mean) {
-    if (!effort(true, false)) return;  // the same law five times more
+    if (!long_runs()) return;  // the same law five times more
     double sum = 0.0;
     for (const char* seed : {"1", "2", "3", "4", "5"})
         sum +=

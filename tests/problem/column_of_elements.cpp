@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(particles_and_elements_fall_alike) {
 }
 
 BOOST_AUTO_TEST_CASE(the_mesh_of_the_lecture) {
-    if (!effort(true, false)) return;
+    if (!long_runs()) return;
     const Results found("water_column",
                         elements("40", "80x64", {"--dt", "0.1", "--t-end", "40", "--threads", "1"}),
                         "centre_height_at_40");

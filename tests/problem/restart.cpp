@@ -61,7 +61,10 @@ BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
         const double end = effort(1.0, 0.2) * CheckpointReader(*probe).numbers("/cases/0/t").at(0);
         const double dt = key(folder / "probe/case.toml", "dt");
         const double T = 16.0 * dt * std::max(1.0, std::round(end / 16.0 / dt));
+        // One of the methods in turn; both in long runs. restart_table.cpp has others again.
+        const bool fixed = ++twins % 2 == 0;
         for (const Words& method : {Words{}, adaptive}) BOOST_TEST_CONTEXT(name << method.size()) {
+                if (!long_runs() && method.empty() != fixed) continue;
                 const Scratch here;
                 Words common = with(smoke, method);
                 for (const auto& word : intervals(T)) common.push_back(word);
@@ -78,7 +81,6 @@ BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
                 check_same(left_by(here / "whole"), left_by(here / "rest"));
                 until(T, {"--restart", half, "--no-plots"});  // in place
                 check_same(left_by(here / "whole"), left_by(here / "half"));
-                ++twins;
             }
     }
     BOOST_TEST(twins >= 14u);

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(vortices_decay_as_they_should_where_particles_are_shifted) 
 }
 
 BOOST_AUTO_TEST_CASE(disorder_at_the_start_does_no_harm) {
-    if (!effort(true, false)) return;  // the same law once more
+    if (!long_runs()) return;  // the same law once more
     const Results found("taylor_green", {"--disorder", "0.2", "--t-end", "125"},
                         "shifting_velocity_error");
     BOOST_TEST(found.claims == 0U);
@@ -38,8 +38,8 @@ BOOST_AUTO_TEST_CASE(errors_begin_at_zero) {
 }
 
 BOOST_AUTO_TEST_CASE(a_cavity_has_ghias_profile) {
-    const Results found("cavity", effort(Words{}, Words{"--cells", "20"}), "u_at_0.5000");
-    BOOST_TEST(found.claims == effort(1U, 0U));
+    const Results found("cavity", long_runs() ? Words{} : Words{"--cells", "20"}, "u_at_0.5000");
+    BOOST_TEST(found.claims == (long_runs() ? 1U : 0U));
     BOOST_TEST(found.value.at("off_ghia") < 0.02);
     BOOST_TEST(found.value.at("stirred") > 0.06);
 }

@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_CASE(molecules_part_in_two) {
     BOOST_TEST(std::abs(found.value.at("load_at_parting") - 0.42) < 0.03);
     BOOST_TEST(found.value.at("pieces") >= 2.0);
     BOOST_TEST(found.value.at("second_piece") > 250.0);
-    if (!effort(true, false)) return;  // four times as long
+    if (!long_runs()) return;  // four times as long
     // Loaded slowly they part where the rows are as strong as their bonds: 5.30/15, and a little later.
     const Results slow("tension_test", {"--model", "pair_md", "--load-rate", "0.001"},
                        "load_at_parting");
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(smooth_particles_neck_and_part) {
 }
 
 BOOST_AUTO_TEST_CASE(material_vectors_neck_and_part) {
-    if (!effort(true, false)) return;  // three times as long
+    if (!long_runs()) return;  // ten times as long
     const Results found("tension_test", {"--model", "material_vectors"}, "load_at_parting");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("pieces") == 2.0);
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(smooth_particles_without_a_core_clump_before) {
 
 // A solid that does not yield bears the load.
 BOOST_AUTO_TEST_CASE(a_bar_that_does_not_yield_does_not_part) {
-    if (!effort(true, false)) return;  // the same law once more
+    if (!long_runs()) return;  // the same law once more
     const Results found("tension_test", {"--yield-stress", "10", "--t-end", "800"}, "pieces");
     BOOST_TEST(found.claims == 0U);
     BOOST_TEST(found.value.at("pieces") == 1.0);

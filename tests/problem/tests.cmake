@@ -119,3 +119,5 @@ if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
   set_tests_properties(view.browser PROPERTIES LABELS problem TIMEOUT ${timeout}
     SKIP_RETURN_CODE 77)
 endif()
+spam_long(problem/ball_plate problem/column_of_elements problem/flows problem/restart problem/restart_table
+          problem/stirred_flows problem/tension_test problem/water_column)

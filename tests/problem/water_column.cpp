@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(a_dam_of_water_is_as_fast_in_the_end) {
     const Results found("water_column", {"--aspect", "2"}, "difference_from_water");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(std::abs(found.value.at("difference_from_water")) < 0.06);
-    if (!effort(true, false)) return;  // the same law once more
+    if (!long_runs()) return;  // the same law once more
     const Results stiff("water_column", {"--aspect", "2", "--gravity", "0.1"},
                         "difference_from_water");
     BOOST_TEST(stiff.claims == 0U);

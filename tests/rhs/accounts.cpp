@@ -53,13 +53,13 @@ template <int Dim>
 void accounts_close() {
     Laws<Dim> laws = all_laws<Dim>();
     laws["solid, averaged velocity and balanced torques"] = [](Sample<Dim>& s, const Scheme&) {
-        with_scheme<Dim>.at("SmoothParticles, solid")(
+        with_scheme<Dim>().at("SmoothParticles, solid")(
             s, {.transport = Transport::average, .angular_momentum = AngularMomentum::torque_pair});
     };
     for (const auto& [law, build] : laws)
         for (const auto& [external, add] : on_a_part<Dim>)
             BOOST_TEST_CONTEXT(law << ", " << external) {
-                const Row row = combine<Dim>(build, further<Dim>.at(""), {}, add);
+                const Row row = combine<Dim>(build, further<Dim>().at(""), {}, add);
                 BOOST_TEST(row.refused == "");
                 BOOST_TEST(row.momentum < 1e-11);
                 BOOST_TEST(row.energy < 1e-9);
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(accounts_close_for_every_law_and_every_external) {
 /// The mutated law: as if gravity had a potential of its own and forgot it.
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_not_booked_is_missed, In, PlaneAndSpace) {
     constexpr int Dim = In::value;
-    const Row row = combine<Dim>(with_scheme<Dim>.at("SmoothParticles, solid"), further<Dim>.at(""),
+    const Row row = combine<Dim>(with_scheme<Dim>().at("SmoothParticles, solid"), further<Dim>().at(""),
                                  {}, [](Sample<Dim>& s) { add_external<Secret<Dim>>(s, 0.01); });
     BOOST_TEST(row.momentum < 1e-11);
     BOOST_TEST(row.energy > 1e-4);
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_thermostat_reaches_its_temperature_and_its_heat_
 /// Leapfrog and its relatives keep p and L with a force from outside, too.
 BOOST_AUTO_TEST_CASE_TEMPLATE(accounts_take_the_kicks_of_velocities, In, PlaneAndSpace) {
     constexpr int Dim = In::value;
-    const Springy<Dim> body(externals<Dim>.at("Gravity"), {.method = "leapfrog", .dt = 0.1}, 50.0);
+    const Springy<Dim> body(externals<Dim>().at("Gravity"), {.method = "leapfrog", .dt = 0.1}, 50.0);
     const auto &before = body.before, &after = body.after;
     BOOST_TEST(after.momentum.norm() > 1.0);
     BOOST_TEST((after.momentum_balance() - before.momentum_balance()).norm() < 1e-12);
@@ -167,5 +167,5 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(accounts_have_no_say_in_steps, In, PlaneAndSpace) 
         return static_cast<double>(body.motion->statistics().steps);
     };
     const auto booked = [](Sample<Dim>& s) { add_external<Secret<Dim>>(s, 0.0); };
-    BOOST_TEST(std::abs(steps(booked) - steps(externals<Dim>.at(""))) <= 2.0);  // N is larger
+    BOOST_TEST(std::abs(steps(booked) - steps(externals<Dim>().at(""))) <= 2.0);  // N is larger
 }

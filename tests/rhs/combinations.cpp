@@ -40,10 +40,10 @@ extern template void spam::test::potentials_need_plain_velocities<3>();
 BOOST_AUTO_TEST_CASE(no_term_and_no_external_is_left_out) {
     std::set<std::string> terms, outside;
     for (const auto& [name, build] : all_laws<2>()) terms.insert(name.substr(0, name.find(',')));
-    for (const auto& [name, build] : further<2>) terms.insert(name);
-    for (const auto& [name, build] : more_laws<2>)  // in units.cpp and parts.cpp
+    for (const auto& [name, build] : further<2>()) terms.insert(name);
+    for (const auto& [name, build] : more_laws<2>())  // in units.cpp and parts.cpp
         terms.insert(name.substr(0, name.find(' ')));
-    for (const auto& [name, add] : externals<2>) outside.insert(name);
+    for (const auto& [name, add] : externals<2>()) outside.insert(name);
     auto all_terms = classes_derived_from("Term", "include/spam/rhs");
     all_terms.merge(classes_derived_from("PairTerm", "include/spam/rhs"));
     all_terms.erase("PairTerm");  // what they have in common

@@ -155,6 +155,15 @@ LinearHardening hardening(const Sample<Dim>& s) {
     return {s.stress(1e-3), s.stress(0.1)};
 }
 
+template <int Dim>
+void add_lucy(Sample<Dim>& s, double range) {
+    add_term<WeightPotential<Dim>>(s, s.length(range), s.of("l^2 l^D/t^2 m"));
+}
+template <int Dim>
+void add_springs(Sample<Dim>& s) {
+    add_term<Springs<Dim>>(s, HarmonicSpring{s.of("m/t^2"), s.length(1.0)});
+}
+
 /// Between the rows of triangular_block(8, ...), whose numbers are the ids.
 inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
     const auto most = std::max_element(particles.id.begin(), particles.id.end());
@@ -170,11 +179,15 @@ inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
 /// Laws that a scheme belongs to, laws that make a body by themselves, and those that there are in the plane alone.
 /// Defined in law_tables.hpp and compiled once: each law of each is a model of its own.
 template <int Dim>
-extern const Laws<Dim> with_scheme, without_scheme;
+const Laws<Dim>& with_scheme();
+template <int Dim>
+const Laws<Dim>& without_scheme();
 extern const Laws<2> plane_laws;
 /// What is put on top, and what acts from outside.
 template <int Dim>
-extern const std::map<std::string, Add<Dim>> further, externals;
+const std::map<std::string, Add<Dim>>& further();
+template <int Dim>
+const std::map<std::string, Add<Dim>>& externals();
 
 template <int Dim>
 Laws<Dim> merged(Laws<Dim> all, const Laws<Dim>& more, [[maybe_unused]] const Laws<2>& plane) {
@@ -184,7 +197,7 @@ Laws<Dim> merged(Laws<Dim> all, const Laws<Dim>& more, [[maybe_unused]] const La
 }
 template <int Dim>
 Laws<Dim> all_laws() {
-    return merged(with_scheme<Dim>, without_scheme<Dim>, plane_laws);
+    return merged(with_scheme<Dim>(), without_scheme<Dim>(), plane_laws);
 }
 
 }  // namespace spam::test

@@ -12,9 +12,9 @@ const Laws<2> plane_laws{{"Elements", [](Sample<2>& s, const Scheme&) {
                                                       {0.1, 0.1}}});
                           }}};
 
-template const Laws<2> with_scheme<2>;
-template const Laws<2> without_scheme<2>;
-template const std::map<std::string, Add<2>> further<2>;
-template const std::map<std::string, Add<2>> externals<2>;
+template const Laws<2>& with_scheme<2>();
+template const Laws<2>& without_scheme<2>();
+template const std::map<std::string, Add<2>>& further<2>();
+template const std::map<std::string, Add<2>>& externals<2>();
 
 }  // namespace spam::test

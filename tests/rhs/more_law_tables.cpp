@@ -42,6 +42,6 @@ const Laws<2> more_plane_laws{
          };
      }}};
 
-template const Laws<2> more_laws<2>;
+template const Laws<2>& more_laws<2>();
 
 }  // namespace spam::test

@@ -6,14 +6,26 @@
 
 namespace spam::test {
 
+/// A law of a solid or of a fluid, held by smooth particles.
+template <int Dim, class MakeLaw>
+Build<Dim> solid_of(const MakeLaw& make) {
+    return [make](Sample<Dim>& s, const Scheme& scheme) {
+        add_term<SmoothParticles<Dim>>(s, make(s), scheme);
+    };
+}
+template <int Dim, class MakeLaw>
+Build<Dim> fluid_of(const MakeLaw& make) {
+    return [make](Sample<Dim>& s, const Scheme& scheme) { add_fluid(s, {make(s)}, scheme); };
+}
+
 template <int Dim>
-extern const Laws<Dim> more_laws;
+const Laws<Dim>& more_laws();
 extern const Laws<2> more_plane_laws;
 
 /// Every law there is, by name.
 template <int Dim>
 Laws<Dim> every_law() {
-    return merged(all_laws<Dim>(), more_laws<Dim>, more_plane_laws);
+    return merged(all_laws<Dim>(), more_laws<Dim>(), more_plane_laws);
 }
 
 }  // namespace spam::test

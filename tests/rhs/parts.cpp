@@ -136,7 +136,7 @@ void compare(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions&
 template <int Dim, class F>
 void for_each_law(const F& f) {
     for (const auto& [law, build] : all_laws<Dim>())
-        for (const auto& [more, add] : further<Dim>)
+        for (const auto& [more, add] : further<Dim>())
             if (more != "ReflectedPairs")  // watched in one part
                 f(law + (more.empty() ? "" : " + " + more),
                   [&law_of = build, &more_of = add](Sample<Dim>& s) {
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
     for (const auto& box : {Box<Dim>(), full_box<Dim>()})
-        for (const auto& [law, build] : with_scheme<Dim>)
+        for (const auto& [law, build] : with_scheme<Dim>())
             for_each_scheme([&, name = law, &of = build](const Scheme& scheme) {
                 if (scheme.closest_approach > 0.0 || (Dim == 3 && box.periodic())) return;
                 BOOST_TEST_CONTEXT(name << (box.periodic() ? ", periodic, " : ", ")
@@ -200,16 +200,16 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme, In, PartsIn) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_external, In, PartsIn) {
     constexpr int Dim = In::value;
     Counts counts;
-    for (const auto& [external, add] : externals<Dim>) BOOST_TEST_CONTEXT(external) {
+    for (const auto& [external, add] : externals<Dim>()) BOOST_TEST_CONTEXT(external) {
             for (const auto* options : {&fixed, &adaptive})
                 compare<Dim>(
                     [&, &more = add](Sample<Dim>& s) {
-                        with_scheme<Dim>.at("SmoothParticles, solid")(s, Scheme{});
+                        with_scheme<Dim>().at("SmoothParticles, solid")(s, Scheme{});
                         more(s);
                     },
                     walled_by(walls<Dim>.at("rigid")), *options, counts, 3);
         }
-    BOOST_TEST(counts.ran == 2 * static_cast<int>(externals<Dim>.size()));
+    BOOST_TEST(counts.ran == 2 * static_cast<int>(externals<Dim>().size()));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, PartsIn) {
@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, Pa
     Counts counts;
     for (const char* law : {"LongRange in a gas", "Reaction in a gas", "Ellipses"})
         for (const auto* options : {&fixed, &adaptive}) BOOST_TEST_CONTEXT(law) {
-                compare<Dim>([&](Sample<Dim>& s) { more_laws<Dim>.at(law)(s, Scheme{}); }, {},
+                compare<Dim>([&](Sample<Dim>& s) { more_laws<Dim>().at(law)(s, Scheme{}); }, {},
                              *options, counts, 3);
             }
     BOOST_TEST(counts.ran == 6);
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PartsIn) {
     Scheme balanced;
     balanced.angular_momentum = AngularMomentum::torque_pair;
     const Add<Dim> make = [&](Sample<Dim>& s) {
-        with_scheme<Dim>.at("SmoothParticles, solid")(s, balanced);
+        with_scheme<Dim>().at("SmoothParticles, solid")(s, balanced);
     };
     const auto right = whole<Dim>(make, {}, fixed);
     BOOST_TEST(different_bytes(in_parts<Dim>(3, make, {}, fixed), right) == 0U);
@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(all_parts_hear_of_a_state_without_meaning) {
         Parts& parts = Parts::here();
         parts.set_numbers(own_numbers(3, parts.own(), 0, X));
         Sample<2> sample;
-        with_scheme<2>.at("SmoothParticles, gas")(sample, Scheme{.density = Density::continuity});
+        with_scheme<2>().at("SmoothParticles, gas")(sample, Scheme{.density = Density::continuity});
         std::vector<double> y = sample.start(), y_dot(y.size());
         sample.model.rates(0.0, y, y_dot);
         const std::string before = sample.model.failure();

@@ -5,6 +5,7 @@
 #include "rhs/more_laws.hpp"
 #include "rhs/walled.hpp"
 #include <spam/integrate/methods.hpp>
+#include <spam/material/gamma_gas.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -69,8 +70,8 @@ Course<Dim> course_of(const Setting<Dim>& setting, const Units& u, const Options
     sample.speed = setting.speed;
     try {
         setting.law(sample, sample.scheme(setting.scheme));
-        further<Dim>.at(setting.more)(sample);
-        externals<Dim>.at(setting.external)(sample);
+        further<Dim>().at(setting.more)(sample);
+        externals<Dim>().at(setting.external)(sample);
         auto y = sample.start();
         if (setting.mutate) setting.mutate(sample, y);
         course.layout = sample.model.layout();
@@ -200,7 +201,7 @@ BOOST_AUTO_TEST_CASE(no_law_is_left_out) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_and_every_external, In, UnitsIn) {
     constexpr int Dim = In::value;
     for (const auto& [law, build] : every_law<Dim>())
-        for (const auto& [external, add] : externals<Dim>)
+        for (const auto& [external, add] : externals<Dim>())
             BOOST_TEST_CONTEXT(law << ", " << external)
     BOOST_TEST(check<Dim>({.law = build, .external = external}).ran);
 }
@@ -216,7 +217,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_with_adaptive_steps_and_from_rest, In, U
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, UnitsIn) {
     constexpr int Dim = In::value;
-    for (const auto& [more, add] : further<Dim>)
+    for (const auto& [more, add] : further<Dim>())
         for (const char* law : {"SmoothParticles, gas", "TotalLagrangian"})
             BOOST_TEST_CONTEXT(law << " + " << more)
     BOOST_TEST(check<Dim>({.law = every_law<Dim>().at(law), .more = more}).ran);
@@ -225,7 +226,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, UnitsIn) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, UnitsIn) {
     constexpr int Dim = In::value;
     int ran = 0;
-    for (const auto& [law, build] : with_scheme<Dim>) {
+    for (const auto& [law, build] : with_scheme<Dim>()) {
         for_each_scheme([&, name = law, &build = build](const Scheme& scheme) {
             BOOST_TEST_CONTEXT(name << ", " << scheme.describe())
             ran += check<Dim>({.law = build, .scheme = scheme}).ran;
@@ -253,7 +254,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_wall_and_a_period, In, UnitsIn) {
     for (const auto& [law, build] : every_law<Dim>()) BOOST_TEST_CONTEXT("periodic: " << law)
     ran += check<Dim>({.law = build, .box = periodic}).ran;
     BOOST_TEST(ran > 85);
-    for (const auto& [law, build] : more_laws<Dim>)
+    for (const auto& [law, build] : more_laws<Dim>())
         if (law.find("mbeddedAtom") != std::string::npos && !law.starts_with("D"))
             BOOST_TEST_CONTEXT("shifted: " << law) {
                 const Scheme shifted{.transport = Transport::shifting};
@@ -268,7 +269,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(reflections_of_pairs, In, UnitsIn) {
     for (const Options& options : {Options(fixed), Options(adaptive)})
         for (const char* law : {"SmoothParticles, gas", "SmoothParticles, solid"}) {
             const Setting<Dim> setting{
-                .law = with_scheme<Dim>.at(law), .scheme = scheme, .speed = 3.0, .end = 1.0};
+                .law = with_scheme<Dim>().at(law), .scheme = scheme, .speed = 3.0, .end = 1.0};
             BOOST_TEST(course_of(setting, {}, options).steps.events > 10u);
             BOOST_TEST(check(setting, options).ran);
         }
@@ -322,8 +323,8 @@ bool seen(const Setting<Dim>& setting, const Options& options = fixed) {
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_hidden_unit_is_found, In, UnitsIn) {
     constexpr int Dim = In::value;
-    const Build<Dim> gas = with_scheme<Dim>.at("SmoothParticles, gas");
-    const Build<Dim> smooth = more_laws<Dim>.at("SmoothHenckySolid");
+    const Build<Dim> gas = with_scheme<Dim>().at("SmoothParticles, gas");
+    const Build<Dim> smooth = more_laws<Dim>().at("SmoothHenckySolid");
     BOOST_TEST(!seen<Dim>({.law = gas}));
     BOOST_TEST(seen<Dim>(
         {.law = fluid_of<Dim>([](const Sample<Dim>&) { return AnchoredGas{GammaGas{1.4}}; })}));

@@ -29,16 +29,16 @@ namespace {
 template <int Dim>
 Tally every_wall() {
     Tally tally;
-    const auto gravity = externals<Dim>.at("Gravity"), nothing = externals<Dim>.at("");
+    const auto gravity = externals<Dim>().at("Gravity"), nothing = externals<Dim>().at("");
     for (const auto& [kind, wall] : walls<Dim>) {
         const Box<Dim> box = walled_by(wall);
-        for (const auto& law : with_scheme<Dim>)
+        for (const auto& law : with_scheme<Dim>())
             for_each_scheme([&, name = kind](const Scheme& scheme) {
                 tally.count(name + ": " + law.first + ", " + scheme.describe(),
-                            combine<Dim>(law.second, further<Dim>.at(""), scheme, gravity, box));
+                            combine<Dim>(law.second, further<Dim>().at(""), scheme, gravity, box));
             });
         for (const auto& [law, build] : all_laws<Dim>())
-            for (const auto& [more, add] : further<Dim>)
+            for (const auto& [more, add] : further<Dim>())
                 tally.count(kind + ": " + law + " + " + more,
                             combine<Dim>(build, add, Scheme{}, nothing, box));
     }
@@ -54,18 +54,18 @@ Tally every_shifted_fluid() {
         {"cold", {cold}}, {"rubbing", {cold, friction}}, {"by pairs", {cold, friction, {}, true}}};
     Tally tally;
     for (const auto& fluid : fluids)
-        for (const auto& external : externals<Dim>)
+        for (const auto& external : externals<Dim>())
             for_each_scheme([&](const Scheme& scheme) {
                 if (scheme.transport != Transport::shifting) return;
                 const Build<Dim> full = [&](Sample<Dim>& s, const Scheme& given) {
                     add_fluid(s, fluid.second, given);
                 };
                 tally.count(fluid.first + " + " + external.first + ", " + scheme.describe(),
-                            combine<Dim>(full, further<Dim>.at(""), scheme, external.second,
+                            combine<Dim>(full, further<Dim>().at(""), scheme, external.second,
                                          full_box<Dim>()));
             });
     // Continuity or summed, with artificial viscosity where friction is not by pairs.
-    const std::size_t all = externals<Dim>.size();
+    const std::size_t all = externals<Dim>().size();
     BOOST_TEST(tally.losing == tally.ran);
     BOOST_TEST(tally.ran == all * 2 * (2 + 2 + 1));
     BOOST_TEST(tally.fate.size() == all * 3 * 3 * 4 * 2 * 2);

@@ -29,7 +29,7 @@ verb_test() { # [--no-install] [--preset P] [ctest options...]
     *) refuse "test: no preset '$preset'; there are release, dev, tsan and coverage" ;;
     esac
     # Of a configuration of their own: no other call runs them.
-    if [[ " ${options[*]} " == *" -L hunt "* ]]; then options+=(-C hunt); fi
+    if [[ " ${options[*]} " == *" -L "@(hunt|long)" "* ]]; then options+=(-C hunt); fi
     if in_ci; then packages+=("${ci_packages[@]}") parts+=(SPAM_BUILD_BENCH=ON); fi
     set_up "${packages[@]}" -- "${parts[@]}" -- all
     jobs=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
