@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Particles split and merged on the way: the bits of the program, what is kept, views, refusals; series of snapshots whose
-ids change."""
+"""Particles split and merged on the way: the bits of the program, what is kept, views, refusals; series of snapshots
+whose ids change."""
 import math
 import unittest
 
@@ -94,7 +94,8 @@ class Runs(unittest.TestCase):
                           (spam.Elements(*spam.rectangle_mesh(3, 3)), "use a model of particles alone")):
             with self.subTest(repr(one)), self.assertRaisesRegex(spam.InputError, says):
                 spam.Simulation(one, dt=0.05).run(1.0, rezone=how)
-        self.assertEqual(spam.Simulation(spam.SmoothParticles(x), velocity=v, dt=0.05).run(1.0, rezone=how)["particles"][-1], 37)
+        sim = spam.Simulation(spam.SmoothParticles(x), velocity=v, dt=0.05)
+        self.assertEqual(sim.run(1.0, rezone=how)["particles"][-1], 37)
 
 
 class Series(unittest.TestCase):
