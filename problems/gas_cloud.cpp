@@ -40,6 +40,19 @@ double entropy(const Model<Dim>& model, std::span<const double> y) {
 
 const char* const names[] = {"axis_1", "axis_2", "axis_3"};
 
+/// The exact ellipse in the plane of the longest and the shortest axis at the start.
+template <int Dim>
+Points<2> exact_outline(const Cloud<Dim>& cloud, double t) {
+    constexpr int corners = 180;
+    const Point<Dim> a = cloud.size * cloud.exact(t);
+    Points<2> ellipse(2, corners);
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / corners;
+        ellipse.col(k) << a[0] * std::cos(angle), a[Dim - 1] * std::sin(angle);
+    }
+    return ellipse;
+}
+
 template <int Dim>
 void draw(Session& session, const Cloud<Dim>& cloud, const RunRecord& run) {
     std::vector<CurvePanel> panels{frame("semi-axes", "t c/s", "a/s"),
@@ -79,6 +92,9 @@ void draw(Session& session, const Cloud<Dim>& cloud, const RunRecord& run) {
         for (Eigen::Index i = 0; i < places.cols(); ++i)
             if (Dim == 2 || (places(1, i) > 0.0 && places(1, i) < thick)) near.push_back(i);
         ConfigurationPanel panel{fmt::format("t c/s = {:.3g}", state.t / cloud.size), {}, {}, {}};
+        if (run.history.has("particles"))
+            panel.title += fmt::format(": {} particles", state.position.cols());
+        panel.outlines.push_back(exact_outline(cloud, state.t));
         panel.position.resize(2, static_cast<Eigen::Index>(near.size()));
         for (std::size_t k = 0; k < near.size(); ++k) {
             const auto to = static_cast<Eigen::Index>(k);
@@ -87,11 +103,13 @@ void draw(Session& session, const Cloud<Dim>& cloud, const RunRecord& run) {
         }
         configurations.push_back(std::move(panel));
     }
-    draw_configurations(session, "configurations",
-                        fmt::format("{}{} particles{}: the longest axis becomes the shortest",
-                                    Dim == 3 ? "A layer of " : "", cloud.model->particles().size(),
-                                    run.history.has("particles") ? " at the start" : ""),
-                        configurations, configurations.size(), "speed");
+    draw_configurations(
+        session, "configurations",
+        run.history.has("particles")
+            ? "Particles are split where the gas is thin (line: exact)"
+            : fmt::format("{}{} particles: the longest axis becomes the shortest (line: exact)",
+                          Dim == 3 ? "A layer of " : "", cloud.model->particles().size()),
+        configurations, configurations.size(), "speed");
 }
 
 template <int Dim>
@@ -180,7 +198,9 @@ void compute(Session& session, const Parameters& p) {
                           return semi_axes(model, y, size)[a];
                       }}});
     if (p.rezone) rezone(plan, p, size);
-    cloud.drawn = states_at<Dim>({0.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0}, t_end);
+    // Where particles are split the end is what is to be seen, there and back.
+    cloud.drawn = p.rezone ? states_at<Dim>({0.0, 1.0 / 4.0, 1.0 / 2.0, 1.0}, t_end)
+                           : states_at<Dim>({0.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0}, t_end);
     plan.snapshot_every = t_end / 16.0;
     plan.observe(keep_nearest<Dim>(cloud.drawn));
     bool reversed = false;

@@ -24,6 +24,10 @@ HeldModel<Dim>::Use::Use(HeldModel& held)
 template <int Dim>
 std::vector<double> HeldModel<Dim>::start(const py::object& velocity, double temperature) {
     const auto n = static_cast<Eigen::Index>(size());
+    if (made_in_a_run_)
+        throw InputError(
+            "start: particles were split or merged since the model was made, which has no start any more; go on "
+            "from Simulation.y, or make a model of the present positions");
     if (!std::isfinite(temperature) || temperature < 0.0)
         throw InputError(fmt::format("temperature: {} is not allowed; use 0 or more", temperature));
     Points<Dim> v = Points<Dim>::Zero(Dim, n);

@@ -28,12 +28,16 @@ class HeldModel {
 
     const std::shared_ptr<ParticleModel<Dim>> model;
     const SharedPending pending;
+    /// Makes the same of other particles; empty where it cannot be.
+    std::function<std::shared_ptr<HeldModel>(Particles<Dim> particles)> again{};
     const void* moved_by = nullptr;  ///< the latest Simulation: one model has one motion at a time
 
     std::size_t size() const { return model->particles().size(); }
 
     /// y at the start; velocities (N, D) in the order given by the user, or None: at rest.
     std::vector<double> start(const py::object& velocity, double temperature);
+    /// Its particles were made of others in a run: there is no start, and scales are those of the model before.
+    void made_in_a_run() { made_in_a_run_ = scaled_ = true; }
     /// y that somebody gives. Scales for tolerances are those of start(), where it has been called.
     std::vector<double> checked(const py::object& y0);
 
@@ -72,7 +76,7 @@ class HeldModel {
 
   private:
     Start start_;
-    bool scaled_ = false;
+    bool scaled_ = false, made_in_a_run_ = false;
     std::atomic<bool> busy_{false};
     std::atomic<std::thread::id> paused_in_{};
 };

@@ -175,17 +175,23 @@ void bind_fluids(py::module_& module) {
         "A gas or liquid: an equation of state, with Newton's viscosity (shear `eta`, second\n"
         "coefficient `lam`) and Fourier's conduction `kappa` where these are given. `by_pairs`: both\n"
         "from differences of pairs, not from gradients.")
-        .def(py::init([](const Gas& state, std::optional<double> eta, double lam,
-                         std::optional<double> kappa, bool by_pairs) {
-                 Fluid fluid{
-                     std::visit([](const auto& law) { return AnyEquationOfState(law); }, state)};
-                 if (eta) fluid.viscosity = NewtonViscosity{lam, *eta};
-                 if (kappa) fluid.conduction = FourierConduction{*kappa};
-                 fluid.by_pairs = by_pairs;
-                 return fluid;
-             }),
-             "state"_a, "eta"_a = std::nullopt, "lam"_a = 0.0, "kappa"_a = std::nullopt,
-             "by_pairs"_a = false)
+        .def(
+            py::init([](const Gas& state, std::optional<double> eta, double lam,
+                        std::optional<double> kappa, bool by_pairs) {
+                if (std::holds_alternative<VanDerWaalsIsotherm>(state) && (eta || kappa))
+                    throw InputError(fmt::format(
+                        "{}: VanDerWaalsIsotherm is held at one temperature, and has no heat that {}; use "
+                        "VanDerWaals, or an external Friction",
+                        eta ? "eta" : "kappa", eta ? "friction could warm" : "could be conducted"));
+                Fluid fluid{
+                    std::visit([](const auto& law) { return AnyEquationOfState(law); }, state)};
+                if (eta) fluid.viscosity = NewtonViscosity{lam, *eta};
+                if (kappa) fluid.conduction = FourierConduction{*kappa};
+                fluid.by_pairs = by_pairs;
+                return fluid;
+            }),
+            "state"_a, "eta"_a = std::nullopt, "lam"_a = 0.0, "kappa"_a = std::nullopt,
+            "by_pairs"_a = false)
         .def("__repr__", &shown<Fluid>);
 }
 

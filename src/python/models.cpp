@@ -103,23 +103,23 @@ struct MakeSmooth {
     double density;
 
     template <int Dim>
-    py::object make() const {
+    Held<Dim> make(Particles<Dim> particles) const {
         const auto pending = std::make_shared<Pending>();
         const Box<Dim> box = box_of<Dim>(common.box);
         if (const auto* fluid = std::get_if<Fluid>(&matter)) {
-            auto model = std::make_shared<FluidModel<Dim>>(particles_of<Dim>(common, box), *fluid,
-                                                           scheme, box);
+            auto model =
+                std::make_shared<FluidModel<Dim>>(std::move(particles), *fluid, scheme, box);
             for (const auto& one : common.externals) model->add(external_of<Dim>(one, pending));
             auto start = [&model = *model](const Points<Dim>& velocity, double T) {
                 return model.state(model.particles().reference_position, velocity, T);
             };
-            return py::cast(std::make_shared<HeldModel<Dim>>(model, start, pending));
+            return std::make_shared<HeldModel<Dim>>(model, start, pending);
         }
         const auto& solid = std::get<Solid>(matter);
         auto model = std::make_shared<SmoothParticleModel<Dim>>(
-            particles_of<Dim>(common, box), material_of<Dim>(solid, pending), scheme, box);
-        return py::cast(held_solid<Dim>(std::move(model), common, pending, checked_density(density),
-                                        modulus_of(solid)));
+            std::move(particles), material_of<Dim>(solid, pending), scheme, box);
+        return held_solid<Dim>(std::move(model), common, pending, checked_density(density),
+                               modulus_of(solid));
     }
 };
 
@@ -134,10 +134,9 @@ struct MakeRemembering {
     double viscosity, closest_approach;
 
     template <int Dim>
-    py::object make() const {
+    Held<Dim> make(Particles<Dim> particles) const {
         auto pending = std::make_shared<Pending>();
         const Box<Dim> box = box_of<Dim>(common.box);
-        auto particles = particles_of<Dim>(common, box);
         std::shared_ptr<ParticleModel<Dim>> model;
         if (kind == "springs")
             model = std::make_shared<BondedModel<Dim>>(std::move(particles), spring, box);
@@ -165,21 +164,37 @@ struct MakeRemembering {
                                                              elastic.sound_speed(density), kernel});
         if (closest_approach != 0.0)
             model->template add_term<ReflectedPairs<Dim>>(closest_approach);
-        return py::cast(
-            held_solid<Dim>(std::move(model), common, std::move(pending), density, elastic.eta));
+        return held_solid<Dim>(std::move(model), common, std::move(pending), density, elastic.eta);
     }
 };
+
+/// What can make itself of other particles; it needs no arrays of Python then.
+template <int Dim, class Make>
+Held<Dim> held_again(const Make& make, Particles<Dim> particles) {
+    auto held = make.template make<Dim>(std::move(particles));
+    held->again = [make](Particles<Dim> others) {
+        return held_again<Dim>(make, std::move(others));
+    };
+    return held;
+}
+
+template <int Dim, class Make>
+py::object held_of(Make make) {
+    auto particles = particles_of<Dim>(make.common, box_of<Dim>(make.common.box));
+    make.common.x = make.common.mass = py::object();
+    return py::cast(held_again<Dim>(make, std::move(particles)));
+}
 
 /// By the shape of the positions.
 template <class Make>
 py::object by_dimensions(const Make& make) {
     switch (dimensions_of(doubles_of(make.common.x, "x"), "x")) {
         case 1:
-            return make.template make<1>();
+            return held_of<1>(make);
         case 2:
-            return make.template make<2>();
+            return held_of<2>(make);
         default:
-            return make.template make<3>();
+            return held_of<3>(make);
     }
 }
 

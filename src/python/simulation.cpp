@@ -31,38 +31,45 @@ double number_of(const py::object& value, const char* what) {
 template <int Dim>
 class Simulation<Dim>::Turn {
   public:
-    explicit Turn(Simulation& simulation) : simulation_(simulation), use_(*simulation.held_) {
-        if (use_.nested())
+    explicit Turn(Simulation& simulation)
+        : simulation_(simulation),
+          use_(std::make_unique<Use>(*simulation.held())) {
+        if (use_->nested())
             throw std::runtime_error(
                 "a simulation of the model is running; this call comes from inside its run");
-        if (simulation.held_->moved_by != &simulation)
+        if (simulation.held()->moved_by != &simulation)
             throw std::runtime_error(
                 "the model goes on in another Simulation, which was made of it later; make a model for each");
-        enter(simulation.held_->size(), simulation.threads_);
+        enter(simulation.held()->size(), simulation.threads_);
         simulation.at_work_ = true;
     }
     ~Turn() { simulation_.at_work_ = false; }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
+    /// It goes on with this model.
+    void pass_to(HeldModel<Dim>& held) {
+        use_ = std::make_unique<Use>(held);
+        held.moved_by = &simulation_;
+    }
 
   private:
+    using Use = typename HeldModel<Dim>::Use;
     Simulation& simulation_;
-    typename HeldModel<Dim>::Use use_;
+    std::unique_ptr<Use> use_;
 };
 
 template <int Dim>
 Simulation<Dim>::Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::object& y0,
                             const IntegratorOptions& options, double t0, int threads)
-    : held_(std::move(model)),
-      options_(options),
+    : options_(options),
       threads_(checked_threads(threads)),
-      motion_(*held_->model, held_->checked(y0), options, t0) {
-    held_->moved_by = this;
+      now_(std::make_shared<OnItsWay>(model, model->checked(y0), options, t0)) {
+    held()->moved_by = this;
 }
 
 template <int Dim>
 void Simulation<Dim>::watch(double t) {
-    for (const Remark& remark : held_->model->watch(t, motion_.y())) {
+    for (const Remark& remark : held()->model->watch(t, now_->motion.y())) {
         remarks_.emplace_back(t, remark);
         if (remark.stop)
             throw GuardStop(fmt::format("{} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
@@ -72,7 +79,7 @@ void Simulation<Dim>::watch(double t) {
 /// Of a step that has been accepted although a function failed in it nothing is kept back: it ends here.
 template <int Dim>
 void Simulation<Dim>::look_after(double t, Signals& signals) {
-    if (held_->pending->failed()) throw GuardStop("a function of Python has failed");
+    if (held()->pending->failed()) throw GuardStop("a function of Python has failed");
     watch(t);
     signals.look();
 }
@@ -85,10 +92,10 @@ double Simulation<Dim>::step(double t_stop) {
     Signals signals;
     try {
         const py::gil_scoped_release others;
-        motion_.step(t_stop);
+        now_->motion.step(t_stop);
         look_after(t(), signals);
     } catch (const GuardStop&) {
-        held_->pending->raise();
+        held()->pending->raise();
         throw;
     }
     return t();
@@ -100,7 +107,7 @@ Observers Simulation<Dim>::observers(const RunRequest& request, Signals& signals
         if (f.is_none()) return {};
         return [this, call = f.ptr()](double) {
             const py::gil_scoped_acquire interpreter;
-            const typename HeldModel<Dim>::Break pause(*held_);
+            const typename HeldModel<Dim>::Break pause(*held());
             py::reinterpret_borrow<py::object>(call)();
         };
     };
@@ -108,7 +115,7 @@ Observers Simulation<Dim>::observers(const RunRequest& request, Signals& signals
         if (f.is_none()) return {};
         return [this, call = f.ptr()](double) {
             const py::gil_scoped_acquire interpreter;
-            const typename HeldModel<Dim>::Break pause(*held_);
+            const typename HeldModel<Dim>::Break pause(*held());
             const py::object answer = py::reinterpret_borrow<py::object>(call)();
             const int truth = PyObject_IsTrue(answer.ptr());
             if (truth < 0) throw py::error_already_set();
@@ -117,7 +124,7 @@ Observers Simulation<Dim>::observers(const RunRequest& request, Signals& signals
     };
     Observers observers;
     observers.output = [this, on_row = calls(request.on_row)](double t) {
-        recorder_->add(t, motion_.statistics().last_step, motion_.y());
+        recorder_->add(t, now_->motion.statistics().last_step, now_->motion.y());
         if (on_row) on_row(t);
     };
     observers.snapshot = calls(request.on_snapshot);
@@ -125,6 +132,41 @@ Observers Simulation<Dim>::observers(const RunRequest& request, Signals& signals
     observers.revise = asks(request.revise);
     observers.enough = asks(request.enough);
     return observers;
+}
+
+/// Limits that make no sense and laws that cannot be split are refused before anything is computed.
+template <int Dim>
+void Simulation<Dim>::prepare(const RezoningChoice& choice) {
+    Rezoning<Dim> how = choice.of<Dim>();
+    how.memory = rezoned_;
+    how.make = [this](Particles<Dim> particles) -> std::shared_ptr<Model<Dim>> {
+        made_ = held()->again(std::move(particles));
+        return made_->model;
+    };
+    how.check(*held()->model);
+    if (!held()->again)
+        throw InputError(
+            "rezone: this model cannot be made of other particles; use SmoothParticles()");
+    plan_.rezone(std::move(how));
+}
+
+/// As Run::rezone: what goes on is what a checkpoint would hold.
+template <int Dim>
+void Simulation<Dim>::rezone(double t, Turn& turn) {
+    const py::gil_scoped_acquire interpreter;  // models share functions of Python, and may be its
+    auto next = plan_.rezoning->change(*held()->model, now_->motion.y());
+    if (!next) return;
+    made_->made_in_a_run();
+    const auto then = std::make_shared<OnItsWay>(std::move(made_), next->y, options_, t);
+    Archive memory;
+    now_->motion.integrator().remember(memory);
+    Archive back(memory.bytes());
+    then->motion.integrator().remember(back);
+    pairs_before_ += now_->motion.pair_interactions();
+    turn.pass_to(*then->held);
+    now_ = then;
+    recorder_->go_on_with(*held()->model);
+    for (const Remark& remark : next->remarks) remarks_.emplace_back(t, remark);
 }
 
 template <int Dim>
@@ -136,42 +178,45 @@ void Simulation<Dim>::run(const RunRequest& request) {
             throw InputError(
                 fmt::format("every: {} is not allowed; use a positive time", interval));
     refuse_endless(options_, request.t_end - t());
-    const Turn turn(*this);
+    Turn turn(*this);
     plan_ = {};
+    if (request.rezone) prepare(*request.rezone);
     std::vector<Column<Dim>> columns;
     for (const auto& [name, f] : request.columns)
         columns.push_back({name, [this, call = f.ptr(), what = "columns: " + name](
                                      const Model<Dim>&, std::span<const double>) {
                                const py::gil_scoped_acquire interpreter;
-                               const typename HeldModel<Dim>::Break pause(*held_);
+                               const typename HeldModel<Dim>::Break pause(*held());
                                return number_of(py::reinterpret_borrow<py::object>(call)(),
                                                 what.c_str());
                            }});
     plan_.record(std::move(columns));
-    recorder_ = std::make_unique<Recorder<Dim>>(*held_->model, plan_, nullptr);
-    if (const auto dt = symplectic_step(options_)) recorder_->expect_swing(*dt, *held_->model);
+    recorder_ = std::make_unique<Recorder<Dim>>(*held()->model, plan_, nullptr);
+    if (const auto dt = symplectic_step(options_)) recorder_->expect_swing(*dt, *held()->model);
     remarks_.clear();
     Signals signals;
     const Schedule schedule{.t_end = request.t_end,
                             .output_every = request.every,
                             .snapshot_every = request.snapshot_every,
+                            .change_every = request.rezone ? request.rezone->every : 0.0,
                             .start = t()};
     try {
-        const Observers all = observers(request, signals);
+        Observers all = observers(request, signals);
+        if (request.rezone) all.change = [&](double at) { rezone(at, turn); };
         const py::gil_scoped_release others;
-        drive(motion_.integrator(), schedule, all);
+        drive([this]() -> Integrator& { return now_->motion.integrator(); }, schedule, all);
     } catch (const GuardStop&) {
-        held_->pending->raise();
+        held()->pending->raise();
         throw;
     }
 }
 
 template <int Dim>
 void Simulation<Dim>::replace(const py::dict& fields) {
-    std::vector<double> y(motion_.y().begin(), motion_.y().end());
+    std::vector<double> y(now_->motion.y().begin(), now_->motion.y().end());
     for (const auto& [key, value] : fields) {
         const std::string name = py::str(key);
-        const auto& blocks = held_->model->layout().blocks();
+        const auto& blocks = held()->model->layout().blocks();
         const auto block = std::find_if(blocks.begin(), blocks.end(),
                                         [&](const auto& one) { return one.name() == name; });
         if (block == blocks.end()) throw InputError(fmt::format("edit: y has no field '{}'", name));
@@ -183,9 +228,9 @@ void Simulation<Dim>::replace(const py::dict& fields) {
                     y.begin() + static_cast<std::ptrdiff_t>(block->offset));
     }
     // Inside a run the driver lets the integrator begin anew, after revise().
-    if (!at_work_ && held_->moved_by != this)
+    if (!at_work_ && held()->moved_by != this)
         throw std::runtime_error("the model goes on in another Simulation; make a model for each");
-    motion_.edit([&](std::span<double> now) {
+    now_->motion.edit([&](std::span<double> now) {
         std::copy(y.begin(), y.end(), now.begin());
         return true;
     });
@@ -206,7 +251,7 @@ template <int Dim>
 py::list Simulation<Dim>::drifts() const {
     py::list drifts;
     if (!recorder_) return drifts;
-    for (const Drift& one : recorder_->drifts(promise_limit(options_, *held_->model)))
+    for (const Drift& one : recorder_->drifts(promise_limit(options_, *held()->model)))
         drifts.append(py::make_tuple(one.name, std::string(to_string(one.promise)), one.scale,
                                      one.limit, one.change, one.kept()));
     return drifts;
@@ -222,11 +267,12 @@ py::list Simulation<Dim>::remarks() const {
 
 template <int Dim>
 py::dict Simulation<Dim>::statistics() const {
-    const auto& s = motion_.statistics();
-    return py::dict(py::arg("steps") = s.steps, py::arg("rejected_steps") = s.rejected_steps,
-                    py::arg("rhs_evaluations") = s.rhs_evaluations, py::arg("events") = s.events,
-                    py::arg("last_step") = s.last_step,
-                    py::arg("pair_interactions") = motion_.pair_interactions());
+    const auto& s = now_->motion.statistics();
+    return py::dict(
+        py::arg("steps") = s.steps, py::arg("rejected_steps") = s.rejected_steps,
+        py::arg("rhs_evaluations") = s.rhs_evaluations, py::arg("events") = s.events,
+        py::arg("last_step") = s.last_step,
+        py::arg("pair_interactions") = pairs_before_ + now_->motion.pair_interactions());
 }
 
 template class Simulation<1>;

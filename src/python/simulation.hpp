@@ -3,6 +3,7 @@
 
 #include "../problem/recorder.hpp"
 #include "held_model.hpp"
+#include "rezoning.hpp"
 #include <spam/integrate/driver.hpp>
 #include <spam/problem/motion.hpp>
 
@@ -17,6 +18,7 @@ struct RunRequest {
     double t_end, every, snapshot_every;
     std::vector<std::pair<std::string, py::function>> columns;
     py::object on_row, on_snapshot, revise, enough;
+    std::optional<RezoningChoice> rezone{};
 };
 
 /// A model on its way, as Python drives it. The interpreter is free while it computes.
@@ -26,10 +28,13 @@ class Simulation {
     Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::object& y0,
                const IntegratorOptions& options, double t0, int threads);
 
-    double t() const { return motion_.t(); }
+    double t() const { return now_->motion.t(); }
     /// The N_Vector itself.
-    std::span<const double> y() const { return motion_.y(); }
-    const HeldModel<Dim>& held() const { return *held_; }
+    std::span<const double> y() const { return now_->motion.y(); }
+    /// Of the present particles: another one than at first, where some were split or merged.
+    const std::shared_ptr<HeldModel<Dim>>& held() const { return now_->held; }
+    /// Keeps what y() is part of.
+    std::shared_ptr<const void> keeper() const { return now_; }
 
     /// One accepted step, not past t_stop. Throws GuardStop, or what a function of Python has raised.
     double step(double t_stop);
@@ -49,12 +54,27 @@ class Simulation {
     void look_after(double t, class Signals& signals);
     void watch(double t);
     Observers observers(const RunRequest& request, Signals& signals);
+    void prepare(const RezoningChoice& choice);
+    void rezone(double t, Turn& turn);
 
-    std::shared_ptr<HeldModel<Dim>> held_;
+    /// A model and its motion.
+    struct OnItsWay {
+        OnItsWay(std::shared_ptr<HeldModel<Dim>> model, std::span<const double> y0,
+                 const IntegratorOptions& options, double t0)
+            : held(std::move(model)),
+              motion(*held->model, y0, options, t0) {}
+
+        std::shared_ptr<HeldModel<Dim>> held;
+        Motion<Dim> motion;
+    };
+
     IntegratorOptions options_;
     int threads_;
     bool at_work_ = false;
-    Motion<Dim> motion_;
+    std::shared_ptr<OnItsWay> now_;
+    std::shared_ptr<HeldModel<Dim>> made_;  ///< of the particles of the latest change
+    std::shared_ptr<RezoningMemory> rezoned_ = std::make_shared<RezoningMemory>();
+    std::size_t pairs_before_ = 0;  ///< of motions that are no more
     Plan<Dim> plan_;
     std::unique_ptr<Recorder<Dim>> recorder_;
     std::vector<std::pair<double, Remark>> remarks_;

@@ -61,6 +61,14 @@ IntegratorOptions options_of(const std::string& method, const py::dict& given) {
 
 namespace {
 
+/// What a view of y belongs to: its model and motion, also when the particles have become others.
+template <int Dim>
+py::object owner_of(const Simulation<Dim>& simulation) {
+    using Kept = std::shared_ptr<const void>;
+    return py::capsule(new Kept(simulation.keeper()),
+                       [](void* kept) { delete static_cast<Kept*>(kept); });
+}
+
 template <int Dim>
 void bind(py::module_& module, const char* name) {
     using One = Simulation<Dim>;
@@ -74,28 +82,29 @@ void bind(py::module_& module, const char* name) {
                                          threads);
         }))
         .def_property_readonly("t", &One::t)
+        .def_property_readonly("model", [](const One& one) { return one.held(); })
         .def_property_readonly("y",
-                               [](const py::object& self) {
-                                   const auto y = self.cast<const One&>().y();
-                                   return view_of(y.data(), y.size(), 1, true, self);
+                               [](const One& one) {
+                                   const auto y = one.y();
+                                   return view_of(y.data(), y.size(), 1, true, owner_of(one));
                                })
         .def("view",
-             [](const py::object& self, const std::string& field) {
-                 const auto& one = self.cast<const One&>();
-                 for (const auto& block : one.held().model->layout().blocks())
+             [](const One& one, const std::string& field) {
+                 for (const auto& block : one.held()->model->layout().blocks())
                      if (block.name() == field)
                          return view_of(one.y().data() + block.offset,
                                         block.size / block.components, block.components,
-                                        block.field.rank() == Rank::scalar, self);
+                                        block.field.rank() == Rank::scalar, owner_of(one));
                  throw py::attribute_error("y has no field '" + one_line(field) + "'");
              })
         .def("step", &One::step)
         .def("run",
              [](One& self, double t_end, double every, double snapshot_every,
                 std::vector<std::pair<std::string, py::function>> columns, py::object on_row,
-                py::object on_snapshot, py::object revise, py::object enough) {
+                py::object on_snapshot, py::object revise, py::object enough,
+                std::optional<RezoningChoice> rezone) {
                  self.run({t_end, every, snapshot_every, std::move(columns), on_row, on_snapshot,
-                           revise, enough});
+                           revise, enough, std::move(rezone)});
              })
         .def("replace", &One::replace)
         .def("rows", &One::rows)
@@ -107,6 +116,22 @@ void bind(py::module_& module, const char* name) {
 }  // namespace
 
 void bind_simulation(py::module_& module) {
+    using Limits = RezoningChoice::Limits;
+    py::class_<RezoningChoice>(
+        module, "Rezoning",
+        "How the number of particles changes in Simulation.run(rezone=...): every so much time (time) particles that\n"
+        "stand for too much are split, and groups of those that stand for too little merged into two. Mass, momentum,\n"
+        "angular momentum and energy are kept. Of each criterion two limits, (split, merge): a particle is split where\n"
+        "one asks for it, and may be merged where all that are given allow it.\n\n"
+        "`volume`: m/rho above the first, below the second; `neighbours` within the range: below (0: never), above;\n"
+        "`gradient`: |grad rho| range/rho, above, below. `range` (length; 0: that of the laws) of the criteria;\n"
+        "`in_two`: two children, not 2^D.")
+        .def(py::init([](double every, const Limits& volume, const Limits& neighbours,
+                         const Limits& gradient, double range, bool in_two) {
+                 return RezoningChoice{every, volume, neighbours, gradient, range, in_two};
+             }),
+             "every"_a, "volume"_a = py::none(), "neighbours"_a = py::none(),
+             "gradient"_a = py::none(), "range"_a = 0.0, "in_two"_a = false);
     bind<1>(module, "Simulation1");
     bind<2>(module, "Simulation2");
     bind<3>(module, "Simulation3");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sums_over_nodes.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/parts.hpp>
@@ -33,6 +34,8 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 "model: '{}' and '{}' both have elements; make one term of them, with a list of materials",
                 other->nature().description, term->nature().description));
         if (!other->among().overlaps(term->among())) continue;
+        refuse_sums_over_nodes(*term, *other);
+        refuse_sums_over_nodes(*other, *term);
         for (const Field field : term->nature().fields)
             for (const Field taken : other->nature().fields)
                 if (field == taken)

@@ -48,14 +48,11 @@ Case<Dim> expanding(double rate, const Rezoning<Dim>& how) {
 }
 
 template <int Dim>
-RunRecord ran(double rate, const Rezoning<Dim>& how) {
-    auto record = run_in_memory(expanding<Dim>(rate, how), {.method = "rk4", .dt = 0.05});
+RunRecord ran(double rate, const Rezoning<Dim>& how, const char* method = "rk4") {
+    auto record = run_in_memory(expanding<Dim>(rate, how), {.method = method, .dt = 0.05});
     BOOST_TEST(record.complete, record.statistics.stopped);
     for (const Drift& drift : record.drifts)
-        BOOST_TEST(drift.change < (drift.name == "energy"     ? 1e-6
-                                   : drift.name == "momentum" ? 1e-12
-                                                              : 1e-9),
-                   drift.name);
+        BOOST_TEST(drift.change < (drift.name == "energy" ? 1e-6 : 1e-12), drift.name);
     return record;
 }
 
@@ -75,7 +72,9 @@ BOOST_AUTO_TEST_CASE(criteria_split_and_merge) {
     BOOST_TEST(last(two, "particles") == 144.0 + last(two, "splits"));
     const auto few = ran<2>(0.4, {.neighbours = RezoningLimits{16.0, 70.0}});
     BOOST_TEST(last(few, "splits") > 20.0);
-    const auto many = ran<2>(-0.3, {.neighbours = RezoningLimits{0.0, 36.0}});
+    // Merged particles are no mirror images of each other: RK4 keeps their angular momentum by its order alone.
+    const auto many =
+        ran<2>(-0.3, {.neighbours = RezoningLimits{0.0, 36.0}}, "arkode:FEHLBERG_13_7_8");
     BOOST_TEST(last(many, "merges") > 10.0);
     BOOST_TEST(last(many, "particles") < 120.0);
     BOOST_TEST(last(many, "rezoning_heat") > 0.0);

@@ -110,6 +110,15 @@ if(SPAM_PYTHON)
     SKIP_RETURN_CODE 77)
 endif()
 
+# The program of a page on a run whose particles change, where node is installed.
+find_program(SPAM_NODE NAMES node nodejs)
+if(SPAM_NODE AND SPAM_BUILD_VIEW)
+  add_test(NAME view.changing_ids COMMAND ${SPAM_NODE}
+    ${CMAKE_CURRENT_SOURCE_DIR}/view/changing_ids.js ${PROJECT_SOURCE_DIR}/src/view/page
+    $<TARGET_FILE:spam-view> $<TARGET_FILE:gas_cloud> ${CMAKE_CURRENT_BINARY_DIR}/view_changing_ids)
+  set_tests_properties(view.changing_ids PROPERTIES LABELS problem TIMEOUT ${timeout})
+endif()
+
 # A page in Chromium (with python3-selenium) and in Firefox, where they are installed.
 if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
   add_test(NAME view.browser COMMAND ${SPAM_PYTHON}

@@ -199,6 +199,17 @@ def numba_law():
     return law
 
 
+class OneTemperature(unittest.TestCase):
+    def test_heat_of_an_isotherm_is_refused(self):
+        cold = spam.VanDerWaalsIsotherm(T=0.25)
+        for words in ({"eta": 0.1}, {"kappa": 1.0}, {"eta": 0.1, "by_pairs": True}):
+            with self.subTest(words), self.assertRaisesRegex(spam.InputError, "^(eta|kappa): .*use VanDerWaals, or"):
+                spam.Fluid(cold, **words)
+        spam.Fluid(cold)
+        spam.Fluid(spam.VanDerWaals(), eta=0.1, kappa=1.0)
+        spam.Fluid(spam.EmbeddedAtom(), eta=0.1)
+
+
 class Forces(unittest.TestCase):
     def test_a_spring_to_the_origin(self):
         x, v = rotation(3)

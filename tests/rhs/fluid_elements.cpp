@@ -8,8 +8,11 @@
 #include <spam/external/clamp.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/cavitation.hpp>
+#include <spam/material/elastic_solid.hpp>
 #include <spam/material/gamma_gas.hpp>
 #include <spam/problem/motion.hpp>
+#include <spam/rhs/density_potentials.hpp>
+#include <spam/rhs/own_ranges.hpp>
 
 #include <boost/test/unit_test.hpp>
 
@@ -285,4 +288,36 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_for_elements_of_a_fluid_is_refused) {
     State<2>(model->layout(), y).elements().energy()(0, 3) = std::nan("");
     BOOST_TEST(std::isnan(rates_of(*model, y).front()));
     BOOST_TEST(has(model->failure(), "of element 3 is outside the law"));
+}
+
+/// Corners of elements have no densities that could be summed, in whatever order the laws come; where none is a fluid's,
+/// or among other particles, the same laws are taken.
+BOOST_AUTO_TEST_CASE(laws_that_sum_densities_are_refused_beside_elements_of_a_fluid) {
+    MeshedBodies bodies = make_nodes({rectangle_mesh(4, 4)}, 1.0);
+    const DensityPotentials surface{.surface_tension = 0.1, .range = 3.0},
+        core{.core = {1.0, 0.7}, .range = 3.0};
+    const auto composed = [&](bool fluid, bool first, const auto& law) {
+        return refusal([&] {
+            ParticleModel<2> model(bodies.nodes);
+            if (first) law(model);
+            model.add_term<Elements>(
+                bodies.element,
+                std::vector<Elements::Material>{
+                    fluid ? Elements::Material{Fluid{water}, 1.0}
+                          : Elements::Material{ElasticSolid::triangular_lattice(), 1.0}});
+            if (!first) law(model);
+        });
+    };
+    const auto potentials = [](const DensityPotentials& p) {
+        return [p](ParticleModel<2>& model) { model.add_term<DensityPotentialTerm<2>>(p); };
+    };
+    const auto ranges = [](ParticleModel<2>& model) {
+        model.add_term<OwnRanges<2>>(Fluid{GammaGas{2.0}}, VariableRangeScheme{3.0, Kernel::w4});
+    };
+    for (const bool first : {false, true}) {
+        BOOST_TEST(has(composed(true, first, potentials(surface)), "leave it out"));
+        BOOST_TEST(has(composed(true, first, potentials(core)), "leave it out"));
+        BOOST_TEST(has(composed(true, first, ranges), "leave it out"));
+        BOOST_TEST(composed(false, first, potentials(surface)) == "accepted");
+    }
 }

@@ -27,7 +27,7 @@ _COMPILED = {
     "simulating": ("Drift", "Run", "Simulation", "State"),
     "equations": ("Solution", "WorkPrecision", "integrate", "work_precision"),
     "_core": ("Drag", "ElasticSolid", "EmbeddedAtom", "Fluid", "Force", "Friction", "GammaGas", "Gravity", "IdealGas",
-              "IsentropicGas", "LucyGas", "Material", "Scheme", "VanDerWaals",
+              "IsentropicGas", "LucyGas", "Material", "Rezoning", "Scheme", "VanDerWaals",
               "VanDerWaalsIsotherm", "VonMisesSolid", "ball_of",
               "cubic_lattice", "cylinder_of", "methods", "square_lattice", "triangular_block", "triangular_disk", "triangular_hexagon",
               "usable_cores"),

@@ -251,9 +251,15 @@ class Run(Table):
     remarks: list[tuple[float, str, float]]
     statistics: dict[str, Any]
 
+class Rezoning:
+    def __init__(self, every: float, volume: Optional[tuple[float, float]] = None,
+                 neighbours: Optional[tuple[float, float]] = None, gradient: Optional[tuple[float, float]] = None,
+                 range: float = 0.0, in_two: bool = False) -> None: ...
+
 class Simulation:
-    model: _Model
     state: State
+    @property
+    def model(self) -> _Model: ...
     @property
     def t(self) -> float: ...
     @property
@@ -275,7 +281,8 @@ class Simulation:
             on_row: Optional[Callable[[_Model, State], object]] = None,
             on_snapshot: Optional[Callable[[_Model, State], object]] = None,
             revise: Optional[Callable[[_Model, Any], object]] = None,
-            enough: Optional[Callable[[_Model, State], object]] = None, progress: bool = False) -> Run: ...
+            enough: Optional[Callable[[_Model, State], object]] = None, rezone: Optional[Rezoning] = None,
+            progress: bool = False) -> Run: ...
     def edit(self) -> AbstractContextManager[Any]: ...
 
 # --- equations of one's own ---------------------------------------------------------------------

@@ -21,11 +21,12 @@ class State:
 
     position, velocity (N, D); density, energy (N,); stress (N, D(D+1)/2) as xx, yy, xy, tension positive; and
     whatever else the model integrates. `t`, `id` (N,), `y`. The order of particles is the library's: id[i] is the
-    number in the arrays that the model was made from. Views stay valid when the simulation is gone.
+    number in the arrays that the model was made from. Views stay valid when the simulation is gone; where particles
+    were split or merged they show the last state before.
     """
 
-    def __init__(self, core, model):
-        self._core, self._model = core, model
+    def __init__(self, core):
+        self._core = core
 
     def __getattr__(self, name):
         if name.startswith("_"):
@@ -33,7 +34,7 @@ class State:
         return self._core.view(name)
 
     def __dir__(self):
-        return [*super().__dir__(), *self._model.fields]
+        return [*super().__dir__(), *self._core.model.fields]
 
     @property
     def t(self):
@@ -48,7 +49,7 @@ class State:
     @property
     def id(self):
         """Which of the particles given lies where (N,)."""
-        return self._model.id
+        return self._core.model.id
 
     @property
     def speed(self):
@@ -125,11 +126,12 @@ class Simulation:
         if y0 is None:
             y0 = model.start(velocity, temperature)
         self._core = _simulations[model.dimensions](model, y0, method, dict(options, dt=dt), t0, threads)
-        self.model = model
         #: Views of the fields of y.
-        self.state = State(self._core, model)
+        self.state = State(self._core)
         self._editing = False
 
+    model = property(lambda self: self._core.model,
+                     doc="What moves: another one than the given, where particles were split or merged.")
     t = property(lambda self: self._core.t, doc="The time.")
     y = property(lambda self: self._core.y, doc="The state (size,), read only: the N_Vector itself.")
     id = property(lambda self: self.model.id, doc="Which of the particles given lies where (N,).")
@@ -142,11 +144,10 @@ class Simulation:
         return Run(self._core)
 
     def by_id(self, field):
-        """A field (its name, or an array (N, ...) in the order of `id`) in the order of the particles given."""
+        """A field (its name, or an array (N, ...) in the order of `id`) in the order of the particles given: in that
+        of their ids, where some have come and gone."""
         field = getattr(self.state, field) if isinstance(field, str) else np.asarray(field)
-        ordered = np.empty_like(field)
-        ordered[self.id] = field
-        return ordered
+        return field[np.argsort(self.id, kind="stable")]
 
     def step(self, t_stop=1e100):
         """One accepted step, not past t_stop; the new time.
@@ -157,7 +158,7 @@ class Simulation:
         return self._core.step(t_stop)
 
     def run(self, t_end, *, every=None, columns=None, snapshot_every=None, on_row=None, on_snapshot=None,
-            revise=None, enough=None, progress=False):
+            revise=None, enough=None, rezone=None, progress=False):
         """Integrates to t_end and returns the rows, a Run: one at the start, every `every` (default 240 rows),
         one at the end. Other threads go on meanwhile.
 
@@ -166,6 +167,8 @@ class Simulation:
         revise       f(model, state), after every row but the first: may write to the fields of `state`, and
                      returns whether it did; the integrator then begins anew
         enough       f(model, state) -> whether the run ends here
+        rezone       a Rezoning: particles are split and merged on the way. `model`, `id` and `state` are then those of
+                     the present particles, whose ids are never used again; the model given stays as it was
         progress     a line on the terminal
 
         Ctrl-C (KeyboardInterrupt), an exception of a function or law, and GuardStop leave the last accepted state,
@@ -179,7 +182,7 @@ class Simulation:
                        [(name, call(f)) for name, f in _functions(columns)],
                        self._progress(t_end, call(on_row)) if progress else call(on_row),
                        call(on_snapshot), None if revise is None else lambda: self._revised(revise),
-                       call(enough))
+                       call(enough), rezone)
         return Run(self._core)
 
     @contextlib.contextmanager

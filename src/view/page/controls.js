@@ -95,7 +95,8 @@ const unit = kind => typeof units[kind] === 'string' ? ' ' + units[kind].slice(0
 
 function describeRun() {
   byId('title').textContent = page.problem.replace(/_/g, ' ');
-  const counts = [...new Set(cases.map(c => c.snapshots[0].n))].map(n => n.toLocaleString('en')).join(', ');
+  const counted = c => [...new Set([Math.min, Math.max].map(most => most(...c.snapshots.map(s => s.n)).toLocaleString('en')))];
+  const counts = [...new Set(cases.map(c => counted(c).join(' to ')))].join(', ');
   byId('subtitle').textContent = [counts + ' particles', dims + 'D', cases.length > 1 ? cases.length + ' cases' : '',
     page.version ? 'spam ' + page.version : ''].filter(Boolean).join(' · ');
   const shots = cases.map(c => c.snapshots.length === c.written ? c.written : c.snapshots.length + ' of ' + c.written);

@@ -48,8 +48,11 @@ function makeInterval(c, k) {
     const length = lengthOf(a, axis), at = axis * n, to = axis * b.n;
     for (let i = 0; i < n; ++i) {
       const j = match ? match[i] : i;
-      if (j < 0) continue;  // it stays where it is until it vanishes
       m0[at + i] = dt * v0[at + i];
+      if (j < 0) {  // split, merged or removed on the way: straight on until others take its place
+        d[at + i] = m1[at + i] = m0[at + i];
+        continue;
+      }
       m1[at + i] = dt * v1[to + j];
       const expected = (m0[at + i] + m1[at + i]) / 2;
       d[at + i] = nearestImage(x1[to + j] - x0[at + i], expected, length);
@@ -68,7 +71,7 @@ function slopesFromPositions(c, k, match, x0, x1, d, m0, m1) {
   for (let axis = 0; axis < dims; ++axis) {
     const length = lengthOf(at[k], axis);
     for (let i = axis * n; i < (axis + 1) * n; ++i) {
-      if (match && match[i - axis * n] < 0) continue;
+      if (match && match[i - axis * n] < 0) d[i] = 0;  // nothing says where to: it stays until it vanishes
       if (!match) d[i] = nearestImage(x1[i] - x0[i], 0, length);
       m0[i] = m1[i] = d[i];
     }
