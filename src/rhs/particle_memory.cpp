@@ -109,7 +109,7 @@ void ParticleModel<Dim>::take_over(const Model<Dim>& before, std::span<const dou
     pay_for_potentials(earlier, was, change, y);
 }
 
-// pay_for_potentials too: where particle_model.cpp, which instantiates the class, is in another source, nothing else would.
+// pay_for_potentials too: particle_model.cpp, which instantiates the class, may be compiled by itself.
 #define SPAM_INSTANTIATE(D)                                                                       \
     template void ParticleModel<D>::remember(Memory<D>&);                                         \
     template std::vector<Mat<D>> ParticleModel<D>::deformation_gradients(std::span<const double>) \
