@@ -10,11 +10,13 @@
 // [HHM04] leaves quasistatic tension to methods that are not explicit. Here Newton's method finds where no particle feels
 // a force, with conjugate gradients for its linear equations (study/equilibrium.hpp): 290 right-hand sides for 240
 // particles in one step. --damped does the same with damped leapfrog steps at five frictions, as explicit codes do.
+// --modes 3: the three lowest frequencies of the loaded bar, by Lanczos' method (study/lowest_modes.hpp).
 #include "common.hpp"
 #include <spam/external/external.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 #include <spam/study/equilibrium.hpp>
+#include <spam/study/lowest_modes.hpp>
 
 namespace loaded_bar {
 namespace {
@@ -22,7 +24,7 @@ namespace {
 using namespace spam;
 
 struct Parameters {
-    int columns = 40, rows = 6, steps = 1;
+    int columns = 40, rows = 6, steps = 1, modes = 0;
     double load = 0.002, tolerance = 2e-9;
     bool damped = false;
 };
@@ -110,6 +112,23 @@ DampedRun damped(Bar& bar, double friction, double tolerance) {
     return run;
 }
 
+/// The lowest frequencies of the bar as it is.
+void report_modes(Session& session, RunStatistics& statistics, Bar& bar, int count) {
+    const LowestModes modes =
+        lowest_modes<2>(*bar.model, bar.y, bar.held, static_cast<std::size_t>(count));
+    statistics.rhs_evaluations += modes.rhs_evaluations;
+    CsvWriter csv(session.folder() / "modes.csv", {"mode", "omega_squared"});
+    for (std::size_t k = 0; k < modes.omega_squared.size(); ++k) {
+        const double squared = modes.omega_squared[k];
+        csv.add(std::vector<double>{static_cast<double>(k + 1), squared});
+        session.measure(fmt::format("omega_{}", k + 1),
+                        std::copysign(std::sqrt(std::abs(squared)), squared),
+                        "of the loaded bar; below 0: a rate of growth");
+    }
+    session.measure("modes_rhs_evaluations", static_cast<double>(modes.rhs_evaluations),
+                    "of the modes");
+}
+
 void compute(Session& session, const Parameters& p) {
     Bar bar = make_bar(p);
     RunStatistics& statistics =
@@ -142,6 +161,7 @@ void compute(Session& session, const Parameters& p) {
                    known && p.steps == 1);
     findings.claim("rhs_evaluations", static_cast<double>(evaluations), 0.0, 400.0, "at most",
                    known && p.steps == 1);
+    if (p.modes > 0) report_modes(session, statistics, bar, p.modes);
     if (p.damped) {
         bar.y = start;
         DampedRun best;
@@ -184,6 +204,8 @@ int main(int argc, char** argv) {
     options.integer("steps", p.steps, "steps in which the load grows", between(1, 1000));
     options.number("tolerance", p.tolerance, "largest force that may be left",
                    between(1e-12, 1e-3));
+    options.integer("modes", p.modes, "how many of the lowest frequencies of the loaded bar",
+                    between(0, 30));
     options.flag("damped", p.damped, "find the same with damped motion at five frictions");
     return problem.main(argc, argv, [&](Session& session) {
         session.smoke_default("columns", p.columns, 12);

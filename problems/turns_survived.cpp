@@ -12,12 +12,16 @@
 //                                 because it cannot do otherwise: no new neighbours, no flow, no
 //                                 fragments
 //     material vectors            sums over present neighbours with a memory: they may change
+//
+// Is a late state a function of the input, or one sample of a chaotic ensemble? turns_to_noise is how many turns pass until
+// a difference of 1e-16 has grown to one, as Lyapunov exponents say.
 #include "common.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
+#include <spam/study/lyapunov.hpp>
 
 #include <thread>
 
@@ -87,7 +91,43 @@ std::unique_ptr<Model<2>> model_of(const Parameters& p, const Contestant& one) {
 
 const std::vector<std::string> columns{"case",         "turns_survived", "end",
                                        "L_final",      "energy_change",  "largest_shape_error",
-                                       "closest_pair", "seconds"};
+                                       "closest_pair", "turns_to_noise", "seconds"};
+
+/// Turns until a difference of 1e-16 has grown to one, by the leading exponent of each quarter of a turn; where that takes
+/// longer than `turns` or ten, by the mean exponent of the second half of these. Empty where tangents jump or steps are
+/// adaptive, "never" where differences do not grow.
+std::string turns_to_noise(const Parameters& p, const Contestant& one,
+                           const IntegratorOptions& integrator, double turns) {
+    const auto model = model_of(p, one);
+    const auto y0 = lattice_state(*model, rigid_rotation(p.speed / p.size));
+    // Two turns at least, also of what has lost its shape: differences grow on.
+    const double measured = std::min(10.0, std::max(turns, std::min(p.turns, 2.0)));
+    for (const auto& block : model->layout().blocks()) model->layout().set_scale(block.field, 1.0);
+    LyapunovSpectrum found;
+    try {
+        found = lyapunov_spectrum<2>(*model, y0, integrator,
+                                     {.duration = measured * p.turn(),
+                                      .interval = p.turn() / 250.0,
+                                      .window = std::min(0.25, measured / 8.0) * p.turn()});
+    } catch (const InputError&) {
+        return {};
+    } catch (const GuardStop&) {
+        return {};
+    }
+    double left = 16.0 * std::numbers::ln10, late = 0.0, t = 0.0, late_from = 0.0;
+    for (const auto& window : found.windows) {
+        const double rate = window.exponents.front(), grown = rate * (window.t - t);
+        if (grown >= left) return fmt::format("{:.4g}", (t + left / rate) / p.turn());
+        left -= grown;
+        if (2.0 * t < found.windows.back().t)
+            late_from = window.t;
+        else
+            late += grown;
+        t = window.t;
+    }
+    const double rate = late / (t - late_from);
+    return rate > 0.0 ? fmt::format("{:.4g}", (t + left / rate) / p.turn()) : "never";
+}
 
 /// Nothing where a signal interrupted it.
 std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const Contestant& one,
@@ -114,6 +154,7 @@ std::optional<std::vector<std::string>> turn_hexagon(const Parameters& p, const 
         fmt::format("{:.3g}", h.largest_change("energy") / h.first("energy")),
         fmt::format("{:.4g}", h.largest("shape_error")),
         fmt::format("{:.4g}", h.smallest("closest_pair")),
+        turns_to_noise(p, one, integrator, turns),
         fmt::format("{:.1f}", run.statistics.wall_seconds)};
 }
 
@@ -190,6 +231,10 @@ int main(int argc, char** argv) {
         const auto rows = table.rows(tasks);
         for (const auto& row : rows)
             session.measure(row.front() + "_turns", number_in_cell(row, 1), row[2]);
+        for (const auto& row : rows)
+            if (!row[7].empty() && row[7] != "never")
+                session.measure(row.front() + "_turns_to_noise", number_in_cell(row, 7),
+                                "until 1e-16 has grown to one");
         for (const std::size_t k : {std::size_t{0}, rows.size() - 2, rows.size() - 1})
             claim_survival(session, p, rows[k]);
         if (session.plots()) draw(session, p, all, rows);

@@ -89,6 +89,7 @@ find_package(SUNDIALS REQUIRED COMPONENTS arkode)  # its tables
 spam_test(integrate/orders property SUNDIALS::arkode)
 spam_test(integrate/restarts property)
 spam_test(integrate/relaxation property)
+spam_test(integrate/stiff unit)
 spam_test(integrate/step_control unit)
 spam_test(integrate/guards unit)
 spam_test(integrate/interrupts unit)

@@ -6,23 +6,11 @@
 
 #include <cvode/cvode.h>
 #include <fmt/format.h>
-#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
 #include <new>
 
 namespace spam {
-
-struct Cvode::FixedPoint {
-    SUNNonlinearSolver solver;
-    FixedPoint(const Vector& like, const SundialsContext& context)
-        : solver(SUNNonlinSol_FixedPoint(like.get(), 0, context.get())) {
-        if (solver == nullptr) throw std::bad_alloc();
-    }
-    ~FixedPoint() { SUNNonlinSolFree(solver); }
-    FixedPoint(const FixedPoint&) = delete;
-    FixedPoint& operator=(const FixedPoint&) = delete;
-};
 
 Cvode::Cvode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,
              const SundialsContext& context)
@@ -40,14 +28,15 @@ Cvode::~Cvode() { destroy(); }
 
 void Cvode::destroy() {
     CVodeFree(&memory_);
-    solver_.reset();
+    corrector_.reset();
 }
 
 /// CVODE's memory for going on from y at t, as if nothing had been before.
 void Cvode::create() {
     destroy();
     const SundialsMessages::Scope scope(context_, messages_);
-    memory_ = CVodeCreate(CV_ADAMS, context_.get());
+    const bool bdf = options_.method == "cvode:bdf";
+    memory_ = CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context_.get());
     if (memory_ == nullptr) throw std::bad_alloc();
 #if SUNDIALS_VERSION_MAJOR < 7
     check(CVodeSetErrHandlerFn(memory_, &SundialsMessages::handler, &messages_), "SetErrHandlerFn");
@@ -56,9 +45,17 @@ void Cvode::create() {
     check(CVodeSetUserData(memory_, this), "SetUserData");
     Vector atol = y_.clone();
     std::copy(ode_.absolute_tolerance.begin(), ode_.absolute_tolerance.end(), atol.span().begin());
+    // SPGMR divides by weights: those of accounts are then not 0, but of no weight in any sum.
+    for (double& tolerance : atol.span())
+        if (bdf) tolerance = std::min(tolerance, 1e100);
     check(CVodeSVtolerances(memory_, options_.rtol, atol.get()), "SVtolerances");
-    solver_ = std::make_unique<FixedPoint>(y_, context_);
-    check(CVodeSetNonlinearSolver(memory_, solver_->solver), "SetNonlinearSolver");
+    corrector_ = std::make_unique<CvodeCorrector>(bdf, y_, context_);
+    check(CVodeSetNonlinearSolver(memory_, corrector_->get()), "SetNonlinearSolver");
+    if (bdf) {
+        check(CVodeSetLinearSolver(memory_, corrector_->krylov(), nullptr), "SetLinearSolver");
+        // Orders 3 to 5 let what turns slowly grow where steps are long.
+        check(CVodeSetStabLimDet(memory_, 1), "SetStabLimDet");
+    }
     check(CVodeSetMaxErrTestFails(memory_, most_rejections), "SetMaxErrTestFails");
     check(CVodeSetMaxConvFails(memory_, most_rejections), "SetMaxConvFails");
     check(CVodeSetMinStep(memory_, *options_.min_step), "SetMinStep");

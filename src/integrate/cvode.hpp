@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvode_corrector.hpp"
 #include "error_shares.hpp"
 #include "sundials_messages.hpp"
+#include <spam/integrate/integrator.hpp>
 
 #include <exception>
 #include <memory>
 
 namespace spam {
 
-/// CVODE's Adams-Moulton method of orders 1 to 12 in steps of its own choice, corrected by fixed-point
-/// iteration: little more than one right-hand side a step, however high the order. A step is accepted
+/// CVODE's multistep methods in steps of their own choice. cvode:adams: Adams-Moulton of orders 1 to 12, corrected by
+/// fixed-point iteration: little more than one right-hand side a step, however high the order. cvode:bdf: backward
+/// differences of orders 1 to 5, corrected by Newton's method (CvodeCorrector): steps as long as the solution is smooth,
+/// however fast what has decayed would. A step is accepted
 /// where the root mean square over all entries k of e_k / (rtol |y_k| + atol_k) is at most 1.
 /// It goes on from several steps before: after a reset, and at every checkpoint, it begins anew with
 /// order 1 and small steps. Events, after which no earlier step counts and before which a step would
@@ -42,8 +46,7 @@ class Cvode final : public Integrator {
     Vector local_error_, weight_;
     ErrorShares shares_;
     void* memory_ = nullptr;
-    struct FixedPoint;
-    std::unique_ptr<FixedPoint> solver_;
+    std::unique_ptr<CvodeCorrector> corrector_;
     SundialsMessages messages_;
     std::exception_ptr error_;
 };

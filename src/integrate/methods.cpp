@@ -23,6 +23,7 @@ std::vector<IntegrationMethod> all_methods() {
     add(sprk_methods());
     // GSL's rk2 goes on with the third-order solution of its pair.
     add({{"cvode:adams", 12, true, false, false, true},
+         {"cvode:bdf", 5, true, false, false, true},
          {"gsl:rk2", 3, true, true},
          {"gsl:rk4", 4, true, true},
          {"gsl:rkf45", 5, true, true},
@@ -58,12 +59,12 @@ std::string why_not(std::string_view name) {
                            sundials_version());
     if (prefix == "sprk:") return listed("SUNDIALS has no symplectic table");
     const bool implicit = word == "rk1imp" || word == "rk2imp" || word == "rk4imp" ||
-                          word == "bsimp" || word == "msbdf" || word == "bdf";
-    if (implicit && (prefix == "gsl:" || prefix == "cvode:"))
+                          word == "bsimp" || word == "msbdf";
+    if (implicit && prefix == "gsl:")
         return fmt::format(
             "'{}' is implicit and needs the Jacobian of the rates, which models do not have; use "
-            "{}",
-            name, prefix == "gsl:" ? "gsl:msadams or gsl:rk8pd" : "cvode:adams");
+            "cvode:bdf, or gsl:msadams or gsl:rk8pd where nothing decays fast",
+            name);
     if (prefix == "gsl:") return listed("the GSL has no stepper");
     if (prefix == "cvode:") return listed("CVODE has no method");
     const auto all = names_of("");

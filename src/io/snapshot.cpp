@@ -89,7 +89,8 @@ void add_element_arrays(VtkAppended& file, const Model<Dim>& model, std::span<co
 
 template <int Dim>
 void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const double> y,
-                const Points<Dim>& x, const std::vector<double>& density, const UnitNames& units) {
+                std::span<const ParticleNumbers> more, const Points<Dim>& x,
+                const std::vector<double>& density, const UnitNames& units) {
     const ConstState<Dim> state(model.layout(), y);
     const auto& particles = model.particles();
     const std::size_t n = particles.size();
@@ -121,6 +122,9 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
             "energy", 1, n,
             [e = state.energy()](std::size_t i, int) { return e(0, static_cast<Eigen::Index>(i)); },
             unit(Field::energy));
+    for (const ParticleNumbers& one : more)
+        file.reals(
+            one.name, 1, n, [&](std::size_t i, int) { return one.values[i]; }, "");
     file.close("PointData");
     const std::vector<std::uint32_t> alone = vertices(model);
     if (!model.quadrilaterals().empty()) add_element_arrays(file, model, y, alone.size(), units);
@@ -144,7 +148,7 @@ void add_arrays(VtkAppended& file, const Model<Dim>& model, std::span<const doub
 
 template <int Dim>
 void write_snapshot(std::ostream& out, const Model<Dim>& model, double t, std::span<const double> y,
-                    const UnitNames& units) {
+                    std::span<const ParticleNumbers> more, const UnitNames& units) {
     const auto density = model.density(y);
     const Points<Dim> x = model.box().wrapped(ConstState<Dim>(model.layout(), y).position());
     VtkAppended::write(
@@ -155,7 +159,7 @@ void write_snapshot(std::ostream& out, const Model<Dim>& model, double t, std::s
                     "NumberOfStrips=\"0\" NumberOfPolys=\"{}\"",
                     model.particles().size(), vertices(model).size(),
                     model.quadrilaterals().size()),
-        [&](VtkAppended& file) { add_arrays(file, model, y, x, density, units); });
+        [&](VtkAppended& file) { add_arrays(file, model, y, more, x, density, units); });
 }
 
 }  // namespace
@@ -179,9 +183,11 @@ std::vector<std::string> SnapshotSeries<Dim>::names() const {
 }
 
 template <int Dim>
-void SnapshotSeries<Dim>::add(double t, std::span<const double> y) {
+void SnapshotSeries<Dim>::add(double t, std::span<const double> y,
+                              std::span<const ParticleNumbers> more) {
     const std::string name = snapshot_name(files_.size());
-    folder_.write(name, [&](std::ostream& out) { write_snapshot(out, *model_, t, y, units_); });
+    folder_.write(name,
+                  [&](std::ostream& out) { write_snapshot(out, *model_, t, y, more, units_); });
     files_.emplace_back(t, name);
     write_file_series(folder_, "snapshots", files_);
 }

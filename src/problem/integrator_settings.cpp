@@ -43,7 +43,8 @@ const std::vector<std::string>& IntegratorSettings::names() {
 void IntegratorSettings::add_to(Options& options) {
     options.group("Integrator");
     options.text("integrator", method_,
-                 "method: rk4, leapfrog, arkode:<SUNDIALS table>, cvode:adams or gsl:<stepper>; "
+                 "method: rk4, leapfrog, arkode:<SUNDIALS table>, cvode:adams, cvode:bdf or "
+                 "gsl:<stepper>; "
                  "steps are adaptive where the method allows it, and fixed with --dt");
     options.number(
         "dt", dt_,

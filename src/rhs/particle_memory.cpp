@@ -109,9 +109,13 @@ void ParticleModel<Dim>::take_over(const Model<Dim>& before, std::span<const dou
     pay_for_potentials(earlier, was, change, y);
 }
 
+// pay_for_potentials too: particle_model.cpp, which instantiates the class, may be compiled by itself.
 #define SPAM_INSTANTIATE(D)                                                                       \
     template void ParticleModel<D>::remember(Memory<D>&);                                         \
     template std::vector<Mat<D>> ParticleModel<D>::deformation_gradients(std::span<const double>) \
+        const;                                                                                    \
+    template void ParticleModel<D>::pay_for_potentials(                                           \
+        const ParticleModel<D>&, std::span<const double>, const Change<D>&, std::span<double>)    \
         const;                                                                                    \
     template void ParticleModel<D>::take_over(const Model<D>&, std::span<const double>,           \
                                               const Change<D>&, std::span<double>);

@@ -33,8 +33,13 @@ void refuse_tangents(Model<Dim>& model, const IntegratorOptions& options) {
             options.method));
     if (model.settles())
         throw InputError(
-            "lyapunov: this material is changed after steps (it yields or breaks), where tangents jump; use an "
-            "elastic one");
+            "lyapunov: particles are changed after steps (a material that yields or breaks, bonds that come and go, a wall "
+            "that reflects), where tangents jump; use an elastic solid of fixed neighbours or smooth particles, and "
+            "periods in place of walls");
+    if (!model.smooth())
+        throw InputError(
+            "lyapunov: these rates jump (balanced torques of particles, Gauss' principle), and tangents with them; use "
+            "torques of pairs, or none that are balanced");
     if (!model.events().empty())
         throw InputError(
             "lyapunov: tangents jump where particles are reflected; leave reflections out");
@@ -154,14 +159,38 @@ void TangentMotion<Dim>::set_tangents(const Eigen::MatrixXd& tangents) {
 }
 
 template <int Dim>
+std::vector<double> shares(const Model<Dim>& model, std::span<const double> tangent) {
+    std::vector<double> whole(tangent.begin(), tangent.end());
+    whole.resize(model.layout().size(), 0.0);  // accounts have none
+    const ConstState<Dim> at(model.layout(), whole);
+    const Eigen::RowVectorXd squares =
+        at.position().colwise().squaredNorm() + at.velocity().colwise().squaredNorm();
+    return {squares.begin(), squares.end()};
+}
+
+template <int Dim>
+void require_spectrum(Model<Dim>& model, const IntegratorOptions& integrator,
+                      std::size_t exponents) {
+    constexpr std::size_t most = 2000;
+    const std::size_t n = size_without_accounts(model);
+    if (exponents > most)
+        throw InputError(fmt::format(
+            "exponents: {} tangents of {} numbers are too many, {} are allowed; give fewer, "
+            "--exponents M: the M largest",
+            exponents, n, most));
+    if (exponents < 1 || exponents > n)
+        throw InputError(
+            fmt::format("exponents: {} must be between 1 and {}, the numbers in y", exponents, n));
+    refuse_tangents(model, integrator);
+}
+
+template <int Dim>
 LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0,
                                    const IntegratorOptions& integrator,
                                    const LyapunovOptions& options) {
     const auto n = static_cast<Eigen::Index>(size_without_accounts(model));
     const auto M = static_cast<Eigen::Index>(options.exponents);
-    if (M < 1 || M > n)
-        throw InputError(
-            fmt::format("exponents: {} must be between 1 and {}, the numbers in y", M, n));
+    require_spectrum(model, integrator, options.exponents);
     Eigen::VectorXd scale(n);
     for (const auto& block : model.layout().blocks())
         if (block.field.role() != Role::account)
@@ -204,6 +233,10 @@ LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0
         if ((k + 1) % per_window == 0 || k + 1 == intervals) {
             const Eigen::VectorXd rate = in_window / (motion.t() - window_began);
             found.windows.push_back({motion.t(), {rate.begin(), rate.end()}});
+            if (options.at_window) {
+                const Eigen::VectorXd leading = V.col(0).cwiseQuotient(scale);
+                options.at_window(motion.t(), motion.y(), {leading.data(), std::size_t(n)});
+            }
             in_window.setZero();
             window_began = motion.t();
         }
@@ -228,8 +261,6 @@ LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0
         found.errors.push_back(std::sqrt((rates - mean).square().mean() / 9.0));
     }
     if (M == n) found.trace = static_cast<double>(trace) / static_cast<double>(intervals - first);
-    const Eigen::VectorXd leading = V.col(0).cwiseQuotient(scale);
-    found.leading.assign(leading.begin(), leading.end());
     found.y = motion.y();
     found.rhs_evaluations = motion.rhs_evaluations();
     return found;
@@ -238,8 +269,10 @@ LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0
 template class TangentMotion<1>;
 template class TangentMotion<2>;
 template class TangentMotion<3>;
-#define SPAM_INSTANTIATE_SPECTRUM(D)                \
-    template LyapunovSpectrum lyapunov_spectrum<D>( \
+#define SPAM_INSTANTIATE_SPECTRUM(D)                                                     \
+    template void require_spectrum<D>(Model<D>&, const IntegratorOptions&, std::size_t); \
+    template std::vector<double> shares<D>(const Model<D>&, std::span<const double>);    \
+    template LyapunovSpectrum lyapunov_spectrum<D>(                                      \
         Model<D>&, std::span<const double>, const IntegratorOptions&, const LyapunovOptions&);
 SPAM_INSTANTIATE_SPECTRUM(1)
 SPAM_INSTANTIATE_SPECTRUM(2)

@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(fixed_steps_stay_on_their_grid_and_reach_the_end) {
 
 BOOST_AUTO_TEST_CASE(adaptive_steps_land_on_output_times) {
     for (const char* method :
-         {"arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "gsl:rkf45", "gsl:msadams"}) {
+         {"arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "cvode:bdf", "gsl:rkf45", "gsl:msadams"}) {
         const SundialsContext context;
         const Ode ode = cosine();
         Vector y(2, context);
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(a_bad_rate_stops_a_fixed_step_with_the_last_good_state) {
 
 BOOST_AUTO_TEST_CASE(an_adaptive_step_that_cannot_succeed_stops) {
     for (const char* method :
-         {"arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "gsl:rk8pd", "gsl:msadams"}) {
+         {"arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "cvode:bdf", "gsl:rk8pd", "gsl:msadams"}) {
         const SundialsContext context;
         Ode ode = cosine();
         const auto good = ode.rates;
@@ -213,8 +213,8 @@ BOOST_AUTO_TEST_CASE(an_adaptive_step_that_cannot_succeed_stops) {
 BOOST_AUTO_TEST_CASE(a_state_changed_from_outside_needs_a_reset) {
     for (const auto& options :
          {fixed("rk4", 0.01), fixed("arkode:ZONNEVELD_5_3_4", 0.01),
-          adaptive("arkode:DORMAND_PRINCE_7_4_5"), adaptive("cvode:adams"), adaptive("gsl:rk8pd"),
-          fixed("gsl:rkck", 0.01), adaptive("gsl:msadams")}) {
+          adaptive("arkode:DORMAND_PRINCE_7_4_5"), adaptive("cvode:adams"), adaptive("cvode:bdf"),
+          adaptive("gsl:rk8pd"), fixed("gsl:rkck", 0.01), adaptive("gsl:msadams")}) {
         const SundialsContext context;
         const Ode ode = cosine();
         Vector y(2, context);
@@ -244,6 +244,7 @@ BOOST_AUTO_TEST_CASE(methods_that_cannot_run_are_refused) {
     refused(adaptive("leapfrog"));
     refused(fixed("leapfrog", 0.1));  // this ode names no positions and velocities
     refused(fixed("cvode:adams", 0.1));
+    refused(fixed("cvode:bdf", 0.1));
     refused(adaptive("gsl:bsimp"));
     refused(adaptive("arkode:DORMAND_PRINCE_7_4_5", -1.0));
     refused(adaptive("arkode:DORMAND_PRINCE_7_4_5", 1e-8, 0.0));

@@ -92,7 +92,8 @@ BOOST_AUTO_TEST_CASE(names_that_do_not_exist) {
         {{"--integrator", "a\nb"}, {"integrator"}},
         {{"--integrator", "gsl:rk9"}, {"integrator", "rk9", "gsl:rk8pd"}},
         {{"--integrator", "gsl:bsimp"}, {"integrator", "gsl:bsimp", "Jacobian"}},
-        {{"--integrator", "cvode:bdf"}, {"integrator", "cvode:bdf", "cvode:adams"}},
+        {{"--integrator", "cvode:bd"}, {"integrator", "cvode:bdf", "cvode:adams"}},
+        {{"--integrator", "cvode:bdf", "--dt", "0.1"}, {"dt", "cvode:bdf", "leave"}},
         {{"--integrator", "sprk:LEAPFROG"}, {"integrator", "sprk:", "LEAPFROG"}},
         {{"--integrator", dormand, "--controller", "pdi"}, {"controller", "pdi", "pid"}},
     });

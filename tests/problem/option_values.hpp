@@ -218,6 +218,7 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"tension_test", "dimension"}, "3"},
     {{"ball_plate", "dimension"}, "3"},
     {{"loaded_bar", "columns"}, "14"},
+    {{"loaded_bar", "modes"}, "2"},
     {{"loaded_bar", "steps"}, "3"},
     {{"lyapunov", "time"}, "2"},
     {{"lyapunov", "interval"}, "0.02"},

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // States in which no particle feels a force: springs of known stiffness, and what has none.
 #include <spam/core/error.hpp>
-#include <spam/external/external.hpp>
+#include <spam/external/friction.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 #include <spam/study/equilibrium.hpp>
+#include <spam/study/lowest_modes.hpp>
 
 #include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <numbers>
 
 using namespace spam;
 
@@ -26,7 +32,8 @@ class Pull final : public External<2> {
         auto v_dot = now.rate.velocity();
         const auto x = now.state.position();
         for (Eigen::Index i = first; i < last; ++i) {
-            if (i == static_cast<Eigen::Index>(last_)) v_dot(0, i) += force_;
+            if (i == static_cast<Eigen::Index>(last_))
+                v_dot(0, i) += force_ / now.particles.mass[last_];
             v_dot.col(i) += swirl_ * Point<2>(-x(1, i), x(0, i));
         }
     }
@@ -39,8 +46,8 @@ class Pull final : public External<2> {
 
 /// A row of springs along x.
 struct Chain {
-    explicit Chain(int links, double force, double swirl = 0.0)
-        : model(make_particles<2>(square_lattice<2>({links + 1, 1}), 1.0)) {
+    explicit Chain(int links, double force, double swirl = 0.0, double mass = 1.0)
+        : model(make_particles<2>(square_lattice<2>({links + 1, 1}), mass)) {
         model.add_term<Springs<2>>(HarmonicSpring{0.7, 1.0});
         Eigen::Index last = 0;
         model.particles().reference_position.row(0).maxCoeff(&last);
@@ -71,11 +78,68 @@ BOOST_AUTO_TEST_CASE(a_chain_of_springs) {
     }
 }
 
+// A chain held at one end: omega^2 = 4 K sin^2((2j - 1) pi/(4 n + 2)), K = kappa along it and F by the length of a drawn
+// link across it, which the tension alone keeps straight.
+BOOST_AUTO_TEST_CASE(modes_of_a_chain_under_tension) {
+    constexpr int links = 12;
+    constexpr double F = 0.05, kappa = 0.7;
+    for (const double mass : {1.0, 2.5}) {
+        Chain chain(links, F, 0.0, mass);
+        const auto rest = equilibrium<2>(chain.model, chain.y, chain.held, 1e-12);
+        std::vector<double> exact;
+        for (const double K : {kappa, F / (1.0 + F / kappa)})
+            for (int j = 1; j <= links; ++j)
+                exact.push_back(
+                    4.0 * K / mass *
+                    std::pow(std::sin((2 * j - 1) * std::numbers::pi / (4 * links + 2)), 2));
+        std::sort(exact.begin(), exact.end());
+        for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{2 * links}}) {
+            const auto modes = lowest_modes<2>(chain.model, rest.y, chain.held, count);
+            for (std::size_t k = 0; k < count; ++k)
+                BOOST_TEST(std::abs(modes.omega_squared[k] - exact[k]) < 1e-8);
+            BOOST_TEST(modes.largest_residual < 1e-7);
+            const Eigen::MatrixXd products = mass * modes.shapes.transpose() * modes.shapes;
+            BOOST_TEST((products - Eigen::MatrixXd::Identity(products.rows(), products.cols()))
+                           .cwiseAbs()
+                           .maxCoeff() < 1e-10);
+            const auto first = std::find(chain.held.begin(), chain.held.end(), true);
+            const Eigen::Index held = 2 * (first - chain.held.begin());
+            BOOST_TEST(modes.shapes.middleRows(held, 2).norm() == 0.0);
+        }
+    }
+    // Pushed instead, it buckles.
+    Chain pushed(links, -F);
+    auto y = pushed.y;
+    auto x = State<2>(pushed.model.layout(), y).position();
+    x.row(0) *= 1.0 - F / kappa;
+    BOOST_TEST(lowest_modes<2>(pushed.model, y, pushed.held, 1).omega_squared.front() < -1e-3);
+}
+
+// At rest a free body has three motions without force; the next is a bend, twice.
+BOOST_AUTO_TEST_CASE(modes_of_a_free_hexagon) {
+    TotalLagrangianModel<2> model(make_particles<2>(triangular_hexagon(3), 1.0),
+                                  StVenantKirchhoff::like(ElasticSolid::triangular_lattice()),
+                                  TotalLagrangianScheme{triangular_density, 3.0, 0.1});
+    const auto y = lattice_state(model, at_rest<2>());
+    const auto modes = lowest_modes<2>(model, y, std::vector<bool>(37, false), 6);
+    for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(std::abs(modes.omega_squared[k]) < 1e-9);
+    for (std::size_t k = 3; k < 5; ++k)
+        BOOST_TEST(std::abs(modes.omega_squared[k] - 0.0328464) < 1e-6);
+    BOOST_TEST(modes.omega_squared[5] > 0.034);
+}
+
 BOOST_AUTO_TEST_CASE(what_has_no_equilibrium) {
     Chain swirl(8, 0.05, 0.01), all(8, 0.05);
     BOOST_CHECK_THROW(equilibrium<2>(swirl.model, swirl.y, swirl.held, 1e-9), InputError);
     BOOST_CHECK_THROW(equilibrium<2>(all.model, all.y, std::vector<bool>(9, true), 1e-9),
                       InputError);
+    BOOST_CHECK_THROW(lowest_modes<2>(swirl.model, swirl.y, swirl.held, 1), InputError);
+    Chain fine(8, 0.05);
+    for (const std::size_t count : {std::size_t{0}, std::size_t{17}})
+        BOOST_CHECK_THROW(lowest_modes<2>(fine.model, fine.y, fine.held, count), InputError);
+    fine.model.add(std::make_unique<Friction<2>>(0.1));
+    const auto y_damped = lattice_state(fine.model, at_rest<2>());
+    BOOST_CHECK_THROW(equilibrium<2>(fine.model, y_damped, fine.held, 1e-9), InputError);
     SmoothParticleModel<2> updated(make_particles<2>(triangular_block(6, 6), 1.0),
                                    ElasticSolid{0.4, 0.4}, Scheme{});
     const auto y = lattice_state(updated, at_rest<2>());

@@ -139,6 +139,31 @@ BOOST_AUTO_TEST_CASE(exponents_of_a_gas_come_in_pairs) {
     BOOST_TEST(found.windows.size() == 40U);
 }
 
+// At the end of each window: the state, and a tangent of length one that positions and velocities share.
+BOOST_AUTO_TEST_CASE(shares_of_the_leading_tangent) {
+    SoftDisks disks(3);
+    std::vector<double> times;
+    LyapunovOptions options{.duration = 4.0, .window = 1.0};
+    options.at_window = [&](double t, std::span<const double> y, std::span<const double> leading) {
+        times.push_back(t);
+        BOOST_TEST(y.size() == disks.y.size());
+        const auto share = shares(disks.model, leading);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < share.size(); ++i) {
+            double expected = 0.0;
+            for (const std::size_t k : {2 * i, 2 * i + 1, 18 + 2 * i, 18 + 2 * i + 1})
+                expected += leading[k] * leading[k];
+            BOOST_TEST(std::abs(share[i] - expected) < 1e-14);
+            sum += share[i];
+        }
+        BOOST_TEST(std::abs(sum - 1.0) < 1e-12);
+    };
+    const auto found =
+        lyapunov_spectrum<2>(disks.model, disks.y, {.method = "leapfrog", .dt = 0.005}, options);
+    BOOST_TEST(times.size() == 4U);
+    BOOST_TEST(found.windows.size() == times.size());
+}
+
 // A bath takes volume of phase space away: the sum of all exponents is the mean trace of J.
 BOOST_AUTO_TEST_CASE(the_sum_of_exponents_is_the_trace) {
     SoftDisks disks(3);
@@ -199,7 +224,21 @@ BOOST_AUTO_TEST_CASE(what_has_no_tangents) {
         BOOST_CHECK_THROW(TangentMotion<2>(model, disks.y, one, options), InputError);
     };
     refused(disks.model, {.method = "arkode:DORMAND_PRINCE_7_4_5", .dt = {}});
-    refused(disks.model, {.method = "cvode:adams", .dt = {}});
+    for (const char* method : {"cvode:adams", "cvode:bdf", "gsl:msadams"})
+        refused(disks.model, {.method = method, .dt = {}});
+    const auto particles = make_particles<2>(triangular_hexagon(1), 1.0);
+    for (const AngularMomentum balanced :
+         {AngularMomentum::torque_particle, AngularMomentum::gauss}) {
+        SmoothParticleModel<2> jumps(particles, ElasticSolid::triangular_lattice(),
+                                     Scheme{.angular_momentum = balanced});
+        BOOST_CHECK_THROW(require_spectrum<2>(jumps, {.method = "rk4", .dt = 0.1}, 1), InputError);
+    }
+    SmoothParticleModel<2> pairs(particles, ElasticSolid::triangular_lattice(),
+                                 Scheme{.angular_momentum = AngularMomentum::torque_pair});
+    require_spectrum<2>(pairs, {.method = "rk4", .dt = 0.1}, 1);
+    SoftDisks many(23);  // of 2116 numbers
+    BOOST_CHECK_THROW(require_spectrum<2>(many.model, {.method = "rk4", .dt = 0.1}, 2001),
+                      InputError);
     disks.model.add_term<ReflectedPairs<2>>(0.3);
     refused(disks.model, {.method = "rk4", .dt = 0.01});
     for (const std::size_t exponents : {std::size_t{0}, std::size_t{1000}})

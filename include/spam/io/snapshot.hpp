@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,12 @@ namespace spam {
 /// Writes NAME.pvd, a list of files and the times they show, for ParaView. Throws OutputError.
 void write_file_series(const RunFolder& folder, std::string_view name,
                        const std::vector<std::pair<double, std::string>>& files);
+
+/// A number of every particle that no field has, as it is shown: "leading_share".
+struct ParticleNumbers {
+    std::string_view name;
+    std::span<const double> values;  ///< in the order of y
+};
 
 /// Configurations for ParaView: one PolyData file per time, snapshot_0000.vtp, ... (raw appended
 /// data, little endian) and snapshots.pvd, the list of them with their times, complete after every
@@ -42,8 +49,8 @@ class SnapshotSeries {
     /// Further ones are of a model of other particles.
     void go_on_with(const Model<Dim>& model) { model_ = &model; }
 
-    /// Throws OutputError.
-    void add(double t, std::span<const double> y);
+    /// `more`: shown beside the fields. Throws OutputError.
+    void add(double t, std::span<const double> y, std::span<const ParticleNumbers> more = {});
 
   private:
     RunFolder folder_;

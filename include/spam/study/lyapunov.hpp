@@ -7,7 +7,9 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace spam {
@@ -55,7 +57,15 @@ struct LyapunovOptions {
     std::size_t exponents = 1;  ///< M; at most as many as there are numbers in y
     double discarded = 0.1;     ///< part of the duration that does not count
     std::uint32_t seed = 1;     ///< of the tangents at the start
+    /// Called at the end of each window: y, and the first tangent by the scales of y.
+    std::function<void(double t, std::span<const double> y, std::span<const double> leading)>
+        at_window{};
 };
+
+/// |dx|^2 + |dv|^2 by particle of a tangent by the scales of y: which particles carry the instability. Of a unit vector of
+/// positions and velocities alone they add up to 1.
+template <int Dim>
+std::vector<double> shares(const Model<Dim>& model, std::span<const double> tangent);
 
 /// Rates of growth of M tangents, which are orthogonalised again and again (QR): Benettin et al., Meccanica 15, 9 (1980).
 struct LyapunovSpectrum {
@@ -68,13 +78,18 @@ struct LyapunovSpectrum {
         std::vector<double> exponents;
     };
     std::vector<Window> windows;
-    std::vector<double> leading;  ///< the first tangent at the end, by the scales of y
-    std::vector<double> y;        ///< at the end
+    std::vector<double> y;  ///< at the end
     std::size_t rhs_evaluations = 0;
 };
 
-/// Tangents are measured by the scales of the model's layout. Throws InputError as TangentMotion does, and for a number of
-/// exponents that is not between 1 and the size of y; GuardStop where the motion ends.
+/// Throws InputError where lyapunov_spectrum() would, before anything is computed: as TangentMotion does, and for a number
+/// of exponents that is not between 1 and the size of y, or above 2000.
+template <int Dim>
+void require_spectrum(Model<Dim>& model, const IntegratorOptions& integrator,
+                      std::size_t exponents);
+
+/// Tangents are measured by the scales of the model's layout. Throws InputError as require_spectrum() does; GuardStop where
+/// the motion ends.
 template <int Dim>
 LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0,
                                    const IntegratorOptions& integrator,

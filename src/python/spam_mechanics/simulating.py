@@ -109,7 +109,8 @@ class Simulation:
                  model.start(velocity, temperature)
     velocity     (N, D) in the order in which the particles were given; default at rest (length/time)
     temperature  of a fluid
-    method       one of methods(): "rk4", "arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "gsl:rk8pd", ...
+    method       one of methods(): "rk4", "arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "cvode:bdf",
+                 "gsl:rk8pd", ...
     dt           the step; methods of adaptive steps leave it out
     t0           the time at the start
     threads      of its sums; 0: as many as there are cores (OMP_NUM_THREADS)
