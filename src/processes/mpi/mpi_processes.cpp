@@ -89,6 +89,10 @@ class MpiProcesses final : public Parts {
         prctl(PR_SET_TIMERSLACK, 1000UL);  // nanoseconds, or each moment takes 50 us more
     }
     ~MpiProcesses() override {
+        // The first one still writes: MPI itself would look for it without a rest.
+        for (std::size_t p = 0; p < count(); ++p)
+            if (p != own()) bells_->ring(static_cast<int>(p));
+        bells_->wait();
         bells_.reset();
         MPI_Finalize();
     }
@@ -107,6 +111,7 @@ class MpiProcesses final : public Parts {
         std::vector<Bytes> from(count());
         std::vector<MPI_Request> sent;
         std::vector<int> awaited;
+        for (const Bytes& bytes : to) length(bytes.size());  // all are sent, or none
         for (std::size_t p = 0; p < count(); ++p) {
             if (p == own()) continue;
             awaited.push_back(static_cast<int>(p));
