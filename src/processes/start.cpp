@@ -39,6 +39,8 @@ void set_unless_given(const char* name, const char* value) { setenv(name, value,
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (usable_cores() < static_cast<int>(count))
         set_unless_given("OMPI_MCA_mpi_yield_when_idle", "1");
+    // Longer messages wait for two answers, each of which needs the core of another process.
+    set_unless_given("OMPI_MCA_btl_vader_eager_limit", "65536");
     set_unless_given("OMPI_MCA_rmaps_base_oversubscribe", "1");
     set_unless_given("OMP_WAIT_POLICY", "passive");
     if (geteuid() == 0) {  // a container, most often; mpirun would refuse

@@ -1,27 +1,101 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/threads.hpp>
 #include <spam/processes/processes.hpp>
 
 #include <mpi.h>
+#include <semaphore.h>
 #include <sys/prctl.h>
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <limits>
+#include <new>
 #include <thread>
 
 namespace spam {
 namespace {
 
-/// An exchange is one message to every other process, whose length is asked for where it arrives. A process that
-/// waits looks for a while and then sleeps for moments: where there are fewer cores than processes the others need its core.
+/// In memory that all processes of one machine share. A process that waits for messages sleeps until the last one of an
+/// exchange is under way: where there are fewer cores than processes the others need its core, and looks or naps by a
+/// timer, some for every message, cost them most of it.
+class Bells {
+  public:
+    Bells(int count, int own)
+        : others_(static_cast<std::uint64_t>(count) - 1),
+          looks_(usable_cores() < count ? 0 : 2000) {
+        MPI_Comm machine;
+        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, own, MPI_INFO_NULL, &machine);
+        int here = 0;
+        MPI_Comm_size(machine, &here);
+        if (here == count) {
+            void* memory = nullptr;
+            MPI_Win_allocate_shared(sizeof(Bell), 1, MPI_INFO_NULL, machine, &memory, &window_);
+            own_ = new (memory) Bell;
+            sem_init(&own_->last, 1, 0);
+            MPI_Barrier(machine);
+            for (int p = 0; p < count; ++p) {
+                MPI_Aint size = 0;
+                int unit = 0;
+                MPI_Win_shared_query(window_, p, &size, &unit, &memory);
+                all_.push_back(static_cast<Bell*>(memory));
+            }
+        }
+        MPI_Comm_free(&machine);
+    }
+    ~Bells() {
+        if (own_ != nullptr) MPI_Win_free(&window_);
+    }
+    Bells(const Bells&) = delete;
+    Bells& operator=(const Bells&) = delete;
+
+    /// After a message to p.
+    void ring(int p) {
+        if (own_ == nullptr) return;
+        Bell& bell = *all_[static_cast<std::size_t>(p)];
+        if (++bell.arrived[turn_] % others_ == 0) sem_post(&bell.last);
+    }
+    /// After messages to all others: until all of theirs are under way.
+    void wait() {
+        if (own_ == nullptr) return;
+        int look = 0;
+        while ((look++ < looks_ ? sem_trywait(&own_->last) : sem_wait(&own_->last)) != 0) {
+        }
+        turn_ = 1 - turn_;
+    }
+
+  private:
+    struct Bell {
+        /// Of every other exchange: a process may be one ahead, but not two.
+        std::array<std::atomic<std::uint64_t>, 2> arrived{};
+        sem_t last;
+    };
+    std::uint64_t others_;
+    int looks_;  ///< before it sleeps, which takes longer than most messages
+    std::size_t turn_ = 0;
+    Bell* own_ = nullptr;  ///< null where there are several machines
+    std::vector<Bell*> all_;
+    MPI_Win window_{};
+};
+
+/// An exchange is one message to every other process, whose length is asked for where it arrives.
 class MpiProcesses final : public Parts {
   public:
     MpiProcesses(int count, int own)
-        : Parts(static_cast<std::size_t>(count), static_cast<std::size_t>(own)) {
+        : Parts(static_cast<std::size_t>(count), static_cast<std::size_t>(own)),
+          bells_(std::make_unique<Bells>(count, own)) {
         prctl(PR_SET_TIMERSLACK, 1000UL);  // nanoseconds, or each moment takes 50 us more
     }
-    ~MpiProcesses() override { MPI_Finalize(); }
+    ~MpiProcesses() override {
+        // The first one still writes: MPI itself would look for it without a rest.
+        for (std::size_t p = 0; p < count(); ++p)
+            if (p != own()) bells_->ring(static_cast<int>(p));
+        bells_->wait();
+        bells_.reset();
+        MPI_Finalize();
+    }
     MpiProcesses(const MpiProcesses&) = delete;
     MpiProcesses& operator=(const MpiProcesses&) = delete;
 
@@ -37,12 +111,15 @@ class MpiProcesses final : public Parts {
         std::vector<Bytes> from(count());
         std::vector<MPI_Request> sent;
         std::vector<int> awaited;
+        for (const Bytes& bytes : to) length(bytes.size());  // all are sent, or none
         for (std::size_t p = 0; p < count(); ++p) {
             if (p == own()) continue;
             awaited.push_back(static_cast<int>(p));
             MPI_Isend(to[p].data(), length(to[p].size()), MPI_BYTE, awaited.back(), 0,
                       MPI_COMM_WORLD, &sent.emplace_back());
+            bells_->ring(awaited.back());
         }
+        bells_->wait();
         const auto arrived = [&](int p) {
             int there = 0, size = 0;
             MPI_Message message;
@@ -74,6 +151,8 @@ class MpiProcesses final : public Parts {
         for (int look = 0; !done(); ++look)
             if (look > looks) std::this_thread::sleep_for(std::chrono::microseconds(1));
     }
+
+    std::unique_ptr<Bells> bells_;
 };
 
 }  // namespace
