@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(numbers_beyond_all_reason_are_refused_by_name) {
 }
 
 BOOST_AUTO_TEST_CASE(runs_with_huge_and_tiny_numbers_end_honestly) {
-    hunt(25, [](unsigned seed) {
+    hunt(15, [](unsigned seed) {
         std::mt19937 random(seed);
         const auto& program = one_of(programs(), seed);
         const auto& numbers = help_of(program).numbers;
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(runs_with_huge_and_tiny_numbers_end_honestly) {
 }
 
 BOOST_AUTO_TEST_CASE(runs_at_the_ends_of_ranges_end_honestly) {
-    hunt(40, [](unsigned seed) {
+    hunt(24, [](unsigned seed) {
         std::mt19937 random(seed);
         const auto& program = one_of(programs(), seed);
         const auto& numbers = help_of(program).numbers;

@@ -2,7 +2,7 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164  # read by ./spam, under set -e
 #|  ./spam test [--preset release|dev|tsan|coverage] [ctest options]
 #|                                    build everything and run the tests; with -L hunt those that try
-#|                                    random inputs for an hour
+#|                                    random inputs for an hour, with -L long runs of minutes
 
 readonly test_packages=(libboost-test-dev)
 # For the tests of style and of instruction counts; benchmarks are compiled, so that they go on to compile.
