@@ -110,8 +110,9 @@ BOOST_AUTO_TEST_CASE(accounts_close_for_every_law_and_every_external) {
 /// The mutated law: as if gravity had a potential of its own and forgot it.
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_not_booked_is_missed, In, PlaneAndSpace) {
     constexpr int Dim = In::value;
-    const Row row = combine<Dim>(with_scheme<Dim>().at("SmoothParticles, solid"), further<Dim>().at(""),
-                                 {}, [](Sample<Dim>& s) { add_external<Secret<Dim>>(s, 0.01); });
+    const Row row =
+        combine<Dim>(with_scheme<Dim>().at("SmoothParticles, solid"), further<Dim>().at(""), {},
+                     [](Sample<Dim>& s) { add_external<Secret<Dim>>(s, 0.01); });
     BOOST_TEST(row.momentum < 1e-11);
     BOOST_TEST(row.energy > 1e-4);
 }
@@ -150,7 +151,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_thermostat_reaches_its_temperature_and_its_heat_
 /// Leapfrog and its relatives keep p and L with a force from outside, too.
 BOOST_AUTO_TEST_CASE_TEMPLATE(accounts_take_the_kicks_of_velocities, In, PlaneAndSpace) {
     constexpr int Dim = In::value;
-    const Springy<Dim> body(externals<Dim>().at("Gravity"), {.method = "leapfrog", .dt = 0.1}, 50.0);
+    const Springy<Dim> body(externals<Dim>().at("Gravity"), {.method = "leapfrog", .dt = 0.1},
+                            50.0);
     const auto &before = body.before, &after = body.after;
     BOOST_TEST(after.momentum.norm() > 1.0);
     BOOST_TEST((after.momentum_balance() - before.momentum_balance()).norm() < 1e-12);

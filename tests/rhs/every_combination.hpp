@@ -39,7 +39,8 @@ Tally every_external() {
 template <int Dim>
 void potentials_need_plain_velocities() {
     const auto refused = [](const char* law, const Add<Dim>& add, const Scheme& scheme) {
-        return combine<Dim>(with_scheme<Dim>().at(law), add, scheme, externals<Dim>().at("")).refused;
+        return combine<Dim>(with_scheme<Dim>().at(law), add, scheme, externals<Dim>().at(""))
+            .refused;
     };
     for (const auto& [more, add] : further<Dim>()) {
         if (more.empty() || more == "ArtificialViscosity" || more == "ReflectedPairs") continue;
