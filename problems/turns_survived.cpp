@@ -13,8 +13,8 @@
 //                                 fragments
 //     material vectors            sums over present neighbours with a memory: they may change
 //
-// Is a late state a function of the input, or one sample of a chaotic ensemble? turns_to_noise is how many turns pass until
-// a difference of 1e-16 has grown to one, as Lyapunov exponents say.
+// Is a late state a function of the input, or one sample of a chaotic ensemble? turns_to_noise is how many turns pass
+// until a difference of 1e-16 has grown to one, as Lyapunov exponents say.
 #include "common.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
@@ -93,9 +93,9 @@ const std::vector<std::string> columns{"case",         "turns_survived", "end",
                                        "L_final",      "energy_change",  "largest_shape_error",
                                        "closest_pair", "turns_to_noise", "seconds"};
 
-/// Turns until a difference of 1e-16 has grown to one, by the leading exponent of each quarter of a turn; where that takes
-/// longer than `turns` or ten, by the mean exponent of the second half of these. Empty where tangents jump or steps are
-/// adaptive, "never" where differences do not grow.
+/// Turns until a difference of 1e-16 has grown to one, by the leading exponent of each quarter of a turn; where that
+/// takes longer than `turns` or ten, by the mean exponent of the second half of these. Empty where tangents jump or
+/// steps are adaptive, "never" where differences do not grow.
 std::string turns_to_noise(const Parameters& p, const Contestant& one,
                            const IntegratorOptions& integrator, double turns) {
     const auto model = model_of(p, one);

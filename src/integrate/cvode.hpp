@@ -13,13 +13,12 @@ namespace spam {
 
 /// CVODE's multistep methods in steps of their own choice. cvode:adams: Adams-Moulton of orders 1 to 12, corrected by
 /// fixed-point iteration: little more than one right-hand side a step, however high the order. cvode:bdf: backward
-/// differences of orders 1 to 5, corrected by Newton's method (CvodeCorrector): steps as long as the solution is smooth,
-/// however fast what has decayed would. A step is accepted
-/// where the root mean square over all entries k of e_k / (rtol |y_k| + atol_k) is at most 1.
-/// It goes on from several steps before: after a reset, and at every checkpoint, it begins anew with
-/// order 1 and small steps. Events, after which no earlier step counts and before which a step would
-/// have to be taken again with another length, are refused: where they are rare a one-step method is
-/// no slower, where they are not this one never leaves order 1.
+/// differences of orders 1 to 5, corrected by Newton's method (CvodeCorrector): steps as long as the solution is
+/// smooth, however fast what has decayed would. A step is accepted where the root mean square over all entries k of
+/// e_k / (rtol |y_k| + atol_k) is at most 1. It goes on from several steps before: after a reset, and at every
+/// checkpoint, it begins anew with order 1 and small steps. Events, after which no earlier step counts and before
+/// which a step would have to be taken again with another length, are refused: where they are rare a one-step method
+/// is no slower, where they are not this one never leaves order 1.
 class Cvode final : public Integrator {
   public:
     Cvode(const IntegratorOptions& options, const Ode& ode, Vector& y, double t0,

@@ -12,9 +12,8 @@
 namespace spam {
 
 /// How CVODE solves the equation of a step. Adams: fixed-point iteration. BDF: Newton's method, its linear equations
-/// by SPGMR without a matrix, J v by differences of the rates to one side.
-/// Accounts, which no rate depends on, have no say in where either ends; they come out as exactly as the rest, because the
-/// same directions serve them.
+/// by SPGMR without a matrix, J v by differences of the rates to one side. Accounts, which no rate depends on, have no
+/// say in where either ends; they come out as exactly as the rest, because the same directions serve them.
 class CvodeCorrector {
   public:
     CvodeCorrector(bool newton, const Vector& like, const SundialsContext& context);

@@ -88,8 +88,11 @@ BOOST_AUTO_TEST_CASE(strong_friction_costs_explicit_methods_more) {
         const End bdf = end_of(chain, "cvode:bdf", tolerance),
                   other = end_of(chain, "arkode:DORMAND_PRINCE_7_4_5", tolerance);
         BOOST_TEST(difference(bdf, exact) < 200.0 * tolerance);
-        BOOST_TEST(2 * bdf.rhs_evaluations < other.rhs_evaluations,
-                   bdf.rhs_evaluations << " and " << other.rhs_evaluations);
+        // What src/integrate/README.md says.
+        BOOST_TEST_MESSAGE(tolerance << ": " << bdf.rhs_evaluations << " ("
+                                     << difference(bdf, exact) << ") and " << other.rhs_evaluations
+                                     << " (" << difference(other, exact) << ")");
+        BOOST_TEST(2 * bdf.rhs_evaluations < other.rhs_evaluations);
     }
 }
 

@@ -22,11 +22,11 @@ struct LowestModes {
     std::size_t rhs_evaluations = 0;
 };
 
-/// `count` of them, for models and with held particles as equilibrium() takes them. By Lanczos' method from `count` vectors at
-/// once, so that as many alike are found, kept orthogonal to all before: memory for as many vectors as there are products
-/// K v, of two right-hand sides each, at most the numbers of all free positions. The error of omega_squared is
-/// about 1e-10 of the fastest. Throws InputError as equilibrium() does, and for a count that is not between 1 and the numbers
-/// of free positions; GuardStop where forces have no meaning.
+/// `count` of them, for models and with held particles as equilibrium() takes them. By Lanczos' method from `count`
+/// vectors at once, so that as many alike are found, kept orthogonal to all before: memory for as many vectors as
+/// there are products K v, of two right-hand sides each, at most the numbers of all free positions. The error of
+/// omega_squared is about 1e-10 of the fastest. Throws InputError as equilibrium() does, and for a count that is not
+/// between 1 and the numbers of free positions; GuardStop where forces have no meaning.
 template <int Dim>
 LowestModes lowest_modes(Model<Dim>& model, std::span<const double> y,
                          const std::vector<bool>& held, std::size_t count, double t = 0.0);

@@ -14,9 +14,9 @@
 
 namespace spam {
 
-/// A motion and M tangents to it, dv/dt = J v, which take the same steps of the same method: y and the tangents are one
-/// ode, whose blocks are [y's block | that of tangent 1 | ...], so that a method which advances positions and velocities
-/// in turn does so with tangents as well. Accounts have no tangents.
+/// A motion and M tangents to it, dv/dt = J v, which take the same steps of the same method: y and the tangents are
+/// one ode, whose blocks are [y's block | that of tangent 1 | ...], so that a method which advances positions and
+/// velocities in turn does so with tangents as well. Accounts have no tangents.
 template <int Dim>
 class TangentMotion {
   public:
@@ -62,12 +62,13 @@ struct LyapunovOptions {
         at_window{};
 };
 
-/// |dx|^2 + |dv|^2 by particle of a tangent by the scales of y: which particles carry the instability. Of a unit vector of
-/// positions and velocities alone they add up to 1.
+/// |dx|^2 + |dv|^2 by particle of a tangent by the scales of y: which particles carry the instability. Of a unit
+/// vector of positions and velocities alone they add up to 1.
 template <int Dim>
 std::vector<double> shares(const Model<Dim>& model, std::span<const double> tangent);
 
-/// Rates of growth of M tangents, which are orthogonalised again and again (QR): Benettin et al., Meccanica 15, 9 (1980).
+/// Rates of growth of M tangents, which are orthogonalised again and again (QR): Benettin et al., Meccanica 15, 9
+/// (1980).
 struct LyapunovSpectrum {
     std::vector<double> exponents;  ///< descending where the motion is long enough
     std::vector<double> errors;     ///< of the mean, from ten blocks
@@ -82,14 +83,14 @@ struct LyapunovSpectrum {
     std::size_t rhs_evaluations = 0;
 };
 
-/// Throws InputError where lyapunov_spectrum() would, before anything is computed: as TangentMotion does, and for a number
-/// of exponents that is not between 1 and the size of y, or above 2000.
+/// Throws InputError where lyapunov_spectrum() would, before anything is computed: as TangentMotion does, and for a
+/// number of exponents that is not between 1 and the size of y, or above 2000.
 template <int Dim>
 void require_spectrum(Model<Dim>& model, const IntegratorOptions& integrator,
                       std::size_t exponents);
 
-/// Tangents are measured by the scales of the model's layout. Throws InputError as require_spectrum() does; GuardStop where
-/// the motion ends.
+/// Tangents are measured by the scales of the model's layout. Throws InputError as require_spectrum() does; GuardStop
+/// where the motion ends.
 template <int Dim>
 LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0,
                                    const IntegratorOptions& integrator,
