@@ -78,6 +78,12 @@ void FreeParticles<Dim>::require_potential(std::string_view whose) {
             "{}: forces must be those of a potential, but {}; use a total-Lagrangian solid, springs or pair "
             "potentials without friction",
             whose, why));
+    // Rows of material vectors are renewed seldom, and give the forces of the same potential then.
+    if (model_.settles() && !model_.settles_seldom())
+        throw InputError(fmt::format(
+            "{}: particles yield, break or are reflected, and come to rest where their history leaves them; use an "
+            "elastic law without walls that reflect",
+            whose));
     const auto n = static_cast<Eigen::Index>(size());
     if (n == 0) throw InputError(fmt::format("{}: all particles are held; leave some free", whose));
     Eigen::VectorXd a(n), b(n), Ka(n), Kb(n);

@@ -3,7 +3,10 @@
 #include <spam/core/error.hpp>
 #include <spam/external/friction.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/material/embedded_atom.hpp>
+#include <spam/material/flowing_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
+#include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
@@ -144,4 +147,34 @@ BOOST_AUTO_TEST_CASE(what_has_no_equilibrium) {
                                    ElasticSolid{0.4, 0.4}, Scheme{});
     const auto y = lattice_state(updated, at_rest<2>());
     BOOST_CHECK_THROW(equilibrium<2>(updated, y, std::vector<bool>(36, false), 1e-9), InputError);
+}
+
+// Friction between particles, and particles that yield.
+BOOST_AUTO_TEST_CASE(rest_that_is_not_unique) {
+    const auto particles = make_particles<2>(triangular_block(6, 4), 1.0);
+    const auto x = particles.reference_position.row(0);
+    std::vector<bool> held;
+    for (const double at : x) held.push_back(at < x.minCoeff() + 0.9);  // two layers
+    const auto refused = [&](auto& model) {
+        const auto y = lattice_state(model, at_rest<2>());
+        BOOST_CHECK_EXCEPTION(
+            equilibrium<2>(model, y, held, 1e-9), InputError,
+            [](const InputError& e) { return std::string(e.what()).starts_with("equilibrium: "); });
+    };
+    for (const double eta : {0.1, 1e-6}) {
+        FluidModel<2> fluid(particles, Fluid{EmbeddedAtom{}, NewtonViscosity{eta, 0.0}},
+                            {.density = Density::summed, .range = 3.0});
+        refused(fluid);
+    }
+    ParticleModel<2> flows(particles), elastic(particles);
+    const PolynomialSolid law{0.4, 0.4};
+    const MaterialVectorScheme scheme{triangular_density, 3.0};
+    flows.add_term<MaterialVectors<2>>(FlowingSolid{law, 0.01}, scheme);
+    refused(flows);
+    // Those that do not flow have a potential: a block that is drawn comes to rest.
+    elastic.add_term<MaterialVectors<2>>(law, scheme);
+    elastic.add(std::make_unique<Pull>(particles.size() - 1, 0.001, 0.0));
+    const auto y = initial_state<2>(elastic, triangular_density, 1.0, at_rest<2>());
+    const auto rest = equilibrium<2>(elastic, y, held, 1e-9);
+    BOOST_TEST(rest.largest_force < 1e-9);
 }

@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(a_tangent_along_the_motion_stays_along_it) {
     const double coarse = difference(0.01), fine = difference(0.005);
     BOOST_TEST(fine < 3e-4);
     BOOST_TEST(coarse > 6.0 * fine);
-    BOOST_TEST(coarse < 20.0 * fine);
+    BOOST_TEST(coarse < 16.0 * fine);
 }
 
 // Leapfrog's map is symplectic: so are its tangents.

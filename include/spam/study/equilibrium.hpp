@@ -20,8 +20,8 @@ struct Equilibrium {
 /// not flow, springs, pair potentials; loads of externals as they are at time t. `held[i]`: that particle stays where
 /// it is. Forces are below `tolerance` in the end. By Newton's method and conjugate gradients (integrate/root.hpp).
 /// Throws InputError for a model whose y holds more than positions and velocities, whose forces depend on velocities,
-/// or whose derivatives are not symmetric (tried once with two random vectors); GuardStop where it does not converge:
-/// give the load in smaller steps.
+/// whose particles yield, break or are reflected, or whose derivatives are not symmetric (tried once with two random
+/// vectors); GuardStop where it does not converge: give the load in smaller steps.
 template <int Dim>
 Equilibrium equilibrium(Model<Dim>& model, std::span<const double> y, const std::vector<bool>& held,
                         double tolerance, double t = 0.0);
