@@ -218,6 +218,7 @@ DensityPotentialTerm<Dim>::DensityPotentialTerm(const Selection<Dim>& among,
     this->nature_.description =
         fmt::format("molecular dynamics, potentials of the density: {}", potentials_.describe());
     this->nature_.reach = potentials_.range;
+    this->nature_.sums_density = true;
 }
 
 template <int Dim>

@@ -139,6 +139,7 @@ void Elements::set_nature() {
         if (const auto* const law = one.solid())
             for (const Field field : law->history()) add(field, true);
     }
+    nature_.fluid_corners = any([](const Material& one) { return one.fluid(); });
     nature_.no_rezoning =
         "an element has four corners, which cannot be split or merged; use smooth particles";
     nature_.no_images = "elements do not meet the images of their nodes; use rigid sides";

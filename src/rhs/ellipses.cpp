@@ -85,6 +85,7 @@ Ellipses<Dim>::Ellipses(const Selection<Dim>& among, const Fluid& fluid,
             : "");
     this->nature_.fields = {Field::energy, field_kind::shape};
     this->nature_.potential = false;
+    this->nature_.sums_density = true;
     this->nature_.settles = std::isfinite(scheme.largest_aspect);
     this->nature_.no_images = "ellipses have no images behind walls; use rigid sides";
     this->nature_.reach = scheme.range;

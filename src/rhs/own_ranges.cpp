@@ -100,6 +100,7 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
                                             fluid_.describe(), scheme_.describe());
     this->nature_.fields = {Field::density, Field::energy};
     this->nature_.potential = false;
+    this->nature_.sums_density = true;
 }
 
 template <int Dim>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sums_over_nodes.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/parts.hpp>
@@ -34,8 +33,13 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 "model: '{}' and '{}' both have elements; make one term of them, with a list of materials",
                 other->nature().description, term->nature().description));
         if (!other->among().overlaps(term->among())) continue;
-        refuse_sums_over_nodes(*term, *other);
-        refuse_sums_over_nodes(*other, *term);
+        for (const auto& [law, mesh] :
+             {std::pair{term.get(), other.get()}, {other.get(), term.get()}})
+            if (law->nature().sums_density && mesh->nature().fluid_corners)
+                throw InputError(fmt::format(
+                    "model: '{}' sums densities over particles, and corners of elements that hold a fluid have none; "
+                    "leave it out, let it act among other particles, or use a fluid of smooth particles",
+                    law->nature().description));
         for (const Field field : term->nature().fields)
             for (const Field taken : other->nature().fields)
                 if (field == taken)

@@ -94,6 +94,7 @@ void SmoothParticles<Dim>::set_nature() {
     nature.moves = true;
     nature.moves_with_velocity = scheme_.transport == Transport::plain;
     nature.potential = false;
+    nature.sums_density = true;
     nature.conducts = constitution_->conducts();
     // Torques of particles jump where one changes its sign, and in space turn quickly where one passes near 0; Gauss'
     // principle sets in and out.

@@ -87,6 +87,9 @@ class Term {
         bool own_heat = false;  ///< keeps heat in a field of its own, not in Field::energy
         bool conducts =
             false;  ///< heat passes from particle to particle, and from what is behind a wall
+        bool sums_density = false;  ///< of its particles, from the masses of neighbours
+        bool fluid_corners =
+            false;             ///< its particles are corners of a fluid's elements: no such density
         bool smooth = true;    ///< rates are continuous
         bool settles = false;  ///< settle() may do anything although y holds no history of the term
         bool settles_seldom = false;  ///< and leaves the rates as they are but now and then
