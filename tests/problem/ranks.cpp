@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(every_problem_leaves_the_bytes_of_one_rank) {
     if (no_ranks()) return;
     std::size_t number = 0;
     const char* const quarter = std::getenv("SPAM_QUARTER");
-    for (const auto& [name, arguments] : short_runs) BOOST_TEST_CONTEXT(name) {
+    for (const auto& [name, arguments] : all_short_runs()) BOOST_TEST_CONTEXT(name) {
             ++number;
             if (quarter != nullptr && number % 4 != std::strtoul(quarter, nullptr, 10)) continue;
             BOOST_TEST_MESSAGE(name);  // a time limit shows where it was

@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(whatever_stops_a_problem_it_leaves_the_same_files) {
     const std::vector<std::string> stops{"SIGTERM", "SIGINT", "guard"};
     std::size_t cell = 0;
     int restarts = 0;
-    for (const auto& [name, arguments] : short_runs)
+    for (const auto& [name, arguments] : all_short_runs())
         for (const char* method : {"rk4", "arkode:DORMAND_PRINCE_7_4_5"}) {
             ++cell;
             // One of the two methods, both in long runs.

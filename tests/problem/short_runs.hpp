@@ -3,6 +3,7 @@
 #pragma once
 
 #include "problem/twins.hpp"
+#include "support/effort.hpp"
 
 #include <set>
 
@@ -74,6 +75,33 @@ inline const std::map<std::string, Words> short_runs{
     {"water_column",
      {"--model", "both", "--width", "6", "--t-end", "10", "--checkpoint-every", "1.7"}},
 };
+/// In space, what is plane above: one of them, or all in long runs.
+inline const std::vector<std::pair<std::string, Words>> short_runs_in_space{
+    {"free_expansion",
+     {"--dimension", "3", "--cells", "8", "--t-end", "20", "--checkpoint-every", "2.3"}},
+    {"ball_plate",
+     {"--model", "pair_md", "--dimension", "3", "--radius", "2", "--columns", "10", "--rows", "4",
+      "--t-end", "6", "--checkpoint-every", "0.7"}},
+    {"gas_cloud", {"--size", "2", "--time", "2", "--checkpoint-every", "0.7"}},
+    {"gas_cloud",
+     {"--size", "2", "--time", "2", "--ranges", "ellipses", "--checkpoint-every", "0.7"}},
+    {"plane_wave",
+     {"--dimension", "3", "--cells", "8", "--t-end", "20", "--checkpoint-every", "2.3"}},
+    {"tensile_instability",
+     {"--dimension", "3", "--cells", "6", "--t-end", "5", "--checkpoint-every", "0.7"}},
+    {"tension_test",
+     {"--dimension", "3", "--columns", "10", "--rows", "4", "--load-rate", "2e-4", "--t-end", "30",
+      "--checkpoint-every", "3.7"}},
+};
+
+/// Those of every problem, and of space.
+inline std::vector<std::pair<std::string, Words>> all_short_runs() {
+    std::vector<std::pair<std::string, Words>> all(short_runs.begin(), short_runs.end());
+    const auto first = short_runs_in_space.begin();
+    all.insert(all.end(), first, long_runs() ? short_runs_in_space.end() : first + 1);
+    return all;
+}
+
 /// Analyses, and studies that go on from their table.
 inline const std::set<std::string> without_checkpoints{
     "algorithm_sweep", "integrator_accuracy",    "invariant_drift", "kernels",   "loaded_bar",
