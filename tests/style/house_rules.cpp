@@ -225,6 +225,22 @@ BOOST_AUTO_TEST_CASE(every_source_carries_its_licence) {
     }
 }
 
+/// Columns of a line of UTF-8.
+std::ptrdiff_t columns(const std::string& line) {
+    return std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+}
+
+// clang-format breaks code, and leaves lines of comments as they are.
+BOOST_AUTO_TEST_CASE(comments_stay_within_their_columns) {
+    BOOST_TEST(columns("// \u03b3t") == 5);
+    for (const auto& path : sources({"include", "src", "problems", "tests"})) {
+        const auto lines = lines_of(path);
+        for (std::size_t k = 0; k < lines.size(); ++k)
+            if (is_cpp(path) && lines[k].find_first_not_of(' ') == lines[k].find("//"))
+                BOOST_TEST(columns(lines[k]) <= 120, path << ':' << k + 1);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(files_stay_readable) {
     for (const auto& path : sources({"include", "src", "problems", "tests"}))
         BOOST_TEST(lines_of(path).size() <= 350U, path << " is longer than 350 lines");
