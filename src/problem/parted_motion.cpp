@@ -207,7 +207,7 @@ RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
 
 template <int Dim>
 std::vector<double> PartedMotion<Dim>::own_y() const {
-    return own_state<Dim>(processes_, whole_.layout(), whole_.particles().size(), y_);
+    return own_state<Dim>(processes_, whole_.layout(), y_);
 }
 
 /// What parts remember beyond y.

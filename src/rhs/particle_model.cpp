@@ -53,11 +53,10 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 fixed.nature().description));
     }
     for (const Field field : term->nature().fields) this->layout().add(field);
-    if (!term->nature().elements.empty()) {
+    if (!term->nature().elements.empty())
         this->layout().set_elements(term->nature().elements.size());
-        for (const Field field : term->nature().element_fields)
-            this->layout().add(field, Holder::element);
-    }
+    for (const Field field : term->nature().element_fields)
+        this->layout().add(field, Holder::element);
     whole_ = whole_ && term->among().whole();
     terms_.push_back(std::move(term));
     if (terms_.size() > 1 || !whole_) more_.resize(Dim * this->particles().size());

@@ -67,8 +67,10 @@ std::vector<double> whole(const Add<Dim>& make, const Box<Dim>& box,
 template <int Dim>
 std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<Dim>& box,
                              const IntegratorOptions& options, Wrong wrong = Wrong::nothing) {
-    const Points<Dim> X = Sample<Dim>(box).model.particles().reference_position;
-    const auto n = static_cast<std::size_t>(X.cols());
+    Sample<Dim> all_of_it(box);
+    make(all_of_it);
+    const Points<Dim> X = all_of_it.model.particles().reference_position;
+    const FieldLayout<Dim>& layout = all_of_it.model.layout();
     std::vector<double> result;
     const auto work = [&] {
         Parts& parts = Parts::here();
@@ -80,7 +82,7 @@ std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<
             make(sample);
             sample.model.events();
             std::vector<double> y = sample.start();
-            if (segment > 0) y = own_state<Dim>(parts, sample.model.layout(), n, all);
+            if (segment > 0) y = own_state<Dim>(parts, layout, all);
             y = moved(sample, y, options);
             all = whole_state<Dim>(parts, sample.model.layout(), y);
             x = Eigen::Map<const Points<Dim>>(all.data(), Dim, X.cols());
