@@ -189,17 +189,15 @@ std::vector<Event> ParticleModel<Dim>::events() const {
     for (const auto& term : terms_)
         if (term->nature().events)
             for (Event& event : term->nature().events(held)) events.push_back(std::move(event));
+    Parts& parts = Parts::here();
     // What does not move never meets.
-    if (events.empty() || std::find(held.begin(), held.end(), false) == held.end()) return {};
-    if (guided)
+    if (events.empty() || !parts.any(std::find(held.begin(), held.end(), false) != held.end()))
+        return {};
+    if (parts.any(guided))
         throw InputError(
             "closest-approach: a reflection would change the velocity that is prescribed along one "
             "axis; hold those particles altogether, or leave the closest approach out");
-    if (!Parts::here().alone())
-        throw InputError(
-            "closest-approach: pairs of particles in different parts are not watched; leave --ranks "
-            "out, or the closest approach");
-    if (std::find(held.begin(), held.end(), true) == held.end()) return events;
+    if (!parts.any(std::find(held.begin(), held.end(), true) != held.end())) return events;
     for (Event& event : events)
         event.apply = [this, apply = std::move(event.apply)](double t, std::span<double> y) {
             const State<Dim> state(this->layout(), y);
