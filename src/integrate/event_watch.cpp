@@ -2,6 +2,7 @@
 #include "event_watch.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 
 #include <fmt/format.h>
 
@@ -108,7 +109,8 @@ std::size_t EventWatch::apply(double t, std::span<double> y) {
         const bool due = in_tolerances <= std::max(nearest, 1.0);
         if (!due) continue;
         happened += event.apply(t, y);
-        count(t, y.size(), event.name);
+        Parts& parts = Parts::here();
+        count(t, parts.total(y.size() - parts.copies) + parts.copies, event.name);
     }
     return happened;
 }

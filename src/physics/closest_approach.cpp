@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/physics/closest_approach.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +31,17 @@ double skin(double share, double R, const Box<Dim>& box) {
     for (int a = 0; a < Dim; ++a)
         if (box.periodic(a)) skin = std::min(skin, 0.49 * std::max(0.0, box.length(a) - 2.002 * R));
     return skin;
+}
+
+/// Of this part's particles first, first + 1, ... among those of all parts that are watched.
+std::vector<std::uint32_t> numbers_among(std::size_t first, std::size_t count) {
+    Parts& parts = Parts::here();
+    const Parts::Among among(parts, first);
+    std::vector<std::uint32_t> numbers(count);
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = parts.number(i);
+    const double lowest = -parts.most(count == 0 ? -infinity : -static_cast<double>(numbers[0]));
+    for (std::uint32_t& number : numbers) number -= static_cast<std::uint32_t>(lowest);
+    return numbers;
 }
 
 }  // namespace
@@ -68,6 +81,11 @@ template <int Dim>
 void ClosestApproach<Dim>::hold(const std::vector<bool>& held) {
     for (std::size_t i = 0; i < held.size(); ++i)
         if (held[i]) mass_[i] = infinity;
+}
+
+template <int Dim>
+void ClosestApproach<Dim>::join(std::span<const std::uint32_t> numbers) {
+    mass_ = Parts::here().by_number(std::span<const double>(mass_), 1, numbers);
 }
 
 template <int Dim>
@@ -218,22 +236,38 @@ Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Di
     if (!held.empty())
         approach.hold({held.begin() + static_cast<std::ptrdiff_t>(first),
                        held.begin() + static_cast<std::ptrdiff_t>(first + count)});
+    const auto numbers = numbers_among(first, count);
+    approach.join(numbers);
     const auto shared = std::make_shared<ClosestApproach<Dim>>(std::move(approach));
-    const auto of = [&layout, first, count](std::span<const double> y) {
-        return ConstState<Dim>(layout, y).part(first, count);
+    const auto all_of = [&layout, first, count, numbers](std::span<const double> y) {
+        const auto own = ConstState<Dim>(layout, y).part(first, count);
+        const auto all = [&numbers](const auto& field) {
+            const auto values = Parts::here().by_number(
+                std::span<const double>(field.data(), static_cast<std::size_t>(field.size())), Dim,
+                numbers);
+            return Points<Dim>(Eigen::Map<const Points<Dim>>(
+                values.data(), Dim, static_cast<Eigen::Index>(values.size()) / Dim));
+        };
+        return std::array{all(own.position()), all(own.velocity())};
     };
     Event event;
     event.name = "closest approach";
     event.tolerance = shared->tolerance();
-    event.arm = [shared, of](double t, std::span<const double> y) {
-        shared->arm(t, of(y).position(), of(y).velocity());
+    event.arm = [shared, all_of](double t, std::span<const double> y) {
+        const auto [x, v] = all_of(y);
+        const Parts::Here as_a_whole(Parts::alone_here());
+        shared->arm(t, x, v);
     };
-    event.distance = [shared, of](double t, std::span<const double> y) {
-        return shared->distance(t, of(y).position(), of(y).velocity());
+    event.distance = [shared, all_of](double t, std::span<const double> y) {
+        const auto [x, v] = all_of(y);
+        const Parts::Here as_a_whole(Parts::alone_here());
+        return shared->distance(t, x, v);
     };
-    event.apply = [shared, &layout, first, count](double, std::span<double> y) {
-        const State<Dim> state = State<Dim>(layout, y).part(first, count);
-        return shared->reflect(state.position(), state.velocity());
+    event.apply = [shared, all_of, &layout, first, count, numbers](double, std::span<double> y) {
+        auto [x, v] = all_of(y);
+        const std::size_t reflections = shared->reflect(x, v);
+        State<Dim>(layout, y).part(first, count).velocity() = v(Eigen::all, numbers);
+        return reflections;
     };
     event.remember = [shared](Archive& archive) { shared->remember(archive); };
     return event;

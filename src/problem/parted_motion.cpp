@@ -97,6 +97,7 @@ void PartedMotion<Dim>::part(double t) {
     part_.reset();
     processes_.set_numbers(parts[processes_.own()]);
     part_ = dynamic_cast<const ParticleModel<Dim>&>(whole_).part(processes_.numbers());
+    events_ = !part_->events().empty();
     Archive back(known_memory_);
     part_->remember(back);
     motion_ = std::make_unique<Motion<Dim>>(*part_, own_y(), options_, t);
@@ -153,8 +154,8 @@ std::span<const double> PartedMotion<Dim>::y() {
         y_ = whole_state(processes_, part_->layout(), motion_->y());
     }
     tell_whole();
-    // A method with fixed steps and no memory goes the same way from here.
-    if (options_.dt && options_.method.find("cvode:") != 0 && mixed()) part_anew();
+    // A method with fixed steps and no memory goes the same way from here, but where an event has lists of its own.
+    if (options_.dt && !events_ && options_.method.find("cvode:") != 0 && mixed()) part_anew();
     return y_;
 }
 
@@ -207,7 +208,7 @@ RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
 
 template <int Dim>
 std::vector<double> PartedMotion<Dim>::own_y() const {
-    return own_state<Dim>(processes_, whole_.layout(), whole_.particles().size(), y_);
+    return own_state<Dim>(processes_, whole_.layout(), y_);
 }
 
 /// What parts remember beyond y.

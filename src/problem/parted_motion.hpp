@@ -82,6 +82,7 @@ class PartedMotion {
     State known_{};  ///< where y_ is known
     Parts::Traffic before_;
     std::size_t images_ = 0, pairs_before_ = 0;
+    bool events_ = false;  ///< the model has some
 };
 
 }  // namespace spam

@@ -3,6 +3,7 @@
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/material/plastic_fields.hpp>
 #include <spam/physics/quadrilateral.hpp>
 #include <spam/rhs/elements.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace spam {
 namespace {
@@ -54,7 +56,6 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     : Term<2>(nodes),
       materials_(std::move(materials)),
       material_(std::move(material)) {
-    require_one_part("a mesh of elements");
     nature_.elements = std::move(corners);
     if (nature_.elements.empty()) throw InputError("elements: there are none; leave the term out");
     if (box().periodic() || box().has_images())
@@ -68,7 +69,7 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
         stiffness_.push_back(0.25 * one.hourglass.stiffness * one.density * c * c);
         elastic_hourglass_ = elastic_hourglass_ || one.hourglass.stiffness > 0.0;
     }
-    const std::size_t n = nature_.elements.size();
+    std::size_t n = nature_.elements.size();
     if (!material_.empty() && material_.size() != n)
         throw InputError(fmt::format("elements: {} numbers of materials are given for {} elements",
                                      material_.size(), n));
@@ -78,31 +79,33 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
             throw InputError(fmt::format("elements: element {} has the material {} of {}", k,
                                          number, materials_.size()));
         for (const std::uint32_t i : nature_.elements[k])
-            if (i < among().first() || i >= among().first() + among().count())
+            if (Parts::here().alone() &&
+                (i < among().first() || i >= among().first() + among().count()))
                 throw InputError(fmt::format(
                     "elements: element {} has a corner {}, which is none of the particles "
                     "that the term acts among",
                     k, i));
-        const Corners x = corners_of(particles().reference_position, k);
+    }
+    divide();
+    n = nature_.elements.size();
+    const double* const X = particles().reference_position.data();
+    const std::vector<double> others = other_nodes(X, X);
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto number = material_.empty() ? 0 : material_[k];
+        const Corners x = corners_of(X, others.data(), k);
         const double area = QuadrilateralShape<>(x).area;
         if (!(area > 0.0))
             throw InputError(fmt::format(
-                "elements: the corners of element {} do not go round it counterclockwise", k));
+                "elements: the corners of element {} do not go round it counterclockwise",
+                number_of(k)));
         mass_.push_back(area * materials_[static_cast<std::size_t>(number)].density);
         damping_ = std::max(damping_, 16.0 * viscosity_[static_cast<std::size_t>(number)] *
                                           std::sqrt(area) / mass_.back());
         for (const Vec<2>& diagonal : {x[2] - x[0], x[3] - x[1]})
             nature_.reach = std::max(nature_.reach, std::sqrt(dot(diagonal, diagonal)));
     }
-    start_.assign(particles().size() + 1, 0);
-    for (const Quadrilateral& one : nature_.elements)
-        for (const std::uint32_t i : one) ++start_[i - among().first() + 1];
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    at_.resize(4 * n);
-    std::vector<std::size_t> next = start_;
-    for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t c = 0; c < 4; ++c)
-            at_[next[nature_.elements[k][c] - among().first()]++] = 4 * k + c;
+    damping_ = Parts::here().most(damping_);
+    nature_.reach = Parts::here().most(nature_.reach);
     set_nature();
     const bool fluids = std::any_of(materials_.begin(), materials_.end(),
                                     [](const Material& m) { return m.fluid(); });
@@ -116,7 +119,6 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     grad_v_.resize(n);
     number_.resize(n);
     std::iota(number_.begin(), number_.end(), 0U);
-    force_.resize(n);
     inverted_.resize(n);
 }
 
@@ -160,11 +162,11 @@ void Elements::set_nature() {
 
 /// Of the right-hand side at work: nodes, and where fields of the elements begin (null for those not there).
 struct Elements::Held {
-    ConstState<2> nodes;
+    const Nodes& nodes;
     const double *broken, *Q;
     double *e_dot, *Q_dot, *resisted, *rubbed;
-    explicit Held(const Now& now)
-        : nodes(now.state),
+    Held(const Now& now, const Nodes& of)
+        : nodes(of),
           broken(now.state.elements().find(field_kind::broken)),
           Q(now.state.elements().find(field_kind::hourglass_force)),
           e_dot(now.rate.elements().find(Field::energy)),
@@ -183,8 +185,8 @@ void Elements::load(const Held& held, std::size_t element) {
         if (elastic_hourglass_) held.Q_dot[2 * element] = held.Q_dot[2 * element + 1] = 0.0;
         return;
     }
-    const QuadrilateralShape<> shape(corners_of(held.nodes.position(), element));
-    const Corners v = corners_of(held.nodes.velocity(), element);
+    const QuadrilateralShape<> shape(corners_of(held.nodes, places, element));
+    const Corners v = corners_of(held.nodes, velocities, element);
     inverted_[element] = shape.area > 0.0 ? 0 : 1;
     grad_v_[element] = shape.gradient(v);
     SymTensor<2> stress;
@@ -231,7 +233,8 @@ void Elements::gather(const Now& now) const {
 std::string Elements::rates(const Now& now) {
     const ConstState<2> state = now.state.elements();
     const State<2> rate = now.rate.elements();
-    const Held held(now);
+    const Nodes nodes = nodes_of(now.state);
+    const Held held(now, nodes);
     for (const Field field : of_some_) rate.field(field).setZero();
     parallel_blocks(nature_.elements.size(), [&](std::size_t begin, std::size_t size) {
         for_each_material(begin, size,
@@ -240,7 +243,7 @@ std::string Elements::rates(const Now& now) {
                               if (law)
                                   law->return_stress(now.t, first, count, state, returned_.data());
                               else
-                                  find_pressures(now, m.fluid()->state, first, count);
+                                  find_pressures(nodes, m.fluid()->state, first, count);
                               for (std::size_t k = first; k < first + count; ++k) load(held, k);
                               if (law)
                                   law->stress_rates({number_.data() + first, count},
@@ -250,14 +253,16 @@ std::string Elements::rates(const Now& now) {
     });
     const auto inverted = std::find(inverted_.begin(), inverted_.end(), 1);
     if (inverted != inverted_.end())
-        return fmt::format("element {} is turned inside out", inverted - inverted_.begin());
+        return fmt::format("element {} is turned inside out",
+                           number_of(static_cast<std::size_t>(inverted - inverted_.begin())));
     if (auto reason = complaint(); !reason.empty()) return reason;
+    meet_other_forces();
     gather(now);
     return {};
 }
 
 Elements::Answer Elements::answer(Ask what, std::span<const double> y) const {
-    const ConstState<2> nodes = state_of(y);
+    const Nodes nodes = nodes_of(state_of(y));
     if (what == Ask::damping) return {damping_ + friction_damping(nodes)};
     if (what == Ask::neighbour_forces) return {neighbour_forces_in(y)};
     if (what != Ask::energy) return {};
@@ -265,10 +270,10 @@ Elements::Answer Elements::answer(Ask what, std::span<const double> y) const {
 }
 
 double Elements::neighbour_forces_in(std::span<const double> y) const {
-    const ConstState<2> nodes = state_of(y);
+    const Nodes nodes = nodes_of(state_of(y));
     const Fields all = fields(y);
     const double sum = exact_sum(mass_.size(), [&](std::size_t k) {
-        const double area = QuadrilateralShape<>(corners_of(nodes.position(), k)).area;
+        const double area = QuadrilateralShape<>(corners_of(nodes, places, k)).area;
         return std::abs(area) * Eigen::Map<const Eigen::Vector3d>(all.stress[k].c.data()).norm() +
                mass_[k] * std::abs(all.energy[k]);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elements of a fluid: what they have follows from their corners.
 #include <spam/core/exact_sum.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/physics/quadrilateral.hpp>
 #include <spam/rhs/elements.hpp>
 
@@ -18,11 +19,11 @@ std::optional<double> Elements::Material::sound_speed() const {
 }
 
 /// Densities, energies and pressures of elements of one fluid, and the stress at rest.
-void Elements::find_pressures(const Now& now, const AnyEquationOfState& law, std::size_t first,
+void Elements::find_pressures(const Nodes& nodes, const AnyEquationOfState& law, std::size_t first,
                               std::size_t count) {
-    const double* const e = now.state.elements().find(Field::energy);
+    const double* const e = nodes.state.elements().find(Field::energy);
     for (std::size_t k = first; k < first + count; ++k) {
-        density_[k] = mass_[k] / QuadrilateralShape<>(corners_of(now.state.position(), k)).area;
+        density_[k] = mass_[k] / QuadrilateralShape<>(corners_of(nodes, places, k)).area;
         energy_[k] = e && !law.cold ? e[k] : 0.0;
     }
     const auto part = [&](std::vector<double>& all) {
@@ -43,16 +44,16 @@ std::string Elements::complaint() const {
     const auto k = static_cast<std::size_t>(outside - pressure_.begin());
     const Fluid& fluid = *material_of(k).fluid();
     return fmt::format("density {} {}of element {} is outside the law ({})", density_[k],
-                       fluid.state.cold ? "" : fmt::format("and energy {} ", energy_[k]), k,
-                       fluid.state.describe());
+                       fluid.state.cold ? "" : fmt::format("and energy {} ", energy_[k]),
+                       number_of(k), fluid.state.describe());
 }
 
 /// By mass.
-double Elements::energy_of(const ConstState<2>& nodes, std::size_t element) const {
-    const ConstState<2> elements = nodes.elements();
+double Elements::energy_of(const Nodes& nodes, std::size_t element) const {
+    const ConstState<2> elements = nodes.state.elements();
     const Material& material = material_of(element);
     if (!material.cold()) return elements.find(Field::energy)[element];
-    const double area = QuadrilateralShape<>(corners_of(nodes.position(), element)).area;
+    const double area = QuadrilateralShape<>(corners_of(nodes, places, element)).area;
     double e = material.fluid()->state.cold_energy(mass_[element] / area);
     for (const Field work : {Field(field_kind::hourglass_work), Field(field_kind::friction_work)})
         if (const double* const all = elements.find(work)) e += all[element];
@@ -62,41 +63,42 @@ double Elements::energy_of(const ConstState<2>& nodes, std::size_t element) cons
 /// Of a stress lambda tr + 2 eta D, the fastest rate of one element alone, which none of the mesh exceeds: at most
 /// 2 max(eta, lambda + eta) |grad v|^2 A is taken from sum v^2 M/8, and |grad v|^2 <= 2 b sum v^2 with b the
 /// larger eigenvalue of b_0 b_0 + b_1 b_1.
-double Elements::friction_damping(const ConstState<2>& nodes) const {
+double Elements::friction_damping(const Nodes& nodes) const {
     double fastest = 0.0;
     for (std::size_t k = 0; k < density_.size(); ++k) {
         const Fluid* const fluid = material_of(k).fluid();
         if (fluid == nullptr || !fluid->viscosity) continue;
-        const QuadrilateralShape<> shape(corners_of(nodes.position(), k));
+        const QuadrilateralShape<> shape(corners_of(nodes, places, k));
         const double half = 0.5 * (dot(shape.b_0, shape.b_0) + dot(shape.b_1, shape.b_1)),
                      cross = shape.b_0[0] * shape.b_1[1] - shape.b_0[1] * shape.b_1[0];
         const double b = half + std::sqrt(std::max(half * half - cross * cross, 0.0));
         const auto& [lambda, eta] = *fluid->viscosity;
         fastest = std::max(fastest, 16.0 * std::max(eta, lambda + eta) * b * shape.area / mass_[k]);
     }
-    return fastest;
+    return Parts::here().most(fastest);
 }
 
 void Elements::warm(std::span<double> y, std::optional<double> temperature) const {
-    const State<2> nodes = among().of(State<2>(layout(), y));
+    const State<2> state = among().of(State<2>(layout(), y));
+    const Nodes nodes = nodes_of(state);
     for (std::size_t k = 0; k < density_.size(); ++k) {
         const Material& material = material_of(k);
         if (material.solid() || material.cold()) continue;
-        const double area = QuadrilateralShape<>(corners_of(nodes.position(), k)).area;
-        nodes.elements().find(Field::energy)[k] = material.fluid()->state.starting_energy(
+        const double area = QuadrilateralShape<>(corners_of(nodes, places, k)).area;
+        state.elements().find(Field::energy)[k] = material.fluid()->state.starting_energy(
             mass_[k] / area, temperature.value_or(material.temperature));
     }
 }
 
 Elements::Fields Elements::fields(std::span<const double> y) const {
-    const ConstState<2> nodes = state_of(y);
-    const double *const e = nodes.elements().find(Field::energy), *const held =
-                                                                      nodes.elements().find(
-                                                                          Field::stress);
+    const Nodes nodes = nodes_of(state_of(y));
+    const ConstState<2> elements = nodes.state.elements();
+    const double *const e = elements.find(Field::energy), *const held =
+                                                              elements.find(Field::stress);
     const std::size_t n = mass_.size();
     Fields all{std::vector<double>(n), std::vector<double>(n), std::vector<SymTensor<2>>(n)};
     for (std::size_t k = 0; k < n; ++k) {
-        const QuadrilateralShape<> shape(corners_of(nodes.position(), k));
+        const QuadrilateralShape<> shape(corners_of(nodes, places, k));
         all.density[k] = mass_[k] / shape.area;
         all.energy[k] = energy_of(nodes, k);
         SymTensor<2>& stress = all.stress[k];
@@ -107,7 +109,7 @@ Elements::Fields Elements::fields(std::span<const double> y) const {
         }
         if (fluid->viscosity)
             stress =
-                fluid->viscosity->viscous_stress(shape.gradient(corners_of(nodes.velocity(), k)));
+                fluid->viscosity->viscous_stress(shape.gradient(corners_of(nodes, velocities, k)));
         const double P =
             fluid->state.pressure(all.density[k], fluid->state.cold || !e ? 0.0 : e[k]);
         stress(0, 0) -= P;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is not done in every right-hand side: of all particles in lanes, of single ones in plain numbers.
 #include "material_vector_parts.hpp"
+#include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
 
 #include <algorithm>

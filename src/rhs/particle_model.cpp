@@ -57,11 +57,10 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
                 fixed.nature().description));
     }
     for (const Field field : term->nature().fields) this->layout().add(field);
-    if (!term->nature().elements.empty()) {
+    if (!term->nature().elements.empty())
         this->layout().set_elements(term->nature().elements.size());
-        for (const Field field : term->nature().element_fields)
-            this->layout().add(field, Holder::element);
-    }
+    for (const Field field : term->nature().element_fields)
+        this->layout().add(field, Holder::element);
     whole_ = whole_ && term->among().whole();
     terms_.push_back(std::move(term));
     if (terms_.size() > 1 || !whole_) more_.resize(Dim * this->particles().size());
@@ -194,17 +193,15 @@ std::vector<Event> ParticleModel<Dim>::events() const {
     for (const auto& term : terms_)
         if (term->nature().events)
             for (Event& event : term->nature().events(held)) events.push_back(std::move(event));
+    Parts& parts = Parts::here();
     // What does not move never meets.
-    if (events.empty() || std::find(held.begin(), held.end(), false) == held.end()) return {};
-    if (guided)
+    if (events.empty() || !parts.any(std::find(held.begin(), held.end(), false) != held.end()))
+        return {};
+    if (parts.any(guided))
         throw InputError(
             "closest-approach: a reflection would change the velocity that is prescribed along one "
             "axis; hold those particles altogether, or leave the closest approach out");
-    if (!Parts::here().alone())
-        throw InputError(
-            "closest-approach: pairs of particles in different parts are not watched; leave --ranks "
-            "out, or the closest approach");
-    if (std::find(held.begin(), held.end(), true) == held.end()) return events;
+    if (!parts.any(std::find(held.begin(), held.end(), true) != held.end())) return events;
     for (Event& event : events)
         event.apply = [this, apply = std::move(event.apply)](double t, std::span<double> y) {
             const State<Dim> state(this->layout(), y);

@@ -166,10 +166,10 @@ void add_springs(Sample<Dim>& s) {
 
 /// Between the rows of triangular_block(8, ...), whose numbers are the ids.
 inline std::vector<Quadrilateral> mesh_of(const Particles<2>& particles) {
-    const auto most = std::max_element(particles.id.begin(), particles.id.end());
-    std::vector<std::uint32_t> stored(static_cast<std::size_t>(*most) + 1);
-    for (std::uint32_t k = 0; k < particles.size(); ++k)
-        stored[static_cast<std::size_t>(particles.id[k])] = k;
+    const auto id = Parts::here().by_number(std::span<const std::int64_t>(particles.id));
+    std::vector<std::uint32_t> stored(
+        static_cast<std::size_t>(*std::max_element(id.begin(), id.end())) + 1);
+    for (std::uint32_t k = 0; k < id.size(); ++k) stored[static_cast<std::size_t>(id[k])] = k;
     std::vector<Quadrilateral> mesh;
     for (std::size_t i = 0; i + 9 < stored.size(); ++i)
         if (i % 8 != 7) mesh.push_back({stored[i], stored[i + 1], stored[i + 9], stored[i + 8]});

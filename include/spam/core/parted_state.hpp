@@ -10,8 +10,13 @@
 
 namespace spam {
 
-/// y of the whole run, by number of the particle, from `own` of each part, whose layout this is; accounts, of which
-/// every part has a copy, as they are. A call that all parts make together.
+/// The numbers of those that hold a block.
+inline std::span<const std::uint32_t> own_numbers(const Parts& parts, Holder holder) {
+    return holder == Holder::element ? parts.elements() : parts.numbers();
+}
+
+/// y of the whole run, by number of the particle or element, from `own` of each part, whose layout this is; accounts,
+/// of which every part has a copy, as they are. A call that all parts make together.
 template <int Dim>
 std::vector<double> whole_state(Parts& parts, const FieldLayout<Dim>& layout,
                                 std::span<const double> own) {
@@ -22,24 +27,24 @@ std::vector<double> whole_state(Parts& parts, const FieldLayout<Dim>& layout,
             whole.insert(whole.end(), values.begin(), values.end());
             continue;
         }
-        const auto all = parts.by_number(values, block.components);
+        const auto all =
+            parts.by_number(values, block.components, own_numbers(parts, block.holder));
         whole.insert(whole.end(), all.begin(), all.end());
     }
     return whole;
 }
 
-/// y of this part, from that of the whole run with n particles; of the layout only fields count.
+/// y of this part, from that of the whole run, whose layout this is.
 template <int Dim>
-std::vector<double> own_state(const Parts& parts, const FieldLayout<Dim>& layout, std::size_t n,
+std::vector<double> own_state(const Parts& parts, const FieldLayout<Dim>& layout,
                               std::span<const double> whole) {
     std::vector<double> own;
-    std::size_t offset = 0;
     for (const auto& block : layout.blocks()) {
-        const bool account = block.field.role() == Role::account;
-        const auto all = whole.subspan(offset, account ? block.size : n * block.components);
-        offset += all.size();
-        const auto values = account ? std::vector<double>(all.begin(), all.end())
-                                    : parts.own_of(all, block.components);
+        const auto all = whole.subspan(block.offset, block.size);
+        const auto values =
+            block.field.role() == Role::account
+                ? std::vector<double>(all.begin(), all.end())
+                : parts.own_of(all, block.components, own_numbers(parts, block.holder));
         own.insert(own.end(), values.begin(), values.end());
     }
     return own;

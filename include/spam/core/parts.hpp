@@ -61,10 +61,16 @@ class Parts {
     /// Which particles of the whole run this part's are, ascending. Where it is alone these are 0, 1, ... and the
     /// list is empty.
     std::span<const std::uint32_t> numbers() const { return numbers_; }
-    void set_numbers(std::vector<std::uint32_t> numbers) { numbers_ = std::move(numbers); }
+    void set_numbers(std::vector<std::uint32_t> numbers) {
+        numbers_ = std::move(numbers);
+        elements_.clear();
+    }
     std::uint32_t number(std::size_t i) const {
         return numbers_.empty() ? static_cast<std::uint32_t>(i) : numbers_[first_ + i];
     }
+    /// Likewise which elements between particles are this part's; empty where there are none. Laws that have some tell.
+    std::span<const std::uint32_t> elements() const { return elements_; }
+    void set_elements(std::vector<std::uint32_t> elements) { elements_ = std::move(elements); }
     /// As long as it lives number(i) is that of this part's particle first + i: for laws among some of them.
     class Among {
       public:
@@ -125,8 +131,14 @@ class Parts {
     /// `components` values of each of our particles, put in order with those of the others: of all, by number.
     template <class Value>
     std::vector<Value> by_number(std::span<const Value> own, std::size_t components = 1) {
+        return by_number(own, components, numbers_);
+    }
+    /// The same of what else has numbers 0, 1, ... in the whole run.
+    template <class Value>
+    std::vector<Value> by_number(std::span<const Value> own, std::size_t components,
+                                 std::span<const std::uint32_t> numbers) {
         if (alone()) return {own.begin(), own.end()};
-        const auto theirs = gather(std::span<const std::uint32_t>(numbers_));
+        const auto theirs = gather(numbers);
         const auto values = gather(own);
         std::size_t n = 0;
         for (const auto& one : theirs) n += one.size();
@@ -141,10 +153,15 @@ class Parts {
     /// The other way round.
     template <class Value>
     std::vector<Value> own_of(std::span<const Value> all, std::size_t components = 1) const {
+        return own_of(all, components, numbers_);
+    }
+    template <class Value>
+    std::vector<Value> own_of(std::span<const Value> all, std::size_t components,
+                              std::span<const std::uint32_t> numbers) const {
         if (alone()) return {all.begin(), all.end()};
         std::vector<Value> own;
-        own.reserve(numbers_.size() * components);
-        for (const std::uint32_t i : numbers_)
+        own.reserve(numbers.size() * components);
+        for (const std::uint32_t i : numbers)
             for (std::size_t c = 0; c < components; ++c) own.push_back(all[i * components + c]);
         return own;
     }
@@ -171,7 +188,7 @@ class Parts {
     virtual std::vector<Bytes> transport(std::vector<Bytes> to, Content content) = 0;
 
     std::size_t count_, own_;
-    std::vector<std::uint32_t> numbers_;
+    std::vector<std::uint32_t> numbers_, elements_;
     std::size_t first_ = 0;  ///< Among
     Traffic traffic_;
     std::optional<std::string> left_;  ///< why there are no more calls

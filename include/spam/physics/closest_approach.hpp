@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,8 @@ class ClosestApproach {
     double distance(double t, const Points_& x, const Points_& v);
     /// The particles with these numbers are held or driven: they reflect others as infinitely heavy ones do.
     void hold(const std::vector<bool>& held);
+    /// Of a part of a run: takes the particles of the other parts as well; ours have these numbers among all.
+    void join(std::span<const std::uint32_t> numbers);
     /// Reflects every approaching pair at the surface, again and again where some touch more than one
     /// other. Returns how many reflections that were.
     std::size_t reflect(const Points_& x, Eigen::Ref<Points<Dim>> v);
@@ -97,7 +100,8 @@ class ClosestApproach {
 };
 
 /// The event of a model whose y holds x and v, for particles first, first + 1, ... of it. `layout` must
-/// outlive it. `held`: those of the model that are held or driven; the caller books what they give to others.
+/// outlive it. `held`: those of the model that are held or driven; the caller books what they give to others. Every part
+/// of a run is told where all particles are, once a look, watches all pairs and reflects them alike.
 template <int Dim>
 Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
                              const std::vector<bool>& held = {}, std::size_t first = 0);

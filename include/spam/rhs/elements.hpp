@@ -67,7 +67,8 @@ class Elements final : public Term<2> {
         std::optional<double> sound_speed() const;
     };
 
-    /// `corners` by the numbers of particles in the model, as they lie in its reference configuration;
+    /// `corners` by the numbers of particles in the model (in a part of a run: in the whole, all of them), as they lie
+    /// in its reference configuration;
     /// `material`: place in the list of each, or empty where all are the first. Throws InputError for elements
     /// whose corners are not among the selection or not counterclockwise, for a law without a sound speed
     /// where hourglasses are resisted, for a fluid that conducts heat or has friction by pairs, for numbers that make
@@ -99,16 +100,32 @@ class Elements final : public Term<2> {
   private:
     using Corners = std::array<Vec<2>, 4>;
     struct Held;
-    template <class View>
-    Corners corners_of(const View& nodes, std::size_t element) const {
+    /// Where nodes are and how they move; behind ours the corners in other parts, x, v of each.
+    struct Nodes {
+        ConstState<2> state;
+        std::array<const double*, 2> own;  ///< x, v
+        std::vector<double> others{};
+    };
+    Nodes nodes_of(const ConstState<2>& state) const;
+    std::vector<double> other_nodes(const double* x, const double* v) const;
+    enum Which { places, velocities };
+    Corners corners_of(const Nodes& nodes, Which which, std::size_t element) const {
+        return corners_of(nodes.own[which], nodes.others.data() + 2 * which, element);
+    }
+    Corners corners_of(const double* own, const double* others, std::size_t element) const {
+        const std::size_t count = among().count();
         Corners corners;
         for (std::size_t c = 0; c < 4; ++c) {
-            const auto i =
-                static_cast<Eigen::Index>(nature_.elements[element][c] - among().first());
-            corners[c] = {{nodes(0, i), nodes(1, i)}};
+            const std::size_t i = nature_.elements[element][c] - among().first();
+            const double* const at = i < count ? own + 2 * i : others + 4 * (i - count);
+            corners[c] = {{at[0], at[1]}};
         }
         return corners;
     }
+    void divide();
+    void meet_other_forces();
+    /// In the whole run.
+    std::size_t number_of(std::size_t element) const;
     const Material& material_of(std::size_t element) const {
         return materials_[material_.empty() ? 0 : static_cast<std::size_t>(material_[element])];
     }
@@ -123,13 +140,13 @@ class Elements final : public Term<2> {
         }
     }
     void load(const Held& held, std::size_t element);
-    void find_pressures(const Now& now, const AnyEquationOfState& law, std::size_t first,
+    void find_pressures(const Nodes& nodes, const AnyEquationOfState& law, std::size_t first,
                         std::size_t count);
     std::string complaint() const;
     void gather(const Now& now) const;
     void set_nature();
-    double energy_of(const ConstState<2>& nodes, std::size_t element) const;
-    double friction_damping(const ConstState<2>& nodes) const;
+    double energy_of(const Nodes& nodes, std::size_t element) const;
+    double friction_damping(const Nodes& nodes) const;
     double neighbour_forces_in(std::span<const double> y) const;
 
     std::vector<Material> materials_;
@@ -138,7 +155,15 @@ class Elements final : public Term<2> {
     std::vector<double> viscosity_,
         stiffness_;                   ///< of each material, as factors of sqrt(A) q_dot and q_dot
     std::vector<std::size_t> start_;  ///< of each node, in `at_`
-    std::vector<std::size_t> at_;     ///< 4 element + corner, ascending, of each node
+    std::vector<std::size_t>
+        at_;  ///< 4 element + corner, of each node; those in other parts among them in their order
+    /// By part: our nodes that its elements have, and those of its that ours have, behind our own; where in force_ the
+    /// forces on its nodes are, and those of its elements on ours.
+    struct Exchange {
+        std::vector<std::uint32_t> give, take, push, pulled;
+    };
+    std::vector<Exchange> with_;
+    std::size_t others_ = 0;  ///< corners in other parts
     std::vector<Field>
         of_some_;  ///< what one material finds the rates of, and another may know nothing of
     double damping_ = 0.0;
@@ -148,7 +173,7 @@ class Elements final : public Term<2> {
     std::vector<double> returned_;  ///< stresses that count
     std::vector<Mat<2>> grad_v_;
     std::vector<std::uint32_t> number_;  ///< 0, 1, ...
-    std::vector<Corners> force_;         ///< on the corners
+    std::vector<Corners> force_;         ///< on the corners, then those of elements of other parts
     std::vector<unsigned char> inverted_;
     std::vector<double> density_, energy_, pressure_;  ///< of fluids; empty where there is none
 };
