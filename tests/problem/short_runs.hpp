@@ -75,9 +75,17 @@ inline const std::map<std::string, Words> short_runs{
      {"--model", "both", "--width", "6", "--t-end", "10", "--checkpoint-every", "1.7"}},
 };
 /// Analyses, and studies that go on from their table.
-inline const std::set<std::string> without_checkpoints{
-    "algorithm_sweep", "integrator_accuracy",    "invariant_drift", "kernels",   "loaded_bar",
-    "lyapunov",        "material_vectors_study", "thousand_turns",  "stability", "turns_survived"};
+inline const std::set<std::string> without_checkpoints{"algorithm_sweep",
+                                                       "integrator_accuracy",
+                                                       "invariant_drift",
+                                                       "kernels",
+                                                       "loaded_bar",
+                                                       "lyapunov",
+                                                       "material_vectors_study",
+                                                       "parallel_efficiency",
+                                                       "thousand_turns",
+                                                       "stability",
+                                                       "turns_survived"};
 
 /// Tables, configurations and the result, by their names.
 inline std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
