@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parted_motion.hpp"
-
 #include <spam/core/error.hpp>
 #include <spam/core/parted_state.hpp>
 #include <spam/integrate/methods.hpp>
 #include <spam/neighbors/neighbourhood.hpp>
+#include <spam/problem/parted_motion.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace spam {
 namespace {
@@ -95,6 +95,7 @@ void PartedMotion<Dim>::part(double t) {
     if (motion_) pairs_before_ += motion_->pair_interactions();
     motion_.reset();
     part_.reset();
+    count_moved(parts);
     processes_.set_numbers(parts[processes_.own()]);
     part_ = dynamic_cast<const ParticleModel<Dim>&>(whole_).part(processes_.numbers());
     events_ = !part_->events().empty();
@@ -127,6 +128,16 @@ void PartedMotion<Dim>::go_on_from(PartedMotion& before) {
     known_ = now();
 }
 
+template <int Dim>
+void PartedMotion<Dim>::count_moved(const std::vector<std::vector<std::uint32_t>>& parts) {
+    const auto before = std::exchange(owner_, std::vector<std::size_t>(whole_.particles().size()));
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const std::uint32_t i : parts[p]) owner_[i] = p;
+    if (before.empty()) return;
+    ++partitions_;
+    for (std::size_t i = 0; i < before.size(); ++i) moved_ += before[i] != owner_[i];
+}
+
 /// Whether so many more images of others' particles are needed than at first that parting anew pays.
 template <int Dim>
 bool PartedMotion<Dim>::mixed() {
@@ -136,6 +147,7 @@ bool PartedMotion<Dim>::mixed() {
         for (const auto* near : term->neighbourhoods())
             images += near->list().slots() - near->list().size();
     images = processes_.total(images);
+    most_images_ = std::max(most_images_, images);
     if (images_ == 0) images_ = images;
     return images > images_ + images_ / 2;
 }
@@ -204,6 +216,19 @@ RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
     return {processes_.count(), now.exchanges - before_.exchanges,
             processes_.total(now.bytes - before_.bytes),
             processes_.most(now.seconds - before_.seconds)};
+}
+
+template <int Dim>
+auto PartedMotion<Dim>::sharing() const -> Sharing {
+    if (alone()) return {};
+    const auto n = static_cast<double>(whole_.particles().size());
+    const std::size_t own = pairs_before_ + motion_->pair_interactions();
+    const auto pairs = static_cast<double>(std::max<std::size_t>(processes_.total(own), 1));
+    return {
+        static_cast<double>(most_images_) / n,
+        processes_.most(static_cast<double>(own)) * static_cast<double>(processes_.count()) / pairs,
+        static_cast<double>(moved_) / n /
+            static_cast<double>(std::max<std::size_t>(partitions_, 1))};
 }
 
 template <int Dim>

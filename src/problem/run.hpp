@@ -2,10 +2,10 @@
 #pragma once
 
 #include "checkpoint.hpp"
-#include "parted_motion.hpp"
 #include "recorder.hpp"
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/methods.hpp>
+#include <spam/problem/parted_motion.hpp>
 #include <spam/rhs/particle_model.hpp>
 
 #include <chrono>

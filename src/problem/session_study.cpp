@@ -46,7 +46,7 @@ void Session::begin(const std::vector<std::string>& description, const char* stu
             terminal_.say(fmt::format("integrator  {}", study != nullptr ? integrator_.describe()
                                                                          : "none: nothing moves"));
     };
-    if (!problem_.processes().alone())
+    if (!problem_.processes().alone() && !parts_itself_)
         throw InputError(fmt::format(
             "ranks: {} computes no single run whose particles could be parted; leave --ranks out",
             problem_.name_));

@@ -106,6 +106,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"loaded_bar", {}},
     {"lyapunov", {}},
     {"lyapunov", {"--case", "hexagon"}},
+    {"parallel_efficiency", {"--sizes", "300", "--cells", "8", "--turns", "1"}},
     {"polytrope", {}},
     {"reaction_front", {"--heat", "0.5"}},
     {"torsion", {"--columns", "3", "--periods", "0.2"}},

@@ -103,9 +103,17 @@ inline std::vector<std::pair<std::string, Words>> all_short_runs() {
 }
 
 /// Analyses, and studies that go on from their table.
-inline const std::set<std::string> without_checkpoints{
-    "algorithm_sweep", "integrator_accuracy",    "invariant_drift", "kernels",   "loaded_bar",
-    "lyapunov",        "material_vectors_study", "thousand_turns",  "stability", "turns_survived"};
+inline const std::set<std::string> without_checkpoints{"algorithm_sweep",
+                                                       "integrator_accuracy",
+                                                       "invariant_drift",
+                                                       "kernels",
+                                                       "loaded_bar",
+                                                       "lyapunov",
+                                                       "material_vectors_study",
+                                                       "parallel_efficiency",
+                                                       "thousand_turns",
+                                                       "stability",
+                                                       "turns_survived"};
 
 /// Tables, configurations and the result, by their names.
 inline std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {

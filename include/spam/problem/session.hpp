@@ -57,6 +57,13 @@ class Session {
     /// Sums in one thread where --threads does not ask for more: for who measures processor time.
     void prefer_one_thread() { chooses_threads_ = false; }
 
+    /// Those that --ranks has started, one that is alone without: for a body that parts a model itself (PartedMotion).
+    /// To be asked for before begin_analysis(), which else refuses several.
+    Parts& processes() {
+        parts_itself_ = true;
+        return problem_.processes();
+    }
+
     /// Keys that case.toml must not hold, where only the body can know (else a rule of Options says so).
     void leave_out_of_case(const std::vector<std::string>& names) {
         problem_.options_.leave_out(names);
@@ -204,7 +211,7 @@ class Session {
     std::vector<RunStatistics> statistics_;
     std::optional<std::chrono::steady_clock::time_point> analysis_start_;
     std::string guard_reason_;
-    bool warned_about_plots_ = false;
+    bool warned_about_plots_ = false, parts_itself_ = false;
 };
 
 }  // namespace spam

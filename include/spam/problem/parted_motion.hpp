@@ -54,6 +54,13 @@ class PartedMotion {
     void go_on_from(PartedMotion& before);
     /// Since the motion was made; all processes must ask for it together.
     RunStatistics::Ranks exchanges() const;
+    /// How particles are shared out: the most images at a row of a run with fixed steps, periodic ones of a part's own
+    /// among them, by the number of particles; pairs that the busiest process has summed over, by their mean; particles
+    /// that go to another process at a new partition, as a part of all. All processes must ask for it together.
+    struct Sharing {
+        double images = 0.0, load = 1.0, moved = 0.0;
+    };
+    Sharing sharing() const;
 
   private:
     struct State {
@@ -69,6 +76,7 @@ class PartedMotion {
     void tell_whole();
     void tell_part();
     bool mixed();
+    void count_moved(const std::vector<std::vector<std::uint32_t>>& parts);
 
     Model<Dim>& whole_;
     IntegratorOptions options_;
@@ -81,8 +89,10 @@ class PartedMotion {
     bool looked_at_ = false, watched_ = false;
     State known_{};  ///< where y_ is known
     Parts::Traffic before_;
-    std::size_t images_ = 0, pairs_before_ = 0;
-    bool events_ = false;  ///< the model has some
+    std::size_t images_ = 0, pairs_before_ = 0, most_images_ = 0;
+    bool events_ = false;                     ///< the model has some
+    std::vector<std::size_t> owner_{};        ///< of every particle
+    std::size_t partitions_ = 0, moved_ = 0;  ///< behind the first one
 };
 
 }  // namespace spam
