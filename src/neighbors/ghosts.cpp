@@ -213,33 +213,48 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& po
     take_places(box, x);
 }
 
-/// The numbers of images that other parts have, for those of theirs that are here.
 template <int Dim>
-void Ghosts<Dim>::give(double* records, std::size_t stride, std::size_t count,
-                       std::size_t from) const {
+std::size_t Ghosts<Dim>::of_others() const {
+    std::size_t count = 0;
+    for (const Exchange& part : parts_) count += part.ghost.size();
+    return count;
+}
+
+/// The numbers of images that other parts have, for those of theirs that are here. A message of a part whose records are
+/// valid is never empty.
+template <int Dim>
+bool Ghosts<Dim>::give(double* records, std::size_t stride, std::size_t count, std::size_t from,
+                       bool valid) const {
     Parts& parts = Parts::here();
     std::vector<Parts::Bytes> messages(parts.count());
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-        std::vector<double> numbers(parts_[p].slot.size() * count);
+    for (std::size_t p = 0; valid && p < parts.count(); ++p) {
+        if (p >= parts_.size()) {
+            messages[p].resize(sizeof(double));
+            continue;
+        }
+        std::vector<double> numbers(parts_[p].slot.size() * count + 1);
         for (std::size_t n = 0; n < parts_[p].slot.size(); ++n)
             make(records + parts_[p].slot[n] * stride + from, parts_[p].image[n], count,
                  numbers.data() + n * count);
         messages[p] = Parts::bytes_of(std::span<const double>(numbers));
     }
     const auto received = parts.exchange(std::move(messages), Parts::Content::images);
+    for (const Parts::Bytes& message : received)
+        if (message.empty()) return false;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto numbers = Parts::values_of<double>(received[p]);
         for (std::size_t n = 0; n < parts_[p].ghost.size(); ++n)
             std::copy_n(numbers.data() + n * count, count,
                         records + (first_ + parts_[p].ghost[n]) * stride + from);
     }
+    return true;
 }
 
 template <int Dim>
-void Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const NumberKind> numbers,
-                          std::size_t from) const {
+bool Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const NumberKind> numbers,
+                          std::size_t from, bool valid) const {
     const bool alone = Parts::here().alone();
-    if (alone && owner_.empty()) return;
+    if (alone && (!valid || owner_.empty())) return valid;
     const std::size_t count = std::min(numbers.size(), stride) - from;
     changes_.resize(2 * count * images_.size());
     double* change = changes_.data();
@@ -249,13 +264,14 @@ void Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const N
             change[k] = sign, change[count + k] = shift;
             if (k + 1 == count) change += 2 * count;
         }
-    if (!alone) give(records, stride, count, from);
+    if (!alone && !give(records, stride, count, from, valid)) return false;
     const auto owned = static_cast<std::uint32_t>(first_);
     parallel_for(owner_.size(), [&](std::size_t g) {
         if (owner_[g] < owned)
             make(records + owner_[g] * stride + from, image_[g], count,
                  records + (first_ + g) * stride + from);
     });
+    return true;
 }
 
 template class Ghosts<1>;

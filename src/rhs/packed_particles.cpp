@@ -32,7 +32,9 @@ std::size_t PackedParticles<Dim>::pack(const PackedFields& fields, bool density_
 template <int Dim>
 bool PackedParticles<Dim>::follow(std::size_t n, const PackedFields& fields) {
     const Eigen::Map<const Points<Dim>> x(fields.x, Dim, static_cast<Eigen::Index>(n));
-    return Neighbourhood<Dim>::follow(x, [&] { return pack(fields, false); });
+    return Neighbourhood<Dim>::follow(
+        x, [&] { return pack(fields, false); },
+        fields.rho != nullptr ? make_records_.kinds.size() : make_records_.motion);
 }
 
 template <int Dim>
@@ -49,7 +51,8 @@ std::vector<double> PackedParticles<Dim>::summed_density(Sweep<Dim> sum, std::si
 template <int Dim>
 void PackedParticles<Dim>::load_density(const PackedFields& fields) {
     pack(fields, true);
-    this->refresh(make_records_.kinds, 0);
+    if (make_records_.density)
+        this->refresh(make_records_.kinds, static_cast<int>(make_records_.motion));
 }
 
 template <int Dim>

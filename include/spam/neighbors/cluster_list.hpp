@@ -68,6 +68,8 @@ class ClusterList {
     std::span<const std::uint32_t> order() const { return order_; }
     /// With ghosts.
     std::size_t slots() const { return order_.size() + ghosts_.size(); }
+    /// Ghosts whose numbers come from other parts of the run.
+    std::size_t images_of_others() const { return ghosts_.of_others(); }
     /// The particle at a slot, or whose image is there.
     std::uint32_t particle(std::size_t slot) const {
         return slot < order_.size() ? order_[slot] : order_[ghosts_.owner(slot - order_.size())];
@@ -76,9 +78,10 @@ class ClusterList {
     const Home<Dim>& home() const { return home_; }
     /// Makes the images in records by slot (`stride` numbers each, this list's) those of the particles as
     /// they are now, from number `from` on. To be called before every sweep that reads of neighbours what
-    /// has been written since.
-    void refresh(double* records, std::span<const NumberKind> numbers, std::size_t from = 0) const {
-        ghosts_.refresh(records, stride_, numbers, from);
+    /// has been written since. `valid`, and what is returned: Ghosts::refresh.
+    bool refresh(double* records, std::span<const NumberKind> numbers, std::size_t from = 0,
+                 bool valid = true) const {
+        return ghosts_.refresh(records, stride_, numbers, from, valid);
     }
     /// Neighbours of a cluster: slot times stride, where their records begin.
     std::span<const std::uint32_t> entries(std::size_t cluster) const;

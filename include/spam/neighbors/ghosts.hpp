@@ -35,6 +35,8 @@ class Ghosts {
                std::array<std::vector<double>, Dim>& x);
 
     std::size_t size() const { return owner_.size(); }
+    /// How many of them are images of particles of other parts, those particles themselves among them.
+    std::size_t of_others() const;
     /// The slot of the particle whose image ghost number g is. Precondition: it is of this part.
     std::uint32_t owner(std::size_t g) const { return owner_[g]; }
     /// The number of that particle in the whole run.
@@ -48,9 +50,10 @@ class Ghosts {
     /// wall of the last direction counts. Precondition: the side is not open.
     bool behind(std::size_t g, int a, bool upper) const { return wall_of_[g] == 2 * a + upper; }
 
-    /// The numbers from `from` on in the records of all ghosts, as those of their owners are now.
-    void refresh(double* records, std::size_t stride, std::span<const NumberKind> numbers,
-                 std::size_t from = 0) const;
+    /// The numbers from `from` on in the records of all ghosts, as those of their owners are now. Returns whether
+    /// records are `valid` in every part; where they are not, nothing is given to others.
+    bool refresh(double* records, std::size_t stride, std::span<const NumberKind> numbers,
+                 std::size_t from = 0, bool valid = true) const;
 
   private:
     /// Every image along one direction; number 8 is the particle itself.
@@ -87,7 +90,8 @@ class Ghosts {
                           std::span<const std::uint32_t> slot_of, const Corners& own);
     void take_places(const Box<Dim>& box, std::array<std::vector<double>, Dim>& x);
     std::uint32_t image_of(const Box<Dim>& box, std::uint32_t code);
-    void give(double* records, std::size_t stride, std::size_t count, std::size_t from) const;
+    bool give(double* records, std::size_t stride, std::size_t count, std::size_t from,
+              bool valid) const;
     /// A sign and, for positions, a shift on the grid of the period: exact.
     void make(const double* own, std::uint32_t image, std::size_t count, double* ghost) const {
         const double* const sign = changes_.data() + 2 * count * image;

@@ -39,18 +39,21 @@ class Neighbourhood {
 
     /// Makes list and records those of positions x, Dim x N. pack() writes the records of all slots of particles by
     /// this list and returns how many particles it found to be too far for it (ClusterList::displacement): most
-    /// often none, and it has read all positions anyway. False where a position is not finite: nothing may be swept.
+    /// often none, and it has read all positions anyway. Images get the first `packed` numbers: those that it writes.
+    /// False where a position is not finite: nothing may be swept.
     template <class Pack>
-    bool follow(const Eigen::Ref<const Points<Dim>>& x, const Pack& pack) {
+    bool follow(const Eigen::Ref<const Points<Dim>>& x, const Pack& pack, std::size_t packed) {
         ++served_;
-        // All parts of a run go on with their lists, or all make new ones.
-        const bool packed = list_->size() == static_cast<std::size_t>(x.cols()) && pack() == 0;
-        if (Parts::here().any(!packed) && !list_->serves(x)) {
+        const auto written = std::span<const NumberKind>(kinds_).first(packed);
+        // All parts of a run go on with their lists, or all make new ones: one exchange where all go on.
+        const bool serves = list_->size() == static_cast<std::size_t>(x.cols()) && pack() == 0;
+        if (list_->refresh(records_.data(), written, 0, serves)) return true;
+        if (!list_->serves(x)) {
             if (Parts::here().any(!x.allFinite())) return false;
             build(x);
             pack();
         }
-        refresh(kinds_, 0);
+        refresh(written, 0);
         return true;
     }
     /// A list for these finite positions, and room for records: zeros at first.

@@ -73,7 +73,11 @@ PackCount pack_record(const PackInput<Dim>& whole, bool density_only, double* re
 template <class R>
 constexpr auto kinds_of = R::kinds;
 template <int Dim, class R>
-constexpr Pack<Dim> pack{pack_record<Dim, R>, kinds_of<R>};
+constexpr Pack<Dim> pack{
+    pack_record<Dim, R>, kinds_of<R>,
+    static_cast<std::size_t>(R::template has<column::Velocity> ? MotionRecord<Dim>::numbers
+                                                               : PointRecord<Dim>::numbers),
+    R::template has<column::Density>};
 
 }  // namespace SPAM_LANES
 }  // namespace spam

@@ -94,6 +94,8 @@ template <int Dim>
 struct Pack {
     PackCount (*write)(const PackInput<Dim>&, bool density_only, double* records) = nullptr;
     std::span<const NumberKind> kinds{};  ///< of the record
+    std::size_t motion = 0;               ///< how many of these are x, v and m, which come first
+    bool density = false;                 ///< whether rho is written, behind them
 };
 
 /// The sweeps of a term, compiled for an instruction set, in the order in which right-hand sides call
