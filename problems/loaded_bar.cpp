@@ -7,9 +7,10 @@
 //     |o o o o o o o o ->      three acts `load`; every state is the equilibrium next to the one before it
 //     |o o o o o o o o ->
 //
-// [HHM04] leaves quasistatic tension to methods that are not explicit. Here Newton's method finds where no particle feels
-// a force, with conjugate gradients for its linear equations (study/equilibrium.hpp): 290 right-hand sides for 240
-// particles in one step. --damped does the same with damped leapfrog steps at five frictions, as explicit codes do.
+// [HHM04] leaves quasistatic tension to methods that are not explicit. Here Newton's method finds where no particle
+// feels a force, with conjugate gradients for its linear equations (study/equilibrium.hpp): 290 right-hand sides
+// for 240 particles in one step. --damped does the same with damped leapfrog steps at five frictions, as explicit
+// codes do.
 // --modes 3: the three lowest frequencies of the loaded bar, by Lanczos' method (study/lowest_modes.hpp).
 #include "common.hpp"
 #include <spam/external/external.hpp>

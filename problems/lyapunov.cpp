@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // spam-list: Lyapunov exponents: how fast motions that begin alike part from each other; 2 min
 //
-// Tangents v to a motion y, dv/dt = J(y) v, grow or shrink at the rates of the Lyapunov exponents. M of them take the same
-// steps as y and are made orthogonal again and again (study/lyapunov.hpp; Benettin and others, Meccanica 15, 9, 1980).
+// Tangents v to a motion y, dv/dt = J(y) v, grow or shrink at the rates of the Lyapunov exponents. M of them take
+// the same steps as y and are made orthogonal again and again (study/lyapunov.hpp; Benettin and others, Meccanica
+// 15, 9, 1980).
 //
 //     --case soft_disks   n x n disks in a periodic box of density 1 with energy 1 each, phi = 100 (1 - r^2)^4: the
 //                         potential of Posch and Hoover. 36 disks have 144 exponents: they come in pairs whose sums
@@ -11,8 +12,8 @@
 //     --case hexagon      the rotating hexagon of [HHM04] with its schemes: are late states functions of the input, or
 //                         samples of an ensemble? Averaged velocities keep neighbours apart that plain ones let part
 //
-// The first window of the hexagon has in it what the tangent at the start makes: 0.014 to 0.022 with averaged velocities
-// for eight seeds. Twins are two runs whose starts differ by 1e-12.
+// The first window of the hexagon has in it what the tangent at the start makes: 0.014 to 0.022 with averaged
+// velocities for eight seeds. Twins are two runs whose starts differ by 1e-12.
 //
 // exponents.csv has the exponents of each window of time; at its end a snapshot is written whose field leading_share is
 // the part of each particle in the leading tangent, |dx|^2 + |dv|^2 by the scales of y: it shows which particles carry

@@ -17,8 +17,9 @@
 //                   ranges: the lattice rings 4.5 % slow, less with longer waves
 //
 // In the transverse wave the material turns to and fro. The angular momentum of d x d blocks is compared
-// with rho (d^4/12) omega k A cos(k y) sin(omega t), its rate with (d^4/12) (d^2/dx^2 - d^2/dy^2) sigma_xy. Averaged over the block's orientations that is (d^4/24) curl div sigma, and
-// so are, expanded in derivatives of the stress, the torques T_i = 1/2 sum_j T_ij, [HHM04] III:
+// with rho (d^4/12) omega k A cos(k y) sin(omega t), its rate with (d^4/12) (d^2/dx^2 - d^2/dy^2) sigma_xy.
+// Averaged over the block's orientations that is (d^4/24) curl div sigma, and so are, expanded in derivatives of
+// the stress, the torques T_i = 1/2 sum_j T_ij, [HHM04] III:
 //     T_i = -(m/rho) (<r^2>/4) curl div sigma,     <r^2> = integral w r^2 = 5 h^2/28 (Lucy).
 // The rho d^2 particles of a block with d^2 = 6 <r^2> exert just the rate, with the other sign.
 // Without --polarization it draws the figure: both (no prefix in result.json: transverse).

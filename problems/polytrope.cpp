@@ -15,9 +15,10 @@
 // particles in R = 6, and in proportion to their distance with others. A transform of the weight that is negative
 // somewhere, as Lucy's is in space, lets cold particles gather in pairs: w4 is positive.
 //
-// Both the weight and softening make long waves a little weaker, one their pressure and the other their gravity: a wave of
-// length 2 R, k = pi/R, by the transform of the weight and by k eps K_1(k eps). eps is chosen so that both are equal (0.46
-// with 1,200 particles), and the ball has its size; with an eps of 0.1 it is 4 % too small, and omega^2 12 % too high.
+// Both the weight and softening make long waves a little weaker, one their pressure and the other their gravity: a
+// wave of length 2 R, k = pi/R, by the transform of the weight and by k eps K_1(k eps). eps is chosen so that both
+// are equal (0.46 with 1,200 particles), and the ball has its size; with an eps of 0.1 it is 4 % too small, and
+// omega^2 12 % too high.
 //
 //     --compare       1,200 and 4,800 particles: all errors become smaller; 3 min
 #include "common.hpp"

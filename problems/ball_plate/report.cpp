@@ -22,8 +22,8 @@ constexpr Known known_speeds[] = {{MatterKind::embedded_atom, 0.25, 0.148, 0.015
                                   {MatterKind::spam, 2.0, 1.16, 0.035},
                                   {MatterKind::pair_md, 8.0, 2.2, 0.1, 3}};
 /// Pieces of molecules. Motion is chaotic: four seeds make 2 to 4 at v = 2, 30 to 37 at 4, 121 to 149 at 8. In space
-/// another program has 7 at v = 4, and 150 to 165 at 8: ten seeds make 4 to 7 and 156 to 165 (with ball speeds of 2.11 to
-/// 2.16), in the mean 5.2 and 160. That 7 is of one run: allowed for are two deviations of one, 1.5.
+/// another program has 7 at v = 4, and 150 to 165 at 8: ten seeds make 4 to 7 and 156 to 165 (with ball speeds of
+/// 2.11 to 2.16), in the mean 5.2 and 160. That 7 is of one run: allowed for are two deviations of one, 1.5.
 constexpr Known known_pieces[] = {
     {MatterKind::pair_md, 1.0, 1.0, 0.0},    {MatterKind::pair_md, 2.0, 3.0, 2.0},
     {MatterKind::pair_md, 4.0, 35.0, 10.0},  {MatterKind::pair_md, 8.0, 140.0, 25.0},

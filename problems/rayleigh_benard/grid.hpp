@@ -11,8 +11,9 @@
 
 namespace rayleigh_benard {
 
-/// The layer as both methods see it: 2 L wide, L high, between plates of temperature hot (below) and cold. P = rho T, e = T (k = m = 1, two dimensions); gravity g = (hot - cold)/L keeps the
-/// density of the conducting layer at 1; viscosity without bulk, eta = kappa.
+/// The layer as both methods see it: 2 L wide, L high, between plates of temperature hot (below) and cold. P = rho
+/// T, e = T (k = m = 1, two dimensions); gravity g = (hot - cold)/L keeps the density of the conducting layer at 1;
+/// viscosity without bulk, eta = kappa.
 struct Layer {
     double L = 20.0;
     double rayleigh = 1e4;

@@ -7,7 +7,8 @@
 namespace rotating_body {
 
 /// A rigid body with moments of inertia I about its axes 1, 2, 3, I_1 < I_2 < I_3, that begins with angular velocity
-/// (omega_1, omega_2, 0), omega_2 not 0. Jacobi's solution of Euler's equations; Landau and Lifshitz, Mechanics, section 37.
+/// (omega_1, omega_2, 0), omega_2 not 0. Jacobi's solution of Euler's equations; Landau and Lifshitz, Mechanics,
+/// section 37.
 class FreeTop {
   public:
     FreeTop(const spam::Point<3>& inertia, double omega_1, double omega_2);

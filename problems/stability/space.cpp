@@ -50,8 +50,8 @@ Wave climbed(const LatticeModes<3>& modes, const Point<3>& from, double step) {
     return {{gsl_vector_get(k, 0), gsl_vector_get(k, 1), gsl_vector_get(k, 2)}, -simplex->fval};
 }
 
-/// Of all wave vectors: a grid over k_x >= k_y >= k_z >= 0 up to 2 pi by the edge, of which symmetry makes the rest, and a
-/// climb from the highest points that are apart. A grid alone misses up to 13 %.
+/// Of all wave vectors: a grid over k_x >= k_y >= k_z >= 0 up to 2 pi by the edge, of which symmetry makes the
+/// rest, and a climb from the highest points that are apart. A grid alone misses up to 13 %.
 Wave fastest(const LatticeModes<3>& modes, double edge, int fineness) {
     std::vector<Wave> grid;
     const double step = 2.0 * pi / edge / fineness;

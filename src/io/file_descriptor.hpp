@@ -63,9 +63,9 @@ void begin_file(const std::filesystem::path& path);
 /// the others alone.
 void separate_file(const std::filesystem::path& path);
 
-/// Puts `contents`, one after the other, in place of `target`: at once or not at all, and on the disk when this returns.
-/// Uses a temporary <target>.tmp. Throws OutputError (file and the system's reason); the earlier
-/// file is then as it was, unless it was only the folder that could not be brought to the disk.
+/// Puts `contents`, one after the other, in place of `target`: at once or not at all, and on the disk when this
+/// returns. Uses a temporary <target>.tmp. Throws OutputError (file and the system's reason); the earlier file is
+/// then as it was, unless it was only the folder that could not be brought to the disk.
 void replace_file(const std::filesystem::path& target,
                   std::initializer_list<std::span<const std::byte>> contents);
 

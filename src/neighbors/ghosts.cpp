@@ -220,8 +220,8 @@ std::size_t Ghosts<Dim>::of_others() const {
     return count;
 }
 
-/// The numbers of images that other parts have, for those of theirs that are here. A message of a part whose records are
-/// valid is never empty.
+/// The numbers of images that other parts have, for those of theirs that are here. A message of a part whose
+/// records are valid is never empty.
 template <int Dim>
 bool Ghosts<Dim>::give(double* records, std::size_t stride, std::size_t count, std::size_t from,
                        bool valid) const {

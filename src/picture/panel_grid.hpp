@@ -57,7 +57,8 @@ class PanelGrid {
     double width() const { return size_.width; }
     double height() const { return size_.height; }
 
-    /// A picture wide enough for its title, the panels in its middle; and of whole even numbers of pixels, as films want them.
+    /// A picture wide enough for its title, the panels in its middle; and of whole even numbers of pixels, as films
+    /// want them.
     void grow_to(std::string_view title, double margin);
     void make_even();
 

@@ -14,8 +14,8 @@
 namespace spam {
 namespace {
 
-/// Recursive bisection: the numbers of each part, by cuts across the longest extent, as many particles on either side as
-/// parts lie there (to one). Particles at one place go by number, so that all processes find the same.
+/// Recursive bisection: the numbers of each part, by cuts across the longest extent, as many particles on either
+/// side as parts lie there (to one). Particles at one place go by number, so that all processes find the same.
 template <int Dim>
 void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
             std::span<std::vector<std::uint32_t>> parts) {

@@ -20,7 +20,8 @@ namespace spam {
 template <int Dim>
 class Run {
   public:
-    /// `folder`: where invariants.csv and events.csv go; null for none. `processes`: among which its particles are parted.
+    /// `folder`: where invariants.csv and events.csv go; null for none. `processes`: among which its particles are
+    /// parted.
     Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder,
         Parts& processes = Parts::alone_here());
 

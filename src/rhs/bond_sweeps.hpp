@@ -13,10 +13,10 @@
 
 namespace spam {
 
-/// What the loops know of a table of bonds; only `renew` writes anything but t. Particles are taken `lanes` at a time, a group; bond m of all
-/// of them lies together, after those before m. A particle with fewer bonds than others of its group has
-/// bonds with itself behind its own, of weight 0. Sums run over the bonds of a particle in their order: what has
-/// no weight adds an exact zero and leaves no trace.
+/// What the loops know of a table of bonds; only `renew` writes anything but t. Particles are taken `lanes` at a
+/// time, a group; bond m of all of them lies together, after those before m. A particle with fewer bonds than
+/// others of its group has bonds with itself behind its own, of weight 0. Sums run over the bonds of a particle in
+/// their order: what has no weight adds an exact zero and leaves no trace.
 template <int Dim>
 struct BondView {
     static constexpr std::size_t vector_numbers = Dim + 1;  ///< X and g, each number for all lanes

@@ -21,8 +21,8 @@ struct Groups {
     std::size_t count;
 };
 
-/// The factors of torque scaling (physics/torque_balance.hpp), from the torques of the first sweep. On a line nothing has
-/// a torque, and schemes that would balance them are refused.
+/// The factors of torque scaling (physics/torque_balance.hpp), from the torques of the first sweep. On a line
+/// nothing has a torque, and schemes that would balance them are refused.
 template <int Dim>
 class TorqueFactors {
   public:

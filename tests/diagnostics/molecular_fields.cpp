@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields of molecules: the bond function against closed forms, momentum that is balanced at every place, pairs that give
-// the forces of the model, integrals over space that are totals.
+// Fields of molecules: the bond function against closed forms, momentum that is balanced at every place, pairs that
+// give the forces of the model, integrals over space that are totals.
 #include "support/random_state.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/tensor.hpp>

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t n = 20;
 
-/// n masses, springs with x^3 between them, the first one held, friction gamma; on the last one the load grows to 0.1 at
-/// t = duration. y = [x | v | work], the work of load and friction.
+/// n masses, springs with x^3 between them, the first one held, friction gamma; on the last one the load grows to
+/// 0.1 at t = duration. y = [x | v | work], the work of load and friction.
 struct Chain {
     double gamma = 3.0, duration = 300.0;
 
@@ -96,8 +96,8 @@ BOOST_AUTO_TEST_CASE(strong_friction_costs_explicit_methods_more) {
     }
 }
 
-// What an account holds is the work along the way, to the error of the method, although accounts have no weight where linear
-// equations end.
+// What an account holds is the work along the way, to the error of the method, although accounts have no weight
+// where linear equations end.
 BOOST_AUTO_TEST_CASE(accounts_are_balanced) {
     for (const double gamma : {3.0, 0.3}) {
         const Chain chain{.gamma = gamma};
@@ -111,7 +111,8 @@ BOOST_AUTO_TEST_CASE(accounts_are_balanced) {
     }
 }
 
-// A right-hand side without meaning shortens the step, and one that never has any ends the run with the last good state.
+// A right-hand side without meaning shortens the step, and one that never has any ends the run with the last good
+// state.
 BOOST_AUTO_TEST_CASE(what_has_no_meaning_stops_it) {
     Chain chain;
     const SundialsContext context;

@@ -17,8 +17,9 @@ std::int64_t number_in(const fs::path& path) {
     return CheckpointReader(path).integers("/sequence").at(0);
 }
 
-/// A child that saves in a loop and reports the numbers of what is saved. It is killed `delay` after its first report or,
-/// where there is a limit, by the kernel at that byte of its second file. Returns the last number reported.
+/// A child that saves in a loop and reports the numbers of what is saved. It is killed `delay` after its first
+/// report or, where there is a limit, by the kernel at that byte of its second file. Returns the last number
+/// reported.
 std::int64_t save_until_killed(const fs::path& folder, std::chrono::microseconds delay,
                                rlim_t limit = RLIM_INFINITY) {
     std::signal(SIGCHLD, SIG_DFL);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Artificial viscosity beside any law: the force that smooth particles have by their scheme, heat that closes the energy
-// of solids that keep their reference, and mirrors.
+// Artificial viscosity beside any law: the force that smooth particles have by their scheme, heat that closes the
+// energy of solids that keep their reference, and mirrors.
 #include "support/random_state.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>

@@ -290,8 +290,8 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_for_elements_of_a_fluid_is_refused) {
     BOOST_TEST(has(model->failure(), "of element 3 is outside the law"));
 }
 
-/// Corners of elements have no densities that could be summed, in whatever order the laws come; where none is a fluid's,
-/// or among other particles, the same laws are taken.
+/// Corners of elements have no densities that could be summed, in whatever order the laws come; where none is a
+/// fluid's, or among other particles, the same laws are taken.
 BOOST_AUTO_TEST_CASE(laws_that_sum_densities_are_refused_beside_elements_of_a_fluid) {
     MeshedBodies bodies = make_nodes({rectangle_mesh(4, 4)}, 1.0);
     const DensityPotentials surface{.surface_tension = 0.1, .range = 3.0},

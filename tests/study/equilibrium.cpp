@@ -81,8 +81,8 @@ BOOST_AUTO_TEST_CASE(a_chain_of_springs) {
     }
 }
 
-// A chain held at one end: omega^2 = 4 K sin^2((2j - 1) pi/(4 n + 2)), K = kappa along it and F by the length of a drawn
-// link across it, which the tension alone keeps straight.
+// A chain held at one end: omega^2 = 4 K sin^2((2j - 1) pi/(4 n + 2)), K = kappa along it and F by the length of a
+// drawn link across it, which the tension alone keeps straight.
 BOOST_AUTO_TEST_CASE(modes_of_a_chain_under_tension) {
     constexpr int links = 12;
     constexpr double F = 0.05, kappa = 0.7;

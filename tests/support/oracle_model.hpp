@@ -41,8 +41,8 @@ enum class Mutation {
     return x;
 }
 
-/// The equations of smooth particles from the papers as loops over all pairs, with Eigen, sharing no sum, list or weight
-/// function with the library. Slow, simple, and the judge of the pipeline. Free space.
+/// The equations of smooth particles from the papers as loops over all pairs, with Eigen, sharing no sum, list or
+/// weight function with the library. Slow, simple, and the judge of the pipeline. Free space.
 template <int Dim>
 class OracleModel final : public Model<Dim> {
     using V = Point<Dim>;

@@ -55,8 +55,9 @@ class ExactSum {
 /// Adds to each sum those that the other parts of the run have found (core/parts.hpp).
 void add_other_parts(std::span<ExactSum> sums);
 
-/// K sums over 0, ..., n - 1 at once, and of all parts of the run. fill(first, count, rows) writes what first, ..., first + count - 1 add to
-/// sum k to rows[k][0], ..., rows[k][count - 1]; from so many on several threads call it, for other blocks each.
+/// K sums over 0, ..., n - 1 at once, and of all parts of the run. fill(first, count, rows) writes what first, ...,
+/// first + count - 1 add to sum k to rows[k][0], ..., rows[k][count - 1]; from so many on several threads call it,
+/// for other blocks each.
 template <std::size_t K, class Fill>
 std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
                                            std::size_t threads_from = parallel_threshold) {

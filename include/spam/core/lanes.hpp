@@ -165,7 +165,8 @@ struct Lanes {
         return r;
     }
 
-    /// 2^k of numbers that were made by adding a whole k from -1022 to 1023 to 1.5 2^52: k is then in their lowest bits.
+    /// 2^k of numbers that were made by adding a whole k from -1022 to 1023 to 1.5 2^52: k is then in their lowest
+    /// bits.
     SPAM_INLINE friend Lanes power_of_two(const Lanes& shifted) {
         using Bits = typename detail::VectorOf<W>::Bits;
         return Vector(((Bits)shifted.v + 1023) << 52);

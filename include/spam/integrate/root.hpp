@@ -8,8 +8,8 @@
 
 namespace spam {
 
-/// F(x) = 0 as a solver sees it, with a symmetric derivative; F and x of a size of about one. Fills F; false where x has no
-/// meaning: a shorter step is tried.
+/// F(x) = 0 as a solver sees it, with a symmetric derivative; F and x of a size of about one. Fills F; false where
+/// x has no meaning: a shorter step is tried.
 using Residual = std::function<bool(std::span<const double> x, std::span<double> F)>;
 
 struct RootOptions {
@@ -25,8 +25,9 @@ struct RootFound {
 };
 
 /// Newton's method with line search; its linear equations by conjugate gradients, no more exactly than a step needs
-/// (KINSOL, Eisenstat and Walker's first choice). Derivatives along a vector are differences to one side, of one more F:
-/// Newton's method mends what they are off by. Throws GuardStop, with KINSOL's words, where it does not converge.
+/// (KINSOL, Eisenstat and Walker's first choice). Derivatives along a vector are differences to one side, of one
+/// more F: Newton's method mends what they are off by. Throws GuardStop, with KINSOL's words, where it does not
+/// converge.
 RootFound find_root(const Residual& residual, std::span<const double> start,
                     const RootOptions& options);
 

@@ -64,7 +64,8 @@ class Options {
     };
 
     // Here and below `target` holds the default and receives the value; it must outlive parse().
-    /// A double or an int, or an optional one without default, which must hold what `allowed` says. Here and below: `help` is its line in --help.
+    /// A double or an int, or an optional one without default, which must hold what `allowed` says. Here and below:
+    /// `help` is its line in --help.
     template <class Target>
     Added number(std::string name, Target& target, std::string help, Allowed allowed);
     /// A whole number.

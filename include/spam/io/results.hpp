@@ -59,8 +59,8 @@ struct RunStatistics {
     };
     /// By field, of adaptive steps.
     std::vector<Limit> limited_by;
-    /// Of a run on several processes: how often each has exchanged something with the others, what all of them have sent,
-    /// and the longest time that one has spent there, waiting included.
+    /// Of a run on several processes: how often each has exchanged something with the others, what all of them have
+    /// sent, and the longest time that one has spent there, waiting included.
     struct Ranks {
         std::size_t count = 1, exchanges = 0, bytes = 0;
         double seconds = 0.0;

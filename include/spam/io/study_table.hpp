@@ -20,7 +20,8 @@ struct StudyTask {
 
 /// A table computed row by row over the cores. Each row is on disk (flushed to the device) as soon as
 /// it is known, in NAME.part.csv, so that a study that was killed goes on where it was; there every line
-/// ends with seals of its cells, so that one that was changed is found. Complete, the table becomes NAME.csv with the rows in the order of the tasks.
+/// ends with seals of its cells, so that one that was changed is found. Complete, the table becomes NAME.csv with
+/// the rows in the order of the tasks.
 class StudyTable {
   public:
     using Row = std::vector<std::string>;

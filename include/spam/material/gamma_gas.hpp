@@ -10,8 +10,8 @@
 namespace spam {
 
 /// Perfect gas of any ratio of its heat capacities, in any dimension: P = (gamma - 1) rho e,
-/// c^2 = gamma P/rho, T = (gamma - 1) e, s = ln(T^(1/(gamma - 1))/rho) (k = m = 1). IdealGas is that of particles without structure,
-/// gamma = 1 + 2/D.
+/// c^2 = gamma P/rho, T = (gamma - 1) e, s = ln(T^(1/(gamma - 1))/rho) (k = m = 1). IdealGas is that of particles
+/// without structure, gamma = 1 + 2/D.
 struct GammaGas {
     double gamma = 1.4;
 

@@ -17,11 +17,11 @@
 
 namespace spam {
 
-/// A law that integrates the stress (stress_law.hpp: elastic, or one that yields, creeps, heats up and breaks) for solids
-/// that keep their reference configuration. With L = F_dot F^-1 the velocity gradient and J = det F,
+/// A law that integrates the stress (stress_law.hpp: elastic, or one that yields, creeps, heats up and breaks) for
+/// solids that keep their reference configuration. With L = F_dot F^-1 the velocity gradient and J = det F,
 ///     sigma_dot = law(L^t, sigma),   P = J sigma F^-t,   rho_0 e_dot = P : F_dot,
-/// sigma, e and what the law remembers in y. The work is that of the forces, so that E is kept; laws that heat up find e as
-/// they do in smooth particles. Conservation: tests/rhs/plastic_solids.cpp.
+/// sigma, e and what the law remembers in y. The work is that of the forces, so that E is kept; laws that heat up
+/// find e as they do in smooth particles. Conservation: tests/rhs/plastic_solids.cpp.
 template <class Law, int Dim>
 requires StressLaw<Law, Dim>
 class StressInReference {

@@ -31,8 +31,8 @@ class ClusterList {
   public:
     /// `range` > 0, the range of the weight function, or infinite; `skin` >= 0, how much further the list looks;
     /// `width` 1, 2, 4 or 8; `stride`: numbers in a record of the sweeps. Throws InputError when a
-    /// range is infinite in a periodic box, a periodic length is so short that a particle would meet more than five images of another, or two
-    /// walls face each other within the range.
+    /// range is infinite in a periodic box, a periodic length is so short that a particle would meet more than five
+    /// images of another, or two walls face each other within the range.
     ClusterList(double range, double skin, const Box<Dim>& box, int width, std::size_t stride = 1);
 
     /// For later builds; as in the constructor.

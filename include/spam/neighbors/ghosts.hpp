@@ -12,10 +12,10 @@
 namespace spam {
 
 /// Images of particles that others have for neighbours, beyond the borders of a periodic box and behind
-/// walls, and particles of other parts of the run (core/parts.hpp) with their images: slots behind those of the particles
-/// themselves. A ghost is its owner's slot and how its numbers follow from the owner's; these are made anew (refresh)
-/// whenever those that neighbours read have changed. Ghosts are neighbours only, never particles whose sums are wanted,
-/// and so sweeps know nothing of them.
+/// walls, and particles of other parts of the run (core/parts.hpp) with their images: slots behind those of the
+/// particles themselves. A ghost is its owner's slot and how its numbers follow from the owner's; these are made
+/// anew (refresh) whenever those that neighbours read have changed. Ghosts are neighbours only, never particles
+/// whose sums are wanted, and so sweeps know nothing of them.
 ///
 /// The owner's part makes an image, and gives its numbers to the part that needs it; both keep the list of these from
 /// one build to the next. With one part there is nothing to give.

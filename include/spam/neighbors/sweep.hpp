@@ -25,7 +25,8 @@ constexpr bool is_light() {
 /// type with
 ///     template <class T> struct Sums;
 ///     template <class T, class Record> static void add(pair, i, j, Sums<T>&);
-/// (not static where the pass holds constants, which come with `passes`) and, where it does so little that a square root would be waited for,
+/// (not static where the pass holds constants, which come with `passes`) and, where it does so little that a square
+/// root would be waited for,
 ///     static constexpr bool light = true;
 /// R: the record the passes need (record.hpp). W must be the list's width, the records'
 /// stride the list's; images of particles must be up to date (ClusterList::refresh).

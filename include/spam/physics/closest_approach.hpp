@@ -100,8 +100,8 @@ class ClosestApproach {
 };
 
 /// The event of a model whose y holds x and v, for particles first, first + 1, ... of it. `layout` must
-/// outlive it. `held`: those of the model that are held or driven; the caller books what they give to others. Every part
-/// of a run is told where all particles are, once a look, watches all pairs and reflects them alike.
+/// outlive it. `held`: those of the model that are held or driven; the caller books what they give to others. Every
+/// part of a run is told where all particles are, once a look, watches all pairs and reflects them alike.
 template <int Dim>
 Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
                              const std::vector<bool>& held = {}, std::size_t first = 0);

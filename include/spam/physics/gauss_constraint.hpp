@@ -44,8 +44,8 @@ inline GaussMultipliers gauss_multipliers(double I, double L, double twice_K, do
 GaussMultipliersOf<Vec<3>> gauss_multipliers(const SymTensor<3>& I, const Vec<3>& L, double twice_K,
                                              const Vec<3>& L_dot);
 
-/// What the multipliers are made of, as sums of numbers over particles with r and w = v - V relative to the centre of mass,
-/// and the acceleration that they give.
+/// What the multipliers are made of, as sums of numbers over particles with r and w = v - V relative to the centre
+/// of mass, and the acceleration that they give.
 template <int Dim>
 struct GaussLaw;
 

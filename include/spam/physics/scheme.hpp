@@ -8,7 +8,8 @@
 
 namespace spam {
 
-/// Where the density comes from: integrated, summed with the weight, or integrated with the velocity that moves the particles.
+/// Where the density comes from: integrated, summed with the weight, or integrated with the velocity that moves the
+/// particles.
 enum class Density { continuity, summed, chain_rule };
 /// What moves particles: v, its average, Monaghan's average, or v with shifting.
 enum class Transport { plain, average, monaghan, shifting };

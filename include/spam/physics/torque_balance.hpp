@@ -14,8 +14,8 @@
 ///     torque_pair      s_ij = R where T_ij < 0, 1/R where T_ij > 0
 ///     torque_particle  s_ij = (s_i + s_j)/2, s_i = R or 1/R by the sign of T_i = 1/2 sum_j T_ij; it
 ///                      jumps where a T_i changes sign
-/// Bodies: connected parts, each with its own R. With u = ⟨v⟩ the term X depends on the frame (sum m u differs from sum m v), so that scheme
-/// is not Galilean covariant; with v or ⟨v⟩_Monaghan X vanishes and it is.
+/// Bodies: connected parts, each with its own R. With u = ⟨v⟩ the term X depends on the frame (sum m u differs from
+/// sum m v), so that scheme is not Galilean covariant; with v or ⟨v⟩_Monaghan X vanishes and it is.
 namespace spam {
 
 /// What a scheme needs of the torques of its first sweep; in space see torque_balance_in_space.hpp.

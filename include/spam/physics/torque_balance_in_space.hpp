@@ -22,9 +22,9 @@ struct TorqueMoments {
     SymTensor<3> spread;  ///< sum s |T| n n^t; its trace is sum s |T|
 };
 
-/// Newton's method for one body's theta. Each step is cut where a factor would change by more than e in the mean, and halved until
-/// Phi falls; directions without torques are left out. For X = 0 it ends always, in about four sums for bodies of
-/// hundreds and about thirty for fragments whose factors go to 0.
+/// Newton's method for one body's theta. Each step is cut where a factor would change by more than e in the mean,
+/// and halved until Phi falls; directions without torques are left out. For X = 0 it ends always, in about four
+/// sums for bodies of hundreds and about thirty for fragments whose factors go to 0.
 class TorqueBalance {
   public:
     /// Begins with the sums at theta = 0.
@@ -69,8 +69,8 @@ struct TorqueDirection {
     }
 };
 
-/// f_ij with its torque multiplied by s, the mean of both particles' factors: f_ij += (s - 1) T x r_ij/r^2, which leaves
-/// f_ij = -f_ji and the part along r_ij.
+/// f_ij with its torque multiplied by s, the mean of both particles' factors: f_ij += (s - 1) T x r_ij/r^2, which
+/// leaves f_ij = -f_ji and the part along r_ij.
 template <class T, class Record>
 Vec<3, T> scale_torque(const Pair<3, T>& pair, const Record& i, const Record& j,
                        const Vec<3, T>& f_ij) {

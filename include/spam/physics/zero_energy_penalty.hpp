@@ -10,7 +10,8 @@ namespace spam {
 ///     d_ji = x_ji - (F_i + F_j) X_ji / 2 = -d_ij   bit for bit,
 /// and its share of the spring constant k_ij = kappa mu V_i V_j W_ij / |X_ij|^2, without the
 /// factor kappa mu V_i. The modes that F cannot see are those with d but without strain.
-/// mu is the law's stiffness() (material/hyperelastic_law.hpp); d turns with the body, so that the penalty energy is invariant under rotations.
+/// mu is the law's stiffness() (material/hyperelastic_law.hpp); d turns with the body, so that the penalty energy
+/// is invariant under rotations.
 template <int Dim, class T>
 struct UnseenStretch {
     Vec<Dim, T> d_ji;

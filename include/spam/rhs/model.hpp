@@ -51,9 +51,9 @@ class Model {
     /// fills y_dot with NaN and leaves the reason in failure().
     virtual void rates(double t, std::span<const double> y, std::span<double> y_dot) = 0;
 
-    /// Jv = J v, J = df/dy at (t, y), by central differences of the rates over 3e-6 in the norm of y by the scales of the layout: to about
-    /// 1e-10 of its size, for two right-hand sides. v and Jv are of y without accounts, which no rate depends on. Where
-    /// the rates have no meaning Jv is NaN.
+    /// Jv = J v, J = df/dy at (t, y), by central differences of the rates over 3e-6 in the norm of y by the scales
+    /// of the layout: to about 1e-10 of its size, for two right-hand sides. v and Jv are of y without accounts,
+    /// which no rate depends on. Where the rates have no meaning Jv is NaN.
     void tangent(double t, std::span<const double> y, std::span<const double> v,
                  std::span<double> Jv);
 

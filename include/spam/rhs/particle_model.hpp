@@ -53,9 +53,9 @@ class ParticleModel : public Model<Dim> {
             again_.push_back([](ParticleModel&, auto) { refuse_parts(); });
         return make_term<Law>(first, count, std::forward<Arguments>(arguments)...);
     }
-    /// A model of the particles of these numbers alone, of the same laws: that of one part of a run, whose parts make it
-    /// together (core/parts.hpp; numbers are those of Parts::here()). Externals are shared. Throws InputError where a
-    /// law cannot be parted.
+    /// A model of the particles of these numbers alone, of the same laws: that of one part of a run, whose parts
+    /// make it together (core/parts.hpp; numbers are those of Parts::here()). Externals are shared. Throws
+    /// InputError where a law cannot be parted.
     std::unique_ptr<ParticleModel> part(std::span<const std::uint32_t> numbers) const;
     /// Whether x_dot = v, by every term.
     bool moves_with_velocity() const;
@@ -168,8 +168,8 @@ class ParticleModel : public Model<Dim> {
         return count == this->particles().size() ? Selection<Dim>(*this)
                                                  : Selection<Dim>(*this, first, count);
     }
-    /// Those of a part's particles that are first, ..., first + count - 1 of the whole: the first of them in the part, and
-    /// their numbers from `first` on.
+    /// Those of a part's particles that are first, ..., first + count - 1 of the whole: the first of them in the
+    /// part, and their numbers from `first` on.
     struct Own {
         Own(std::span<const std::uint32_t> numbers, std::size_t first, std::size_t count);
         std::size_t first;

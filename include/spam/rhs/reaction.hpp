@@ -41,8 +41,8 @@ class Reaction final : public Term<Dim> {
     using typename Term<Dim>::Ask;
     using typename Term<Dim>::Answer;
 
-    /// Throws InputError for a diffusivity or a rate below 0 or both 0, for a threshold that is no number, for a range as
-    /// SmoothParticles does, and for heat where no law before this one has energies in y.
+    /// Throws InputError for a diffusivity or a rate below 0 or both 0, for a threshold that is no number, for a
+    /// range as SmoothParticles does, and for heat where no law before this one has energies in y.
     Reaction(const Selection<Dim>& among, const ReactionScheme& scheme);
     ~Reaction() override;
 

@@ -70,8 +70,8 @@ class SmoothParticles final : public Term<Dim> {
     std::string rates(const Now& now) override;
     Answer answer(Ask what, std::span<const double> y) const override;
     /// Remarks when Gauss' constraint becomes singular and when it works again, with the health of its
-    /// denominator (physics/gauss_constraint.hpp); and likewise when the torques of a body in space cannot balance what ⟨v⟩
-    /// changes of its angular momentum.
+    /// denominator (physics/gauss_constraint.hpp); and likewise when the torques of a body in space cannot balance
+    /// what ⟨v⟩ changes of its angular momentum.
     std::vector<Remark> watch(double t, std::span<const double> y) override;
     void set_bodies() override;
     void remember(Memory<Dim>& memory) override;
@@ -158,7 +158,8 @@ class SmoothParticleModel final : public ParticleModel<Dim> {
 template <int Dim>
 class FluidModel final : public ParticleModel<Dim> {
   public:
-    /// `fluid`: an equation of state, or a Fluid with friction and conduction. Throws InputError as SmoothParticles does.
+    /// `fluid`: an equation of state, or a Fluid with friction and conduction. Throws InputError as SmoothParticles
+    /// does.
     FluidModel(Particles<Dim> particles, const Fluid& fluid, const Scheme& scheme,
                const Box<Dim>& box = {})
         : ParticleModel<Dim>(std::move(particles), box),

@@ -25,18 +25,18 @@ struct TotalLagrangianScheme {
 };
 
 /// An elastic solid of smooth particles that remembers its reference configuration X: y =
-/// (x, v, history of the material); neighbours and weights are those of particles().reference_position for good, stresses
-/// follow from the deformation gradient. All forces derive from one energy that rotations leave
-/// unchanged: p is kept exactly, E and in open space L to integrator error, and there is no tensile
-/// instability. It yields where its material does, but does not break: who are neighbours stays so.
+/// (x, v, history of the material); neighbours and weights are those of particles().reference_position for good,
+/// stresses follow from the deformation gradient. All forces derive from one energy that rotations leave unchanged:
+/// p is kept exactly, E and in open space L to integrator error, and there is no tensile instability. It yields
+/// where its material does, but does not break: who are neighbours stays so.
 template <int Dim>
 class TotalLagrangian final : public Term<Dim> {
   public:
-    /// `material`: any hyperelastic law (hyperelastic_law.hpp), with a memory or without. In a periodic box the lattice closes on
-    /// itself as in the reference configuration; a mirror is a plane of symmetry for particles that have neighbours
-    /// behind it there, and turns back any particle that reaches it. Throws InputError for a density, range or penalty
-    /// that makes no sense, a periodic box narrower than a fifth of the range, and a particle whose
-    /// neighbours do not span space.
+    /// `material`: any hyperelastic law (hyperelastic_law.hpp), with a memory or without. In a periodic box the
+    /// lattice closes on itself as in the reference configuration; a mirror is a plane of symmetry for particles
+    /// that have neighbours behind it there, and turns back any particle that reaches it. Throws InputError for a
+    /// density, range or penalty that makes no sense, a periodic box narrower than a fifth of the range, and a
+    /// particle whose neighbours do not span space.
     TotalLagrangian(const Selection<Dim>& among, const HyperelasticMaterial<Dim>& material,
                     const TotalLagrangianScheme& scheme);
     ~TotalLagrangian() override;
