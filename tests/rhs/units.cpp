@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every law of the library in other units of mass, length and time: the same run, bit for bit where the units are
-// powers of two, with fixed steps and adaptive ones. No number of a law, a limit, a tolerance or an estimate has a
-// unit.
+// Every law of the library in other units of mass, length and time: the same run, bit for bit with powers of two, with
+// fixed steps and adaptive ones. No number of a law, a limit, a tolerance or an estimate has a unit.
 #include "rhs/more_laws.hpp"
 #include "rhs/walled.hpp"
 #include <spam/integrate/methods.hpp>
