@@ -97,6 +97,7 @@ IntegratorOptions steps_of(const System& system) { return {.method = "rk4", .dt 
 struct Measured {
     std::string name;
     std::size_t particles = 0;
+    std::size_t different = 0;  ///< numbers of the state that are not those of one process
     double images = 0.0, bytes = 0.0,
            exchanges = 0.0;                 ///< by particle and right-hand side; by right-hand side
     Times one{}, parted{}, one_of_share{};  ///< the last of N/P particles, where measured
@@ -134,7 +135,10 @@ Measured measure(Timed& all, const Parameters& p, std::string name,
         found.one_of_share.keep_least(of_share);
         found.parted.keep_least(of_all);
     }
-    parted.y();
+    const auto y = parted.y();
+    if (one)
+        for (std::size_t k = 0; k < y.size(); ++k) found.different += y[k] != one->y()[k];
+    found.different = all.total(found.different);
     const auto traffic = parted.exchanges();
     const auto evaluations = static_cast<double>(parted.statistics().rhs_evaluations);
     found.images = parted.sharing().images;
@@ -146,6 +150,8 @@ Measured measure(Timed& all, const Parameters& p, std::string name,
 
 void report(Session& session, std::size_t count, const Measured& found) {
     const Findings findings(session, found.name + "_");
+    findings.check("different_numbers", static_cast<double>(found.different), 0.0, 0.0,
+                   "the state does not depend on the number of processes");
     findings.measure("efficiency", found.strong(count),
                      "strong: processor time and least exchanges");
     findings.measure("efficiency_by_clock", found.by_clock(count), "of the least turns");
