@@ -11,7 +11,7 @@
 //
 // Two systems go by rk4, on one process and on P in turn, --turns times each:
 //     solid     a rotating hexagon of elastic particles (Monaghan's velocity), of the numbers that --sizes gives
-//     gas       --cells by --cells particles of an ideal gas that expands freely, [HH01]
+//     gas       --cells by --cells particles of the Lucy gas, P = rho^2/2, which expands freely, [HH01]
 //
 // strong: E = t_1(N)/(P t_P(N)). weak: t_1(N/P)/t_P(N), of hexagons with N/P and N particles.
 // t_P is the processor time that the busiest process needs outside of exchanges, and what steps would spend in these

@@ -213,13 +213,6 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& po
     take_places(box, x);
 }
 
-template <int Dim>
-std::size_t Ghosts<Dim>::of_others() const {
-    std::size_t count = 0;
-    for (const Exchange& part : parts_) count += part.ghost.size();
-    return count;
-}
-
 /// The numbers of images that other parts have, for those of theirs that are here. A message of a part whose
 /// records are valid is never empty.
 template <int Dim>

@@ -68,8 +68,6 @@ class ClusterList {
     std::span<const std::uint32_t> order() const { return order_; }
     /// With ghosts.
     std::size_t slots() const { return order_.size() + ghosts_.size(); }
-    /// Ghosts whose numbers come from other parts of the run.
-    std::size_t images_of_others() const { return ghosts_.of_others(); }
     /// The particle at a slot, or whose image is there.
     std::uint32_t particle(std::size_t slot) const {
         return slot < order_.size() ? order_[slot] : order_[ghosts_.owner(slot - order_.size())];

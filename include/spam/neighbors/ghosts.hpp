@@ -35,8 +35,6 @@ class Ghosts {
                std::array<std::vector<double>, Dim>& x);
 
     std::size_t size() const { return owner_.size(); }
-    /// How many of them are images of particles of other parts, those particles themselves among them.
-    std::size_t of_others() const;
     /// The slot of the particle whose image ghost number g is. Precondition: it is of this part.
     std::uint32_t owner(std::size_t g) const { return owner_[g]; }
     /// The number of that particle in the whole run.
