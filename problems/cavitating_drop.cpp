@@ -49,7 +49,7 @@ struct Known {
     std::optional<double> vapour;
     double vapour_tolerance;
 };
-const std::vector<Known> all_known{{0.015, 1.0, 0.5, {}, 0.0},  {0.035, 11.0, 3.0, {}, 0.0},
+const std::vector<Known> all_known{{0.015, 1.0, 0.0, {}, 0.0},  {0.035, 11.0, 3.0, {}, 0.0},
                                    {0.05, 37.5, 7.5, {}, 0.0},  {0.07, 75.0, 10.0, {}, 0.0},
                                    {0.1, 112.5, 12.5, {}, 0.0}, {0.4, {}, 0.0, 0.95, 0.05}};
 
@@ -123,6 +123,22 @@ void report(Session& session, const Drop& drop, const RunRecord& run) {
     findings.check_promises(run);
 }
 
+/// What each run has for the most part at its end: the median over the last tenth of its time. A thin place of a drop
+/// that holds together is counted as a gap in one row, and as none in the next.
+std::vector<double> usual_at_end(const std::vector<RunRecord>& runs, std::string_view column) {
+    std::vector<double> values;
+    for (const auto& run : runs) {
+        auto rows = run.history.column(column);
+        const auto t = run.history.column("t");
+        rows.erase(rows.begin(),
+                   rows.begin() + (std::ranges::lower_bound(t, 0.9 * t.back()) - t.begin()));
+        const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2);
+        std::ranges::nth_element(rows, middle);
+        values.push_back(*middle);
+    }
+    return values;
+}
+
 /// Means over the seeds of every rate, in their order.
 void report_rates(Session& session, const std::vector<Drop>& drops,
                   const std::vector<RunRecord>& runs, std::size_t seeds) {
@@ -135,7 +151,7 @@ void report_rates(Session& session, const std::vector<Drop>& drops,
         });
         const auto of_seeds = [&](const char* column, std::optional<double> expected,
                                   double tolerance) {
-            auto values = last_of(runs, column);
+            const auto values = usual_at_end(runs, column);
             const OfSeeds all({values.begin() + static_cast<std::ptrdiff_t>(k),
                                values.begin() + static_cast<std::ptrdiff_t>(k + seeds)});
             findings.claim(fmt::format("{}_mean", column), all.mean, expected.value_or(0.0),

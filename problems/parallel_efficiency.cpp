@@ -191,11 +191,12 @@ std::vector<Owned> owners_of(Session& session, Parts& all, int cells) {
     PartedMotion<2> motion(*gas.model, gas.y0, steps_of(gas), all);
     std::vector<Owned> owned;
     const double last = session.common().smoke ? 0.05 : 1.0;  // in the time of sound along the gas
+    constexpr int rows = 32;                                  // between two of the times
     for (const double part : {0.0, 0.25, 0.5, 1.0}) {
-        for (int row = 0; row < 8; ++row) {  // as a run looks at its rows
+        for (int row = 0; row < rows; ++row) {
             const Parts::Here here(all);
             const double from = owned.empty() ? 0.0 : owned.back().t, to = part * last * cells;
-            const double t = from + (to - from) * (row + 1) / 8.0;
+            const double t = from + (to - from) * (row + 1) / rows;
             while (motion.t() < t - 1e-9) motion.integrator().step(t);
             const Parts::Here as_a_whole(Parts::alone_here());
             motion.y();

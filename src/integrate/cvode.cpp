@@ -3,11 +3,13 @@
 
 #include "arkode_control.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 namespace spam {
@@ -53,6 +55,11 @@ void Cvode::create() {
     check(CVodeSetNonlinearSolver(memory_, corrector_->get()), "SetNonlinearSolver");
     if (bdf) {
         check(CVodeSetLinearSolver(memory_, corrector_->krylov(), nullptr), "SetLinearSolver");
+        // CVODE knows the length of a part alone, by which each would stop its linear solver elsewhere.
+        Parts& parts = Parts::here();
+        const std::size_t copies = parts.alone() ? 0 : parts.copies;
+        const auto n = static_cast<double>(parts.total(y_.size() - copies) + copies);
+        check(CVodeSetLSNormFactor(memory_, std::sqrt(n)), "SetLSNormFactor");
         // Orders 3 to 5 let what turns slowly grow where steps are long.
         check(CVodeSetStabLimDet(memory_, 1), "SetStabLimDet");
     }

@@ -2,6 +2,7 @@
 #include "cell_search.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 
 #include <fmt/format.h>
@@ -50,6 +51,20 @@ std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) co
     return {entries_[cluster].first, entries_[cluster].count};
 }
 
+/// Where a part of a run begins its period along direction a, in periods: half of one below the middle of its particles.
+/// One of them that has left the box by a border is then still beside the others, and the bounds of a part are no wider
+/// than the part. The middle is near enough after two turns, and no bit of a sum depends on it.
+template <int Dim>
+double begin_of_period(const Points<Dim>& x, const Box<Dim>& box, int a) {
+    double middle = x(a, 0);
+    for (int turn = 0; turn < 2; ++turn) {
+        double total = 0.0;
+        for (Eigen::Index i = 0; i < x.cols(); ++i) total += box.nearest_image(a, x(a, i) - middle);
+        middle += total / static_cast<double>(x.cols());
+    }
+    return middle / box.length(a) - 0.5;
+}
+
 /// Everybody into the box.
 template <int Dim>
 void ClusterList<Dim>::take_home() {
@@ -57,18 +72,21 @@ void ClusterList<Dim>::take_home() {
     at_home_.resize(Dim, motion_.then().cols());
     periods_.assign(Dim * size_, 0);
     home_.periods = periods_.data();
-    std::array<double, Dim> length{}, inverse{};
+    std::array<double, Dim> length{}, inverse{}, begin{};
+    const bool whole = Parts::here().alone() || size_ == 0;
     for (int a = 0; a < Dim; ++a) {
         home_.length[a] = length[static_cast<std::size_t>(a)] = box_.length(a);
         home_.last_place[a] = box_.last_place(a);
         home_.places[a] = box_.periodic(a) ? 1.0 / box_.last_place(a) : 0.0;
         inverse[static_cast<std::size_t>(a)] = box_.periodic(a) ? 1.0 / box_.length(a) : 0.0;
+        if (box_.periodic(a) && !whole)
+            begin[static_cast<std::size_t>(a)] = begin_of_period(motion_.then(), box_, a);
     }
     // A search need not have the last digits right.
-    parallel_for(size_, [length, inverse, from = motion_.then().data(), to = at_home_.data(),
+    parallel_for(size_, [length, inverse, begin, from = motion_.then().data(), to = at_home_.data(),
                          periods = periods_.data()](std::size_t i) {
         for (std::size_t a = 0; a < Dim; ++a) {
-            const double q = from[Dim * i + a] * inverse[a];
+            const double q = from[Dim * i + a] * inverse[a] - begin[a];
             auto k = static_cast<std::int32_t>(q);
             k -= q < k ? 1 : 0;
             periods[Dim * i + a] = k;
@@ -93,7 +111,7 @@ void ClusterList<Dim>::gather() {
 template <int Dim>
 void ClusterList<Dim>::gather_strips() {
     take_home();
-    strips_.build(place(), box_, 3);
+    strips_.build(place(), Parts::here().alone() ? box_ : Box<Dim>(), 3);
     order_.assign(strips_.order().begin(), strips_.order().end());
     slot_of_.resize(size_);
     for (std::size_t slot = 0; slot < size_; ++slot)

@@ -136,21 +136,62 @@ std::uint32_t Ghosts<Dim>::image_of(const Box<Dim>& box, std::uint32_t code) {
     return at_[code] = static_cast<std::uint32_t>(images_.size() - 1);
 }
 
+/// Around particles that follow each other in the order of slots, and are near each other there. Where those of several
+/// parts are mixed, the bounds of a whole part hold many particles that have no neighbour in it.
+template <class Corners, int Dim>
+std::vector<Corners> bounds_of_runs(const Points<Dim>& position,
+                                    std::span<const std::uint32_t> slot_of) {
+    constexpr std::size_t run = 64, most = 256;
+    const std::size_t n = slot_of.size(), each = std::max(run, (n + most - 1) / most);
+    Corners none;
+    none.low.fill(std::numeric_limits<double>::infinity());
+    none.high.fill(-std::numeric_limits<double>::infinity());
+    std::vector<Corners> bounds(n / each + 1, none);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t a = 0; a < Dim; ++a) {
+            Corners& own = bounds[slot_of[i] / each];
+            own.low[a] = std::min(own.low[a], position.data()[Dim * i + a]);
+            own.high[a] = std::max(own.high[a], position.data()[Dim * i + a]);
+        }
+    return bounds;
+}
+
+/// Leaves the places that are within reach of one of these bounds.
+template <class Place, class Corners>
+void keep_near(std::vector<Place>& places, const std::vector<Corners>& bounds, double reach) {
+    const auto near = [reach](const auto& x, const Corners& one) {
+        for (std::size_t a = 0; a < x.size(); ++a)
+            if (x[a] < one.low[a] - reach || x[a] > one.high[a] + reach) return false;
+        return true;
+    };
+    std::erase_if(places, [&](const Place& place) {
+        return std::ranges::none_of(bounds, [&](const Corners& one) { return near(place.x, one); });
+    });
+}
+
 /// Every part tells each other one which of its particles, and images of them, are near there; what is near here comes
 /// among our own images, by number.
 template <int Dim>
 void Ghosts<Dim>::meet_other_parts(const Box<Dim>& box, double reach, const Points<Dim>& position,
                                    std::span<const std::uint32_t> slot_of, const Corners& own) {
     Parts& parts = Parts::here();
-    const auto bounds = parts.gather(std::span<const Corners>(&own, 1));
+    const auto runs = bounds_of_runs<Corners>(position, slot_of);
+    const auto bounds = parts.gather(std::span<const Corners>(runs));
+    keep_near(places_, runs, reach);
     std::vector<Place> all = std::move(places_);
     std::vector<Parts::Bytes> messages(parts.count());
     parts_.assign(parts.count(), {});
     for (std::size_t p = 0; p < parts.count(); ++p) {
         if (p == parts.own()) continue;
         around_ = bounds[p].front();
+        for (const Corners& one : bounds[p])
+            for (std::size_t a = 0; a < Dim; ++a) {
+                around_.low[a] = std::min(around_.low[a], one.low[a]);
+                around_.high[a] = std::max(around_.high[a], one.high[a]);
+            }
         for (int a = 0; a < Dim; ++a) find_images(box, a, reach, own);
         collect(reach, position, slot_of, true);
+        keep_near(places_, bounds[p], reach);
         for (const Place& place : places_) {
             parts_[p].slot.push_back(place.owner);
             parts_[p].image.push_back(image_of(box, place.code));

@@ -15,7 +15,8 @@ namespace spam {
 namespace {
 
 /// Recursive bisection: the numbers of each part, by cuts across the longest extent, as many particles on either
-/// side as parts lie there (to one). Particles at one place go by number, so that all processes find the same.
+/// side as parts lie there (to one). Particles at one place go by number, so that all processes find the same. Of extents
+/// that are nearly as long the first counts: were they to take turns, most particles would go to another part each time.
 template <int Dim>
 void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
             std::span<std::vector<std::uint32_t>> parts) {
@@ -26,7 +27,10 @@ void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
     }
     const Points<Dim> own = x(Eigen::all, numbers);
     Eigen::Index axis = 0;
-    if (own.cols() > 0) (own.rowwise().maxCoeff() - own.rowwise().minCoeff()).maxCoeff(&axis);
+    if (own.cols() > 0) {
+        const Point<Dim> extent = own.rowwise().maxCoeff() - own.rowwise().minCoeff();
+        while (extent[axis] < 0.9 * extent.maxCoeff()) ++axis;
+    }
     const std::size_t below = parts.size() / 2, cut = numbers.size() * below / parts.size();
     std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(cut),
                      numbers.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -138,7 +142,7 @@ void PartedMotion<Dim>::count_moved(const std::vector<std::vector<std::uint32_t>
     for (std::size_t i = 0; i < before.size(); ++i) moved_ += before[i] != owner_[i];
 }
 
-/// Whether so many more images of others' particles are needed than at first that parting anew pays.
+/// Whether a quarter more images of others' particles are needed than at first: parting anew then pays.
 template <int Dim>
 bool PartedMotion<Dim>::mixed() {
     const Parts::Here here(processes_);
@@ -149,7 +153,7 @@ bool PartedMotion<Dim>::mixed() {
     images = processes_.total(images);
     most_images_ = std::max(most_images_, images);
     if (images_ == 0) images_ = images;
-    return images > images_ + images_ / 2;
+    return images > images_ + images_ / 4;
 }
 
 template <int Dim>

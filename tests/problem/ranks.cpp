@@ -61,3 +61,15 @@ BOOST_AUTO_TEST_CASE(every_problem_leaves_the_bytes_of_one_rank) {
             check_same(files_of(folder / "whole"), files_of(folder / "parted"));
         }
 }
+
+/// A linear solver takes as many directions on every rank, or they wait for each other.
+BOOST_AUTO_TEST_CASE(an_implicit_method_leaves_the_bytes_of_one_rank) {
+    if (no_ranks()) return;
+    const Scratch folder;
+    const Words common{"--formulation", "total_lagrangian", "--integrator", "cvode:bdf",
+                       "--smoke",       "--no-plots",       "--quiet"};
+    require_ran(
+        run_in(folder, "rotating_hexagon", with(common, {"--ranks", "3", "--out", "parted"})));
+    require_ran(run_in(folder, "rotating_hexagon", with(common, {"--out", "whole"})));
+    check_same(files_of(folder / "whole"), files_of(folder / "parted"));
+}
