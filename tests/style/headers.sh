@@ -3,7 +3,8 @@
 # Every header below <folder>/spam compiles by itself, whatever was included before it or not.
 #   headers.sh <folder> <a folder to work in> <compiler and its flags...>
 # Eigen is read once: to precompile <Eigen/Core> changes nothing for headers that include it, directly
-# or through others of ours. All others are compiled without.
+# or through others of ours. All others are compiled without. What another header of the same kind includes
+# before all else is compiled by itself there.
 set -euo pipefail
 folder=$1 work=$2
 shift 2
@@ -17,6 +18,9 @@ echo '#include <Eigen/Core>' >"$work/eigen.hpp"
 kinds() {
     (cd "$folder" && find spam -name '*.hpp' -exec awk '
         { name = FILENAME; all[name] }
+        /^ *# *include/ && !(name in begins) {
+            split($0, part, /[<">]/); begins[name] = part[2]
+        }
         /^ *# *include *<Eigen\// { eigen[name] }
         /^ *# *include *[<"]spam\// { split($0, part, /[<">]/); edge[name, part[2]] }
         END {
@@ -27,7 +31,10 @@ kinds() {
                     if (end[2] in eigen && !(end[1] in eigen)) { eigen[end[1]]; changed = 1 }
                 }
             } while (changed)
-            for (name in all) print (name in eigen ? "eigen" : "plain"), name
+            for (name in all)
+                if ((name in eigen) == (begins[name] in eigen)) alone_there[begins[name]]
+            for (name in all)
+                if (!(name in alone_there)) print (name in eigen ? "eigen" : "plain"), name
         }' {} +)
 }
 
