@@ -42,12 +42,27 @@ void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
 
 }  // namespace
 
+Observers of_the_whole(Observers observers) {
+    const auto as_a_whole = [](auto& observer) {
+        if (observer)
+            observer = [of_all = std::move(observer)](double t) {
+                const Parts::Here here(Parts::alone_here());
+                return of_all(t);
+            };
+    };
+    as_a_whole(observers.output), as_a_whole(observers.snapshot), as_a_whole(observers.step);
+    as_a_whole(observers.revise), as_a_whole(observers.change), as_a_whole(observers.checkpoint);
+    as_a_whole(observers.last), as_a_whole(observers.enough);
+    return observers;
+}
+
 template <int Dim>
 PartedMotion<Dim>::PartedMotion(Model<Dim>& model, std::span<const double> y0,
                                 const IntegratorOptions& options, Parts& processes, double t0)
     : whole_(model),
       options_(options),
       processes_(processes),
+      alone_(processes.alone()),
       before_(processes.traffic()) {
     if (alone()) {
         motion_ = std::make_unique<Motion<Dim>>(model, y0, options, t0);
@@ -124,7 +139,7 @@ void PartedMotion<Dim>::part_anew() {
 
 template <int Dim>
 void PartedMotion<Dim>::go_on_from(PartedMotion& before) {
-    const Parts::Here here(processes_);
+    const Parts::Here here(processes());
     Archive memory;
     before.motion_->integrator().remember(memory);
     Archive back(memory.bytes());
@@ -167,7 +182,7 @@ std::span<const double> PartedMotion<Dim>::y() {
     known_ = now();
     {
         const Parts::Here here(processes_);
-        y_ = whole_state(processes_, part_->layout(), motion_->y());
+        std::ranges::copy(whole_state(processes_, part_->layout(), motion_->y()), y_.begin());
     }
     tell_whole();
     // A method with fixed steps and no memory goes the same way from here, but where an event has lists of its own.
@@ -191,13 +206,13 @@ bool PartedMotion<Dim>::edit(const std::function<bool(std::span<double> y)>& cha
 
 template <int Dim>
 std::size_t PartedMotion<Dim>::pair_interactions() {
-    return processes_.total(pairs_before_ + motion_->pair_interactions());
+    return processes().total(pairs_before_ + motion_->pair_interactions());
 }
 
 template <int Dim>
 std::vector<Remark> PartedMotion<Dim>::watch() {
     if (looked_at_) tell_part();
-    const Parts::Here here(processes_);
+    const Parts::Here here(processes());
     watched_ = true;
     return motion_->model().watch(t(), motion_->y());
 }
@@ -206,7 +221,7 @@ template <int Dim>
 void PartedMotion<Dim>::remember(Archive& archive) {
     if (!alone() && archive.reading()) y(), part(t());
     {
-        const Parts::Here here(processes_);
+        const Parts::Here here(processes());
         motion_->remember(archive);
     }
     if (alone() || !archive.reading()) return;
@@ -216,10 +231,10 @@ void PartedMotion<Dim>::remember(Archive& archive) {
 
 template <int Dim>
 RunStatistics::Ranks PartedMotion<Dim>::exchanges() const {
-    const Parts::Traffic now = processes_.traffic();
-    return {processes_.count(), now.exchanges - before_.exchanges,
-            processes_.total(now.bytes - before_.bytes),
-            processes_.most(now.seconds - before_.seconds)};
+    const Parts::Traffic now = processes().traffic();
+    return {processes().count(), now.exchanges - before_.exchanges,
+            processes().total(now.bytes - before_.bytes),
+            processes().most(now.seconds - before_.seconds)};
 }
 
 template <int Dim>

@@ -252,21 +252,9 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
                           plan.checkpoint_every};
         schedule.change_every = plan.rezoning ? plan.rezoning->every : 0.0;
         schedule.resumed = resumed_;
-        // Steps are of all processes together; what observers see is the whole, with nothing to exchange.
-        const auto as_a_whole = [](auto& observer) {
-            if (observer)
-                observer = [of_all = std::move(observer)](double t) {
-                    const Parts::Here here(Parts::alone_here());
-                    return of_all(t);
-                };
-        };
-        as_a_whole(observers.output), as_a_whole(observers.snapshot), as_a_whole(observers.step);
-        as_a_whole(observers.revise), as_a_whole(observers.change),
-            as_a_whole(observers.checkpoint);
-        as_a_whole(observers.last), as_a_whole(observers.enough);
         const Parts::Here here(motion_->processes());
         const int signal = spam::drive([&]() -> Integrator& { return motion_->integrator(); },
-                                       schedule, observers);
+                                       schedule, of_the_whole(observers));
         record_.complete = signal == 0;
         if (signal != 0) record_.statistics.stopped = fmt::format("signal {}", signal);
     } catch (const OutputError& error) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/parts.hpp>
+
 #include <pybind11/pybind11.h>
 
 #include <chrono>
@@ -16,6 +18,10 @@ void enter(std::size_t particles, int threads);
 
 /// A number of threads that somebody asks for: 0 to 4096. Throws InputError.
 int checked_threads(int threads);
+
+/// The processes that share every run of this script where mpirun has started it several times: joined at the first
+/// call, left when the interpreter ends. Otherwise one that is alone.
+Parts& processes();
 
 /// Ends a long computation soon after Ctrl-C. Call where the interpreter is not held; looks for signals by the
 /// clock, every 50 ms, and throws py::error_already_set (KeyboardInterrupt, or what a handler raised).

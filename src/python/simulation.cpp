@@ -2,7 +2,6 @@
 #include "simulation.hpp"
 
 #include "../problem/run.hpp"
-#include "process.hpp"
 #include <spam/core/error.hpp>
 #include <spam/problem/integrator_settings.hpp>
 
@@ -10,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace spam::python {
 namespace {
@@ -62,14 +62,50 @@ template <int Dim>
 Simulation<Dim>::Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::object& y0,
                             const IntegratorOptions& options, double t0, int threads)
     : options_(options),
-      threads_(checked_threads(threads)),
-      now_(std::make_shared<OnItsWay>(model, model->checked(y0), options, t0)) {
+      threads_(checked_threads(threads)) {
+    PartedMotion<Dim>::refuse(*model->model, options, processes());
+    // Processes share cores: threads beside them are asked for.
+    if (threads_ == 0 && !processes().alone()) threads_ = 1;
+    now_ = std::make_shared<OnItsWay>(model, model->checked(y0), options, t0);
     held()->moved_by = this;
 }
 
 template <int Dim>
+std::vector<std::uint32_t> Simulation<Dim>::own() const {
+    const auto numbers = processes().numbers();
+    std::vector<std::uint32_t> own(numbers.begin(), numbers.end());
+    if (own.empty()) {
+        own.resize(held()->size());
+        std::iota(own.begin(), own.end(), 0U);
+    }
+    return own;
+}
+
+template <int Dim>
+void Simulation<Dim>::together(const std::function<void()>& f) {
+    Parts& all = now_->motion.processes();
+    try {
+        const py::gil_scoped_release others;
+        const Parts::Here here(all);
+        f();
+    } catch (const PartGaveUp& other) {
+        throw GuardStop(fmt::format("another process has stopped: {}", other.what()));
+    } catch (const PartLeft&) {
+        throw;
+    } catch (const GuardStop& stop) {
+        all.give_up(stop.what());
+        held()->pending->raise();
+        throw;
+    } catch (const std::exception& error) {
+        const std::string what = error.what();  // of Python's, lines of where it was follow
+        all.give_up(what.substr(0, what.find('\n')));
+        throw;
+    }
+}
+
+template <int Dim>
 void Simulation<Dim>::watch(double t) {
-    for (const Remark& remark : held()->model->watch(t, now_->motion.y())) {
+    for (const Remark& remark : now_->motion.watch()) {
         remarks_.emplace_back(t, remark);
         if (remark.stop)
             throw GuardStop(fmt::format("{} ({:.3g}) at t = {:.6g}", remark.what, remark.value, t));
@@ -90,14 +126,10 @@ double Simulation<Dim>::step(double t_stop) {
         throw InputError(fmt::format("t_stop: {} is not after t = {}", t_stop, t()));
     const Turn turn(*this);
     Signals signals;
-    try {
-        const py::gil_scoped_release others;
-        now_->motion.step(t_stop);
+    together([&] {
+        now_->motion.integrator().step(t_stop);
         look_after(t(), signals);
-    } catch (const GuardStop&) {
-        held()->pending->raise();
-        throw;
-    }
+    });
     return t();
 }
 
@@ -158,10 +190,7 @@ void Simulation<Dim>::rezone(double t, Turn& turn) {
     if (!next) return;
     made_->made_in_a_run();
     const auto then = std::make_shared<OnItsWay>(std::move(made_), next->y, options_, t);
-    Archive memory;
-    now_->motion.integrator().remember(memory);
-    Archive back(memory.bytes());
-    then->motion.integrator().remember(back);
+    then->motion.go_on_from(now_->motion);
     pairs_before_ += now_->motion.pair_interactions();
     turn.pass_to(*then->held);
     now_ = then;
@@ -200,15 +229,12 @@ void Simulation<Dim>::run(const RunRequest& request) {
                             .snapshot_every = request.snapshot_every,
                             .change_every = request.rezone ? request.rezone->every : 0.0,
                             .start = t()};
-    try {
-        Observers all = observers(request, signals);
-        if (request.rezone) all.change = [&](double at) { rezone(at, turn); };
-        const py::gil_scoped_release others;
+    Observers all = observers(request, signals);
+    if (request.rezone) all.change = [&](double at) { rezone(at, turn); };
+    all = of_the_whole(std::move(all));
+    together([&] {
         drive([this]() -> Integrator& { return now_->motion.integrator(); }, schedule, all);
-    } catch (const GuardStop&) {
-        held()->pending->raise();
-        throw;
-    }
+    });
 }
 
 template <int Dim>

@@ -3,9 +3,10 @@
 
 #include "../problem/recorder.hpp"
 #include "held_model.hpp"
+#include "process.hpp"
 #include "rezoning.hpp"
 #include <spam/integrate/driver.hpp>
-#include <spam/problem/motion.hpp>
+#include <spam/problem/parted_motion.hpp>
 
 #include <memory>
 #include <string>
@@ -29,8 +30,10 @@ class Simulation {
                const IntegratorOptions& options, double t0, int threads);
 
     double t() const { return now_->motion.t(); }
-    /// The N_Vector itself.
+    /// The N_Vector itself; where processes share the particles, a copy of all of them that every process has.
     std::span<const double> y() const { return now_->motion.y(); }
+    /// Numbers in y of the particles that this process computes, ascending.
+    std::vector<std::uint32_t> own() const;
     /// Of the present particles: another one than at first, where some were split or merged.
     const std::shared_ptr<HeldModel<Dim>>& held() const { return now_->held; }
     /// Keeps what y() is part of.
@@ -51,6 +54,8 @@ class Simulation {
   private:
     /// What must hold before anything is computed.
     class Turn;
+    /// f(), with the other processes, where the interpreter is free. Where it ends by an exception they hear of it.
+    void together(const std::function<void()>& f);
     void look_after(double t, class Signals& signals);
     void watch(double t);
     Observers observers(const RunRequest& request, Signals& signals);
@@ -62,10 +67,10 @@ class Simulation {
         OnItsWay(std::shared_ptr<HeldModel<Dim>> model, std::span<const double> y0,
                  const IntegratorOptions& options, double t0)
             : held(std::move(model)),
-              motion(*held->model, y0, options, t0) {}
+              motion(*held->model, y0, options, processes(), t0) {}
 
         std::shared_ptr<HeldModel<Dim>> held;
-        Motion<Dim> motion;
+        PartedMotion<Dim> motion;
     };
 
     IntegratorOptions options_;

@@ -97,6 +97,7 @@ void bind(py::module_& module, const char* name) {
                                         block.field.rank() == Rank::scalar, owner_of(one));
                  throw py::attribute_error("y has no field '" + one_line(field) + "'");
              })
+        .def_property_readonly("own", &One::own)
         .def("step", &One::step)
         .def("run",
              [](One& self, double t_end, double every, double snapshot_every,

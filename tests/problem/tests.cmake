@@ -33,13 +33,13 @@ spam_problem_test(problem/stops nlohmann_json::nlohmann_json)
 spam_problem_test(problem/terminal)
 spam_problem_test(problem/surroundings nlohmann_json::nlohmann_json)
 spam_problem_test(problem/memory nlohmann_json::nlohmann_json)
-spam_problem_test(problem/ranks nlohmann_json::nlohmann_json)
+spam_problem_test(problem/ranks_bytes nlohmann_json::nlohmann_json)
 spam_problem_test(problem/ranks_end nlohmann_json::nlohmann_json)
-set_tests_properties(problem.ranks PROPERTIES ENVIRONMENT SPAM_QUARTER=0 PROCESSORS 2)
+set_tests_properties(problem.ranks_bytes PROPERTIES ENVIRONMENT SPAM_QUARTER=0 PROCESSORS 2)
 set_tests_properties(problem.ranks_end PROPERTIES PROCESSORS 2)
 foreach(quarter 1 2 3)
-  add_test(NAME problem.ranks.${quarter} COMMAND test.problem.ranks --log_level=message)
-  set_tests_properties(problem.ranks.${quarter} PROPERTIES
+  add_test(NAME problem.ranks_bytes.${quarter} COMMAND test.problem.ranks_bytes --log_level=message)
+  set_tests_properties(problem.ranks_bytes.${quarter} PROPERTIES
     LABELS problem TIMEOUT ${timeout} ENVIRONMENT SPAM_QUARTER=${quarter} PROCESSORS 2)
 endforeach()
 spam_problem_test(problem/every_problem nlohmann_json::nlohmann_json)
@@ -137,5 +137,5 @@ if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
     SKIP_RETURN_CODE 77)
 endif()
 spam_long(problem/ball_plate problem/column_of_elements problem/every_problem problem/flows problem/idle_options
-          problem/ranks problem/restart problem/restart_table problem/stirred_flows problem/tension_test
+          problem/ranks_bytes problem/restart problem/restart_table problem/stirred_flows problem/tension_test
           problem/water_column)

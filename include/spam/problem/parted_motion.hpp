@@ -2,6 +2,7 @@
 #pragma once
 
 #include <spam/core/parts.hpp>
+#include <spam/integrate/driver.hpp>
 #include <spam/io/results.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/rhs/particle_model.hpp>
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace spam {
+
+/// Observers that look at the whole run between two steps of all processes, with nothing to exchange.
+Observers of_the_whole(Observers observers);
 
 /// A Motion whose particles may be parted among processes, with the bits of one that is not.
 ///
@@ -24,7 +28,8 @@ template <int Dim>
 class PartedMotion {
   public:
     /// `processes` is here() where there are several (whose whole model `model` is) or one that is alone. Throws
-    /// InputError where laws or methods cannot be parted.
+    /// InputError where laws or methods cannot be parted. Of one that is alone nothing is kept: the motion may go on in
+    /// another thread.
     PartedMotion(Model<Dim>& model, std::span<const double> y0, const IntegratorOptions& options,
                  Parts& processes, double t0 = 0.0);
 
@@ -32,7 +37,7 @@ class PartedMotion {
     static void refuse(const Model<Dim>& model, const IntegratorOptions& options, Parts& processes);
 
     double t() const { return motion_->t(); }
-    /// Of the whole; all processes must ask for it together.
+    /// Of the whole; all processes must ask for it together. It stays in its place as long as the motion.
     std::span<const double> y();
     bool edit(const std::function<bool(std::span<double> y)>& change);
     const Integrator::Statistics& statistics() const { return motion_->statistics(); }
@@ -49,7 +54,7 @@ class PartedMotion {
     /// As Motion::remember(); the memory of the whole, whatever the parts.
     void remember(Archive& archive);
 
-    Parts& processes() const { return processes_; }
+    Parts& processes() const { return alone_ ? Parts::alone_here() : processes_; }
     /// By the memory of its integrator.
     void go_on_from(PartedMotion& before);
     /// Since the motion was made; all processes must ask for it together.
@@ -68,7 +73,7 @@ class PartedMotion {
         std::size_t steps;
         bool operator==(const State&) const = default;
     };
-    bool alone() const { return processes_.alone(); }
+    bool alone() const { return alone_; }
     State now() const { return {t(), statistics().steps}; }
     void part(double t);
     void part_anew();
@@ -81,6 +86,7 @@ class PartedMotion {
     Model<Dim>& whole_;
     IntegratorOptions options_;
     Parts& processes_;
+    bool alone_;
     std::unique_ptr<ParticleModel<Dim>> part_;  ///< null where there is one process
     std::unique_ptr<Motion<Dim>> motion_;
     std::vector<double> y_;                ///< of the whole

@@ -83,8 +83,10 @@ class Bells {
 /// An exchange is one message to every other process, whose length is asked for where it arrives.
 class MpiProcesses final : public Parts {
   public:
-    MpiProcesses(int count, int own)
+    /// `ours`: whether MPI ends with it.
+    MpiProcesses(int count, int own, bool ours)
         : Parts(static_cast<std::size_t>(count), static_cast<std::size_t>(own)),
+          ours_(ours),
           bells_(std::make_unique<Bells>(count, own)) {
         prctl(PR_SET_TIMERSLACK, 1000UL);  // nanoseconds, or each moment takes 50 us more
     }
@@ -94,7 +96,7 @@ class MpiProcesses final : public Parts {
             if (p != own()) bells_->ring(static_cast<int>(p));
         bells_->wait();
         bells_.reset();
-        MPI_Finalize();
+        if (ours_) MPI_Finalize();
     }
     MpiProcesses(const MpiProcesses&) = delete;
     MpiProcesses& operator=(const MpiProcesses&) = delete;
@@ -152,6 +154,7 @@ class MpiProcesses final : public Parts {
             if (look > looks) std::this_thread::sleep_for(std::chrono::microseconds(1));
     }
 
+    bool ours_;
     std::unique_ptr<Bells> bells_;
 };
 
@@ -168,11 +171,12 @@ bool started_with_others() {
 }
 
 std::unique_ptr<Parts> join_processes() {
-    int provided = 0, count = 1, own = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    int there = 0, provided = 0, count = 1, own = 0;
+    MPI_Initialized(&there);  // by a package of Python, perhaps
+    if (there == 0) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_size(MPI_COMM_WORLD, &count);
     MPI_Comm_rank(MPI_COMM_WORLD, &own);
-    return std::make_unique<MpiProcesses>(count, own);
+    return std::make_unique<MpiProcesses>(count, own, there == 0);
 }
 
 }  // namespace spam

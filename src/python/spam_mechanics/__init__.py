@@ -29,7 +29,7 @@ _COMPILED = {
     "_core": ("Drag", "ElasticSolid", "EmbeddedAtom", "Fluid", "Force", "Friction", "GammaGas", "Gravity", "IdealGas",
               "IsentropicGas", "LucyGas", "Material", "Rezoning", "Scheme", "VanDerWaals",
               "VanDerWaalsIsotherm", "VonMisesSolid", "ball_of",
-              "cubic_lattice", "cylinder_of", "methods", "square_lattice", "triangular_block", "triangular_disk", "triangular_hexagon",
+              "cubic_lattice", "cylinder_of", "methods", "rank", "ranks", "square_lattice", "triangular_block", "triangular_disk", "triangular_hexagon",
               "usable_cores"),
 }
 _HOME = {name: module for module, names in _COMPILED.items() for name in names}

@@ -134,7 +134,10 @@ class Simulation:
     model = property(lambda self: self._core.model,
                      doc="What moves: another one than the given, where particles were split or merged.")
     t = property(lambda self: self._core.t, doc="The time.")
-    y = property(lambda self: self._core.y, doc="The state (size,), read only: the N_Vector itself.")
+    y = property(lambda self: self._core.y, doc="The state (size,), read only: the N_Vector itself. Where processes share\n"
+                 "the particles (ranks()), all of them hold the whole, and must ask for it together.")
+    own = property(lambda self: np.array(self._core.own, dtype=np.int64),
+                   doc="Numbers in y of the particles that this process computes, ascending: all where there is one.")
     id = property(lambda self: self.model.id, doc="Which of the particles given lies where (N,).")
     statistics = property(lambda self: self._core.statistics(),
                           doc="steps, rejected_steps, rhs_evaluations, events, last_step, pair_interactions.")
