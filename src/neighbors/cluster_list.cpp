@@ -51,9 +51,9 @@ std::span<const std::uint32_t> ClusterList<Dim>::entries(std::size_t cluster) co
     return {entries_[cluster].first, entries_[cluster].count};
 }
 
-/// Where a part of a run begins its period along direction a, in periods: half of one below the middle of its particles.
-/// One of them that has left the box by a border is then still beside the others, and the bounds of a part are no wider
-/// than the part. The middle is near enough after two turns, and no bit of a sum depends on it.
+/// Where a part of a run begins its period along direction a, in periods: half of one below the middle of its
+/// particles. One of them that has left the box by a border is then still beside the others, and the bounds of a part
+/// are no wider than the part. The middle is near enough after two turns, and no bit of a sum depends on it.
 template <int Dim>
 double begin_of_period(const Points<Dim>& x, const Box<Dim>& box, int a) {
     double middle = x(a, 0);

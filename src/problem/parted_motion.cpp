@@ -15,8 +15,9 @@ namespace spam {
 namespace {
 
 /// Recursive bisection: the numbers of each part, by cuts across the longest extent, as many particles on either
-/// side as parts lie there (to one). Particles at one place go by number, so that all processes find the same. Of extents
-/// that are nearly as long the first counts: were they to take turns, most particles would go to another part each time.
+/// side as parts lie there (to one). Particles at one place go by number, so that all processes find the same. Of
+/// extents that are nearly as long the first counts: were they to take turns, most particles would go to another part
+/// each time.
 template <int Dim>
 void bisect(const Points<Dim>& x, std::span<std::uint32_t> numbers,
             std::span<std::vector<std::uint32_t>> parts) {

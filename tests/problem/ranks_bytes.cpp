@@ -3,7 +3,6 @@
 // says in one line why it cannot be parted. A quarter of the problems in each of ctest's lines (SPAM_QUARTER), all
 // without.
 #include "problem/ranks.hpp"
-
 #include "problem/short_runs.hpp"
 #include "support/effort.hpp"
 
