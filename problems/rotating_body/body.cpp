@@ -102,6 +102,7 @@ ConfigurationPanel view(const std::string& title, const NearestState<3>& state) 
         panel.position.col(static_cast<Eigen::Index>(k)) = seen.col(order[k]).head<2>();
         panel.colour.push_back(state.velocity.col(order[k]).norm());
     }
+    panel.diameter = 1.0;
     return panel;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using gnuplot::escaped;
 
-constexpr double side = 340.0, bar = 112.0, top = 50.0;  // of a frame, of the colour bar, the title
+constexpr double side = 340.0, bar = 126.0, top = 50.0;  // of a frame, of the colour bar, the title
 constexpr double gap = 6.0;                              // around a frame
 constexpr double title_share = 26.0;                     // of a frame's height
 
@@ -50,6 +50,7 @@ Shared shared_by(const std::vector<ConfigurationPanel>& panels) {
     Shared e;
     for (const auto& panel : panels) {
         e.include(panel.position);
+        for (const auto& outline : panel.outlines) e.include(outline);
         for (const double c : panel.colour) {
             e.low = std::min(e.low, c);
             e.high = std::max(e.high, c);
@@ -148,8 +149,10 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
         std::string lines;
         if (panel.elements.empty()) {
             data += particle_block(panel);
-            lines = fmt::format("'{}.dat' index {} using 1:2:({:.5g}):3 with circles fc palette",
-                                name, block++, 0.46 * e.spacing);
+            const bool solid = panel.diameter > 0.0;
+            lines = fmt::format("'{}.dat' index {} using 1:2:({:.5g}):3 with circles fc palette{}",
+                                name, block++, solid ? 0.5 * panel.diameter : 0.46 * e.spacing,
+                                solid ? " fs solid 1 border -1" : "");
         } else {
             lines = element_blocks(panel, e, name, data, block);
         }

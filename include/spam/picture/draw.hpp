@@ -85,6 +85,8 @@ struct ConfigurationPanel {
     std::vector<double> colour;
     std::vector<Points<2>> outlines;        ///< closed polygons
     std::vector<Quadrilateral> elements{};  ///< by places in `position`
+    /// Of particles that hide each other, the last ones in front, each with a rim; 0: as wide as there is room.
+    double diameter = 0.0;
 };
 
 enum class ColourScale {
