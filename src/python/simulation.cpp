@@ -71,7 +71,16 @@ Simulation<Dim>::Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::obj
 }
 
 template <int Dim>
+void Simulation<Dim>::refuse_earlier() const {
+    if (!now_->motion.processes().alone() && latest_on_its_way != now_.get())
+        throw InputError(
+            "simulation: processes share the particles of one Simulation at a time, and a later one has been made; "
+            "end the earlier one before");
+}
+
+template <int Dim>
 std::vector<std::uint32_t> Simulation<Dim>::own() const {
+    refuse_earlier();
     const auto numbers = processes().numbers();
     std::vector<std::uint32_t> own(numbers.begin(), numbers.end());
     if (own.empty()) {
@@ -83,6 +92,7 @@ std::vector<std::uint32_t> Simulation<Dim>::own() const {
 
 template <int Dim>
 void Simulation<Dim>::together(const std::function<void()>& f) {
+    refuse_earlier();
     Parts& all = now_->motion.processes();
     try {
         const py::gil_scoped_release others;
@@ -116,6 +126,7 @@ void Simulation<Dim>::watch(double t) {
 template <int Dim>
 void Simulation<Dim>::look_after(double t, Signals& signals) {
     if (held()->pending->failed()) throw GuardStop("a function of Python has failed");
+    refuse_earlier();  // a function of the script may have made one
     watch(t);
     signals.look();
 }
@@ -239,7 +250,8 @@ void Simulation<Dim>::run(const RunRequest& request) {
 
 template <int Dim>
 void Simulation<Dim>::replace(const py::dict& fields) {
-    std::vector<double> y(now_->motion.y().begin(), now_->motion.y().end());
+    const auto present = this->y();
+    std::vector<double> y(present.begin(), present.end());
     for (const auto& [key, value] : fields) {
         const std::string name = py::str(key);
         const auto& blocks = held()->model->layout().blocks();
@@ -293,6 +305,7 @@ py::list Simulation<Dim>::remarks() const {
 
 template <int Dim>
 py::dict Simulation<Dim>::statistics() const {
+    refuse_earlier();
     const auto& s = now_->motion.statistics();
     return py::dict(
         py::arg("steps") = s.steps, py::arg("rejected_steps") = s.rejected_steps,

@@ -22,6 +22,8 @@ struct RunRequest {
     std::optional<RezoningChoice> rezone{};
 };
 
+inline const void* latest_on_its_way = nullptr;  ///< of all Simulations, of whatever dimension
+
 /// A model on its way, as Python drives it. The interpreter is free while it computes.
 template <int Dim>
 class Simulation {
@@ -31,7 +33,10 @@ class Simulation {
 
     double t() const { return now_->motion.t(); }
     /// The N_Vector itself; where processes share the particles, a copy of all of them that every process has.
-    std::span<const double> y() const { return now_->motion.y(); }
+    std::span<const double> y() const {
+        refuse_earlier();
+        return now_->motion.y();
+    }
     /// Numbers in y of the particles that this process computes, ascending.
     std::vector<std::uint32_t> own() const;
     /// Of the present particles: another one than at first, where some were split or merged.
@@ -56,6 +61,8 @@ class Simulation {
     class Turn;
     /// f(), with the other processes, where the interpreter is free. Where it ends by an exception they hear of it.
     void together(const std::function<void()>& f);
+    /// Where processes share particles: once another Simulation has been made, which of them each computes is its own.
+    void refuse_earlier() const;
     void look_after(double t, class Signals& signals);
     void watch(double t);
     Observers observers(const RunRequest& request, Signals& signals);
@@ -67,7 +74,9 @@ class Simulation {
         OnItsWay(std::shared_ptr<HeldModel<Dim>> model, std::span<const double> y0,
                  const IntegratorOptions& options, double t0)
             : held(std::move(model)),
-              motion(*held->model, y0, options, processes(), t0) {}
+              motion(*held->model, y0, options, processes(), t0) {
+            latest_on_its_way = this;
+        }
 
         std::shared_ptr<HeldModel<Dim>> held;
         PartedMotion<Dim> motion;

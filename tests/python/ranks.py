@@ -2,7 +2,8 @@
 """Several processes that share the particles of every run: mpirun -n 2 python3 tests/python/ranks.py
 
 prints how many numbers of rows and states are not those of one process, and ends with 1 where there are any. With a word
-more: `law`, `row` and `step` raise an exception in one process, in a law of Python, at a row and between two steps.
+more: `law`, `row` and `step` raise an exception in one process, in a law of Python, at a row and between two steps; `two`
+goes on with a simulation when another one has been made, which is refused.
 """
 import io
 import os
@@ -67,6 +68,8 @@ def raise_in_one(where):
 
     model, v = hexagon(4, externals=[spam.Force(force)])
     sim = spam.Simulation(model, velocity=v, dt=0.1)
+    if where == "two":
+        spam.Simulation(hexagon(3)[0], dt=0.1)
     sim.run(3.0, every=0.5, on_row=on_row)
     if mine:
         raise ZeroDivisionError("a step has failed")

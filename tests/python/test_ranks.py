@@ -42,3 +42,8 @@ class Ranks(unittest.TestCase):
                 ended = started(2, where)
                 self.assertNotEqual(ended.returncode, 0)
                 self.assertIn(f"ZeroDivisionError: a {where} has failed", ended.stderr)
+
+    def test_one_simulation_at_a_time(self):
+        ended = started(2, "two")
+        self.assertNotEqual(ended.returncode, 0)
+        self.assertIn("InputError: simulation: processes share the particles of one Simulation at a time", ended.stderr)
