@@ -142,7 +142,8 @@ void MaterialVectors<Dim>::take_over(const Term<Dim>& before, const ConstState<D
             if (p.table.g(k, m) > 0.0 && !(change.same(k) && change.same(p.table.partner(k, m))))
                 p.table.set_X(k, m, p.table.X(k, m));
     exclude(x);
-    const auto v = now.velocity(), v_was = was.velocity();
+    const auto v = now.velocity();
+    const auto v_was = was.velocity();
     parallel_for(change.parts.size(), [&](std::size_t k) {
         Fit kept;
         double energy = 0.0;
