@@ -132,22 +132,21 @@ std::string place_of(const ContourPanel& panel, std::size_t k, const gnuplot::Pa
 }
 
 std::string plot_of(const ContourPanel& panel, std::string_view name, std::size_t block,
-                    const gnuplot::Size& frame, const ContourRoom& room) {
+                    const gnuplot::Size& frame) {
     if (panel.values.empty())
         return fmt::format(
             "plot '{}.dat' index {} using 1:2:({:.5g}) with circles fc rgb '#000000'\n", name,
             block, 0.5 * panel.dot);
-    const double dx = (room.high(0) - room.low(0)) / std::round(frame.width),
-                 dy = (room.high(1) - room.low(1)) / std::round(frame.height);
     const std::string colours = panel.colours
                                     ? fmt::format("{}set cbrange [{:g}:{:g}]\n", gnuplot::palette,
                                                   panel.colours->low, panel.colours->high)
                                     : std::string("set palette gray\nset cbrange [0:9]\n");
-    return colours +
-           fmt::format(
-               "plot '{}.dat' index {} matrix using ({:.10g}+$1*{:.10g}):({:.10g}+$2*{:.10g}):3 "
-               "with image\n",
-               name, block, room.low(0) + 0.5 * dx, dx, room.low(1) + 0.5 * dy, dy);
+    // Axes that count pixels: to compute the place of each takes gnuplot ten times as long as to draw it.
+    return colours + fmt::format(
+                         "set x2range [-0.5:{}]\nset y2range [-0.5:{}]\n"
+                         "plot '{}.dat' index {} matrix axes x2y2 with image\n",
+                         std::round(frame.width) - 0.5, std::round(frame.height) - 0.5, name,
+                         block);
 }
 
 }  // namespace
@@ -170,7 +169,7 @@ bool draw_contours(const RunFolder& folder, std::string_view name, std::string_v
         data += panel.values.empty() ? dots(panel) : pixels(panel, frame, room);
         std::string place = place_of(panel, k, grid);
         if (k == 0) place.erase(place.find("unset label\n"), 12);  // the picture's own title
-        script += place + plot_of(panel, name, k, frame, room);
+        script += place + plot_of(panel, name, k, frame);
     }
     script += "unset multiplot\n";
     return gnuplot::draw(folder, name, script, data);
