@@ -20,6 +20,7 @@
 // With --potential one lattice under one choice of potentials is analysed, and nothing moves.
 #include "lattice_stability/motion.hpp"
 #include "lattice_stability/strength.hpp"
+#include "stiffness.hpp"
 #include <spam/kernel/kernel.hpp>
 #include <spam/kernel/weight_integrals.hpp>
 
@@ -41,7 +42,7 @@ double step_of(const Parameters& p) {
     const double slower = fastest(standard.kernel, range_of_dynamics) / fastest(p.kernel, *p.range);
     const double stronger = std::max(
         {1.0, p.strength / standard.strength, p.surface_tension / standard.surface_tension});
-    return step * std::min(1.0, slower / std::sqrt(stronger));
+    return step * std::min(1.0, slower / std::sqrt(stronger)) * relative_step(p.speed, 0.3);
 }
 
 /// With --potential one lattice is analysed: nothing moves, and potentials that do not act have no

@@ -50,14 +50,21 @@ Layout layout_of(int figure) {
              {3, 1.0, "(d) ⟨v⟩ Monaghan, particle torques"}}};
 }
 
+/// Of the paper's weight nothing is said.
+std::string title_of(const Session& session, int figure, const RunRecord& run) {
+    const Scheme& scheme = session.scheme();
+    const bool usual = scheme.kernel == Kernel::lucy && scheme.range == 3.0;
+    return fmt::format(
+        "[HHM04] Fig. {}: {} particles{}", figure, run.statistics.particles,
+        usual ? "" : fmt::format(", {} of range {:g}", to_string(scheme.kernel), scheme.range));
+}
+
 void draw_momentum(Session& session, const std::vector<Hexagon>& hexagons,
                    const std::vector<RunRecord>& runs) {
     CurvePanel panel = frame("continuity density", "t", "angular momentum L");
     for (std::size_t k = 0; k < runs.size(); ++k)
         panel.curves.push_back(over_time(hexagons[k].title, runs[k].history, "angular_momentum"));
-    draw_curves(session, "figure_6",
-                fmt::format("[HHM04] Fig. 6: {} particles", runs.front().statistics.particles),
-                {panel});
+    draw_curves(session, "figure_6", title_of(session, 6, runs.front()), {panel});
 }
 
 double lost_after(const History& h, double t) {
@@ -158,10 +165,8 @@ void draw_figure(Session& session, const Parameters& p, const std::vector<Hexago
             if (std::abs(state.wanted - panel.turns * p.turn()) < 1e-6 * p.turn())
                 panels.push_back(speed_panel(panel.title, *hexagon.model, state));
     }
-    draw_configurations(
-        session, fmt::format("figure_{}", figure),
-        fmt::format("[HHM04] Fig. {}: {} particles", figure, runs.front().statistics.particles),
-        panels, layout.columns, "speed");
+    draw_configurations(session, fmt::format("figure_{}", figure),
+                        title_of(session, figure, runs.front()), panels, layout.columns, "speed");
 }
 
 }  // namespace rotating_hexagon

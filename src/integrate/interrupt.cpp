@@ -10,6 +10,8 @@
 #include <atomic>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
+#include <ctime>
 #include <string>
 
 namespace spam {
@@ -21,7 +23,19 @@ constexpr std::array handed_on{SIGUSR1, SIGUSR2};
 
 // Handlers may use them, and so may the threads of a study, which begin results all at once.
 std::atomic<int> received_signal = 0, results_begun = 0, delayed = 0, at_once = 0;
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<std::int64_t> received_at = 0;  // ns; 0: not since there is this watch
+static_assert(std::atomic<int>::is_always_lock_free &&
+              std::atomic<std::int64_t>::is_always_lock_free);
+
+/// Signals to a process and to its group come together: they are one.
+constexpr std::int64_t together = 500'000'000;
+
+/// Of a clock that a handler may read.
+std::int64_t nanoseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+}
 
 /// What the handler says, one line a signal, composed beforehand: a handler may not format.
 using Lines = std::array<std::string, watched.size()>;
@@ -40,13 +54,20 @@ extern "C" void on_signal(int signal) {
         if (signal == handed_on[k]) signal = watched[k];
     if ((results_begun == 0 && delayed == 0) || at_once != 0) end_process(signal);
     received_signal = signal;
-    if (results_begun != 0) std::signal(signal, SIG_DFL);  // the second one ends the process
+    const std::int64_t now = nanoseconds();
+    if (received_at == 0)
+        received_at = now;
+    else if (results_begun != 0 && now - received_at > together) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);  // comes when this returns
+    }
 }
 
 }  // namespace
 
 InterruptWatch::InterruptWatch(const std::string& program) {
     results_begun = 0;
+    received_at = 0;
     for (std::size_t k = 0; k < watched.size(); ++k) {
         const std::string said = fmt::format("{}: interrupted by signal {}; ", program, watched[k]);
         without_results[k] = said + "there are no results yet\n";
@@ -81,6 +102,10 @@ InterruptWatch::AtOnce::~AtOnce() { at_once = 0; }
 void InterruptWatch::complete_results() { results_begun = 1; }
 
 int InterruptWatch::received() { return received_signal; }
+
+void InterruptWatch::check() {
+    if (received_signal != 0 && Parts::here().alone()) throw Interrupted();
+}
 
 int InterruptWatch::agreed() {
     if (!Parts::here().alone())

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint_chunks.hpp"
 #include "hdf5_image.hpp"
 #include "sealed_file.hpp"
 #include <spam/core/error.hpp>
@@ -41,7 +42,8 @@ struct CheckpointReader::Image {
         const Type type(H5Dget_type(dataset));
         const Space space(H5Dget_space(dataset));
         if (H5Tget_class(type) != type_class || (size > 0 && H5Tget_size(type) != size) ||
-            H5Sget_simple_extent_ndims(space) != rank)
+            H5Sget_simple_extent_ndims(space) != rank ||
+            !is_cut_so(dataset, space, H5Tget_size(type)))
             throw InputError(
                 fmt::format("checkpoint '{}' holds '{}', but not as {}; use the version of SPAM "
                             "that wrote it",

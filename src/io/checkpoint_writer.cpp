@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint_chunks.hpp"
 #include "file_descriptor.hpp"
 #include "hdf5_image.hpp"
 #include "sealed_file.hpp"
@@ -45,16 +46,8 @@ void make_way(hid_t file, const std::string& path) {
         throw std::logic_error(fmt::format("checkpoint: '{}' is given twice", path));
 }
 
-/// Chunks have checksums. At most 1 MiB, the size of HDF5's cache, and as equal as rows allow: the
-/// last is filled up.
 void set_chunks(hid_t creation, std::span<const hsize_t> shape, std::size_t element) {
-    std::vector<hsize_t> chunk(shape.begin(), shape.end());
-    hsize_t row = element;
-    for (const hsize_t n : shape.subspan(1)) row *= n;
-    const hsize_t most = std::max<hsize_t>(1, (1 << 20) / row);
-    const hsize_t chunks = (shape[0] + most - 1) / most;
-    chunk[0] = (shape[0] + chunks - 1) / chunks;
-    H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_chunk(creation, static_cast<int>(shape.size()), chunk_of(shape, element).data());
     H5Pset_fletcher32(creation);
 }
 

@@ -165,6 +165,8 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
                 Row row{open_tasks[k]->name};
                 row.insert(row.end(), cells->begin(), cells->end());
                 append(row);
+            } catch (const Interrupted&) {
+                interrupted = true;
             } catch (...) {
                 const std::lock_guard lock(mutex);
                 if (!error) error = std::current_exception();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/parts.hpp>
 #include <spam/diagnostics/total_energy.hpp>
+#include <spam/integrate/interrupt.hpp>
 #include <spam/problem/motion.hpp>
 
 #include <fmt/format.h>
@@ -79,7 +80,10 @@ Motion<Dim>::Motion(Model<Dim>& model, std::span<const double> y0, const Integra
 
 template <int Dim>
 void Motion<Dim>::advance_to(double t) {
-    while (integrator_->t() < t) integrator_->step(t);
+    while (integrator_->t() < t) {
+        InterruptWatch::check();
+        integrator_->step(t);
+    }
 }
 
 template <int Dim>

@@ -260,6 +260,8 @@ int Problem::run(int argc, char** argv, const std::function<void(Session&)>& bod
             return 0;
         } catch (const PartLeft&) {
             throw;
+        } catch (const Interrupted&) {
+            if (!session.folder_) throw;  // else the session says so
         } catch (...) {
             // Once there are results the input has been accepted: what fails then is the run.
             const std::string reason = session.folder_ ? why_a_run_stops() : "";

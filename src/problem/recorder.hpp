@@ -161,6 +161,11 @@ class Recorder {
                     result.push_back(fmt::format("angular_momentum_body_{}{}", b,
                                                  Dim == 2 ? "" : "_" + axes[std::size_t(p)]));
         for (const auto& column : columns_) {
+            if (column.name.empty() || column.name.find_first_of(",\"\r\n") != std::string::npos)
+                throw InputError(fmt::format(
+                    "columns: the name '{}' is empty or has a comma, a quote or a line's end; "
+                    "choose another name",
+                    column.name));
             if (std::find(result.begin(), result.end(), column.name) != result.end())
                 throw InputError(fmt::format(
                     "columns: there is a column '{}' already; choose another name", column.name));

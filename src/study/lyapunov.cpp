@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
+#include <spam/integrate/interrupt.hpp>
 #include <spam/study/lyapunov.hpp>
 
 #include <Eigen/QR>
@@ -123,7 +124,10 @@ TangentMotion<Dim>::TangentMotion(Model<Dim>& model, std::span<const double> y0,
 
 template <int Dim>
 void TangentMotion<Dim>::advance_to(double t) {
-    while (integrator_->t() < t) integrator_->step(t);
+    while (integrator_->t() < t) {
+        InterruptWatch::check();
+        integrator_->step(t);
+    }
 }
 
 template <int Dim>

@@ -83,6 +83,17 @@ BOOST_AUTO_TEST_CASE(computations_between_results_end_at_once) {
                    { const InterruptWatch::AtOnce at_once; }
                    std::raise(SIGINT);
                }) == 7);
+    // Two at once are one, as timeout(1) sends them; a later one ends the process by itself.
+    const auto twice = [](unsigned microseconds) {
+        return status_of([microseconds] {
+            std::raise(SIGINT);
+            usleep(microseconds);
+            std::raise(SIGINT);
+        });
+    };
+    BOOST_TEST(twice(0) == 7);
+    BOOST_TEST(twice(100'000) == 7);
+    BOOST_TEST(twice(600'000) == -1);
 }
 
 BOOST_AUTO_TEST_CASE(a_signal_ends_a_step_at_its_next_event) {

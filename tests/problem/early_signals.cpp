@@ -19,6 +19,8 @@ const std::vector<Busy> all{
     {"free_expansion", {"--cells", "900"}},
     {"stability", {"--cells", "200"}},
     {"lattice_stability", {"--cells", "24", "--potential", "both"}},
+    {"shock_tube", {"--compare"}},
+    {"turns_survived", {}},
 };
 
 }  // namespace

@@ -100,6 +100,14 @@ BOOST_AUTO_TEST_CASE(other_names_of_its_files_keep_their_contents) {
     BOOST_TEST(contents_of(folder / "out/run.log").starts_with(before["run.log"]));
 }
 
+BOOST_AUTO_TEST_CASE(no_library_is_taken_from_the_working_folder) {
+    const Scratch folder;
+    const auto program = problem("couette", {"--help"});
+    put_false_libraries(program.front(), folder);
+    BOOST_TEST(folder.listing().size() > 5U);
+    BOOST_TEST(run(program, {folder.path()}).status == 0);
+}
+
 /// A comparison is stopped between two of its runs, by one signal, and goes on in a folder that is its own.
 BOOST_AUTO_TEST_CASE(one_signal_ends_a_study_between_runs) {
     const Scratch folder;

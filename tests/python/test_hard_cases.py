@@ -307,6 +307,8 @@ class WrongInput(unittest.TestCase):
             ("every: 0", lambda: sim.run(1.0, every=0.0)),
             ("steps", lambda: make(dt=1e-9).run(1e3)),
             ("columns", lambda: sim.run(1.0, columns={"a": 3})),
+            ("the name 'a,b' is empty or has a comma", lambda: sim.run(1.0, columns={"a,b": len})),
+            ("the name '' is empty", lambda: sim.run(1.0, columns={"": len})),
             ("there is a column 'energy' already", lambda: sim.run(1.0, columns={"energy": lambda m, s: 1.0})),
             ("there is a column 't' already", lambda: sim.run(1.0, columns={"own": len, "t": lambda m, s: 1.0})),
             ("t_stop: -1", lambda: sim.step(-1.0)),

@@ -19,6 +19,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -214,5 +215,14 @@ inline Outcome run(const std::vector<std::string>& command, const Launch& launch
 
 /// Whether there is a gnuplot that starts.
 inline bool have_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
+
+/// Empty files by the names of the libraries that a program loads: one that looks for them in its working folder
+/// cannot start there.
+inline void put_false_libraries(const std::string& program, const Scratch& folder) {
+    std::istringstream lines(run({"ldd", program}).out);
+    for (std::string line; std::getline(lines, line);)
+        if (const auto end = line.find(" => "); end != std::string::npos)
+            folder.write(line.substr(line.find_first_not_of(" \t"), end - 1), "");
+}
 
 }  // namespace spam::test

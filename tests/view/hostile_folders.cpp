@@ -67,6 +67,14 @@ BOOST_AUTO_TEST_CASE(nothing_but_the_page_is_touched) {
     BOOST_TEST(test::contents_of(scratch / "precious") == "not yours");
 }
 
+BOOST_AUTO_TEST_CASE(no_library_is_taken_from_the_working_folder) {
+    const Scratch scratch;
+    const WrittenRun run(scratch / "out", 2);
+    test::put_false_libraries(SPAM_VIEW, scratch);
+    BOOST_TEST(scratch.listing().size() > 5U);
+    BOOST_TEST(look(scratch, {"out"}).status == 0);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_no_file_is_not_opened) {
     const Scratch scratch;
     const std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> kinds{

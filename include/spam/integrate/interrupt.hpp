@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 namespace spam {
 
+/// A signal was noted in the middle of a computation whose results so far are of no use.
+struct Interrupted : std::runtime_error {
+    Interrupted() : std::runtime_error("interrupted by a signal") {}
+};
+
 /// What SIGINT, SIGTERM and SIGHUP do while this is alive. At first they end the process at once, with
 /// a line on standard error and status 128 + signal: nothing has been computed that could be lost.
 /// From complete_results() on they are only noted, so that a run can complete its results; a second
-/// signal then ends the process. A signal that was ignored at the start stays ignored (nohup).
+/// signal, half a second later or more, then ends the process (timeout(1) sends two at once). A signal that was ignored
+/// at the start stays ignored (nohup).
 class InterruptWatch {
   public:
     /// `program` names the process in that line.
@@ -43,6 +50,8 @@ class InterruptWatch {
 
     /// The signal noted, 0 if none.
     static int received();
+    /// Throws Interrupted if there is one; not where other parts of the run would wait for this one.
+    static void check();
     /// That of any part of a run (core/parts.hpp), which is then noted here as well.
     static int agreed();
 };

@@ -39,7 +39,7 @@ class Motion {
     /// One accepted step, not past `t_stop`; returns the new time. Throws GuardStop with the reason where
     /// there is no way on (integrator.hpp): the motion then stands at the last accepted state.
     double step(double t_stop = 1e100) { return integrator_->step(t_stop); }
-    /// Steps until t() is `t`; the last one is shortened where it must be.
+    /// Steps until t() is `t`; the last one is shortened where it must be. Throws Interrupted after a signal.
     void advance_to(double t);
     /// Changes y between two steps. `change` returns whether it did: the integrator then begins anew.
     bool edit(const std::function<bool(std::span<double> y)>& change);

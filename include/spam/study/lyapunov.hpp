@@ -26,7 +26,7 @@ class TangentMotion {
     TangentMotion(Model<Dim>& model, std::span<const double> y0, const Eigen::MatrixXd& tangents,
                   const IntegratorOptions& options, double t0 = 0.0);
 
-    /// Throws GuardStop as an integrator does.
+    /// Throws GuardStop as an integrator does, and Interrupted after a signal.
     void advance_to(double t);
     double t() const { return integrator_->t(); }
     std::vector<double> y() const;
