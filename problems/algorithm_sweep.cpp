@@ -212,7 +212,7 @@ int main(int argc, char** argv) {
     auto& options = problem.options();
     options.integer("size", p.size, "n of the hexagon, which has 1 + 3n + 3n^2 particles",
                     between(1, 200));
-    options.number("speed", p.speed, "speed of the corners of the hexagon", between(1e-6, 1.0));
+    options.number("speed", p.speed, "speed of the corners of the hexagon", between(1e-6, 0.5));
     options.number("turns", p.turns, "largest number of nominal turns", at_least(1.0));
     options.number("range", p.range, "range h of Lucy's weight function", between(1.1, 20.0));
     options.number("viscosity", p.viscosity, "coefficient alpha of the combinations with viscosity",

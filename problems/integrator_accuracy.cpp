@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
         "n of the hexagons, which have 1 + 3n + 3n^2 particles, and of the cube, which has n^3",
         between(2, 50));
     options.number("speed", p.speed, "speed of the corners of the hexagons and of the cube",
-                   between(1e-6, 1.0));
+                   between(1e-6, 0.3));
     options.only_when(
         {"size", "speed"}, {"problem"},
         [&p] { return p.problem != "wave" && p.problem != "expansion"; },

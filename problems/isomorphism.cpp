@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
                         "the gas of Lucy's potential, embedded atoms, or both");
     options.integer("cells", p.cells, "n x n particles at spacing 1", between(4, 400));
     options.number("speed", p.speed, "root mean square of the initial velocities",
-                   between(1e-6, 3.0));
+                   between(1e-6, 1.0));
     options.number("range", p.range, "range h of Lucy's weight function", between(1.2, 20.0));
     options.number("perturbation", p.perturbation,
                    "initial displacement of one molecule of the second copy", between(1e-12, 1e-2));

@@ -20,7 +20,6 @@
 // With --potential one lattice under one choice of potentials is analysed, and nothing moves.
 #include "lattice_stability/motion.hpp"
 #include "lattice_stability/strength.hpp"
-#include "stiffness.hpp"
 #include <spam/kernel/kernel.hpp>
 #include <spam/kernel/weight_integrals.hpp>
 
@@ -42,7 +41,7 @@ double step_of(const Parameters& p) {
     const double slower = fastest(standard.kernel, range_of_dynamics) / fastest(p.kernel, *p.range);
     const double stronger = std::max(
         {1.0, p.strength / standard.strength, p.surface_tension / standard.surface_tension});
-    return step * std::min(1.0, slower / std::sqrt(stronger)) * relative_step(p.speed, 0.3);
+    return step * std::min(1.0, slower / std::sqrt(stronger));
 }
 
 /// With --potential one lattice is analysed: nothing moves, and potentials that do not act have no
@@ -176,7 +175,7 @@ int main(int argc, char** argv) {
                     {[](double n) { return n >= 4.0 && n <= 400.0 && std::fmod(n, 2.0) == 0.0; },
                      "an even number between 4 and 400"});
     options.number("speed", p.speed, "root mean square of the random initial velocities",
-                   between(1e-6, 10.0));
+                   between(1e-6, 0.3));
     options.integer("seed", p.seed, "seed of the random initial velocities", between(0.0, 1e9));
     add_rules(options, p);
 
