@@ -223,7 +223,7 @@ int main(int argc, char** argv) {
     add_jobs_option(options, p.jobs, "number of combinations computed at the same time");
 
     return problem.main(argc, argv, [&](Session& session) {
-        session.smoke_default("size", p.size, 2);
+        session.smoke_default("size", p.size, 1);
         session.smoke_default("turns", p.turns, 1.0);
         const auto schemes = combinations(p);
         std::vector<StudyTask> tasks;

@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
     options.flag("single", p.single,
                  "compute this number of particles only, not four times as many");
     return problem.main(argc, argv, [&](Session& session) {
-        session.smoke_default("cells", p.cells, 20);
+        session.smoke_default("cells", p.cells, 16);
         run(session, p);
     });
 }

@@ -2,6 +2,7 @@
 // How runs on several processes (--ranks) end, and go on on others.
 #include "problem/ranks.hpp"
 #include "problem/short_runs.hpp"
+#include "support/effort.hpp"
 #include <spam/core/program.hpp>
 
 #include <sstream>
@@ -107,6 +108,31 @@ BOOST_AUTO_TEST_CASE(a_rank_that_is_killed_ends_all) {
     for (int tenths = 0; tenths < 50 && !processes_with(marked).empty(); ++tenths)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     BOOST_TEST(processes_with(marked).empty());
+}
+
+/// Every fiftieth of 200 places, all of them in long runs: set-up, the first lists, steps, rows, checkpoints.
+BOOST_AUTO_TEST_CASE(an_exception_between_any_two_exchanges_ends_all) {
+    if (no_ranks()) return;
+    const auto run_failing = [](std::size_t in, std::size_t at) {
+        const Scratch folder;
+        Launch launch{folder.path()};
+        launch.before_exec = [in, at] {
+            setenv("SPAM_FAIL_IN", std::to_string(in).c_str(), 1);
+            setenv("SPAM_FAIL_AT", std::to_string(at).c_str(), 1);
+        };
+        return Child({SPAM_FAILING_PROBLEM, "--smoke", "--no-plots", "--quiet", "--ranks", "2",
+                      "--integrator", "arkode:DORMAND_PRINCE_7_4_5", "--output-every", "0.1"},
+                     launch)
+            .finish(Child::Seconds(30));
+    };
+    for (std::size_t at = 1; at <= 200; at += long_runs() ? 1 : 50)
+        for (const std::size_t in : {0, 1}) BOOST_TEST_CONTEXT(at << " in " << in) {
+                const Outcome outcome = run_failing(in, at);
+                BOOST_TEST(outcome.status > 0, "it did not end by itself within 30 s");
+                BOOST_TEST(outcome.err.find("thrown by a test") != std::string::npos, outcome.err);
+                BOOST_TEST(lines(outcome.err) == 1U, outcome.err);
+            }
+    BOOST_TEST(run_failing(0, 1'000'000).status == 0);
 }
 
 BOOST_AUTO_TEST_CASE(without_what_starts_them_ranks_are_refused) {

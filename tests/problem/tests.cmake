@@ -37,6 +37,15 @@ spam_problem_test(problem/ranks_bytes nlohmann_json::nlohmann_json)
 spam_problem_test(problem/ranks_end nlohmann_json::nlohmann_json)
 set_tests_properties(problem.ranks_bytes PROPERTIES ENVIRONMENT SPAM_QUARTER=0 PROCESSORS 2)
 set_tests_properties(problem.ranks_end PROPERTIES PROCESSORS 2)
+spam_long(problem/ranks_end)
+# A problem that fails between any two exchanges.
+add_executable(failing_problem ${PROJECT_SOURCE_DIR}/problems/counter_rotating.cpp
+                               ${CMAKE_CURRENT_SOURCE_DIR}/problem/failing_exchange.cpp)
+target_link_libraries(failing_problem PRIVATE problem_options spam::spam)
+target_link_options(failing_problem PRIVATE LINKER:--wrap=_ZN4spam14join_processesEv)
+target_compile_definitions(test.problem.ranks_end PRIVATE
+  SPAM_FAILING_PROBLEM="$<TARGET_FILE:failing_problem>")
+add_dependencies(test.problem.ranks_end failing_problem)
 foreach(quarter 1 2 3)
   add_test(NAME problem.ranks_bytes.${quarter} COMMAND test.problem.ranks_bytes --log_level=message)
   set_tests_properties(problem.ranks_bytes.${quarter} PROPERTIES
