@@ -274,7 +274,8 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
                     if ((found[group].fewer >> l & 1) != 0 &&
                         !newcomers_by_sums(k, x.data(), of_block[b].newcomers))
                         newcomers_of(k, x.data(), partners, of_block[b].newcomers);
-                    if ((found[group].idle >> l & 1) != 0) idle_of(k, x.data(), of_block[b].idle);
+                    if ((found[group].idle >> l & 1) != 0)
+                        idle_of(k, places(x.data()), of_block[b].idle);
                 }
             }
             return gone;
