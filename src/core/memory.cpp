@@ -13,6 +13,53 @@
 namespace spam {
 namespace {
 
+/// Where the numbers of each row begin, and where those of the last one end.
+std::vector<std::size_t> starts_of(const std::vector<std::uint32_t>& count) {
+    std::vector<std::size_t> start(count.size() + 1, 0);
+    std::inclusive_scan(count.begin(), count.end(), start.begin() + 1, std::plus<>(),
+                        std::size_t{0});
+    return start;
+}
+
+/// Puts what `from` has of a row behind what `to` has.
+void append_row(BondNumbers& to, const BondNumbers& from, std::size_t row,
+                const std::vector<std::size_t>& start, std::size_t stride) {
+    const auto add = [](auto& all, const auto& some, std::size_t begin, std::size_t end) {
+        all.insert(all.end(), some.begin() + static_cast<std::ptrdiff_t>(begin),
+                   some.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    to.count.push_back(from.count[row]);
+    add(to.partners, from.partners, start[row], start[row + 1]);
+    add(to.numbers, from.numbers, start[row] * stride, start[row + 1] * stride);
+}
+
+/// The rows of all parts of a run, in the order of their numbers; `own` are those of this part's.
+BondNumbers rows_of_all(const BondNumbers& rows, const std::vector<std::uint32_t>& own,
+                        std::size_t stride) {
+    Parts& parts = Parts::here();
+    const auto of_each = [&](const auto& values) { return parts.gather(std::span(values)); };
+    const auto numbers = of_each(own), count = of_each(rows.count),
+               partners = of_each(rows.partners);
+    const auto values = of_each(rows.numbers);
+    std::vector<BondNumbers> of_part;
+    std::vector<std::vector<std::size_t>> start;
+    std::vector<std::array<std::size_t, 3>> at;  // number, part and row
+    for (std::size_t p = 0; p < parts.count(); ++p) {
+        of_part.push_back({count[p], partners[p], values[p]});
+        start.push_back(starts_of(count[p]));
+        for (std::size_t k = 0; k < numbers[p].size(); ++k) at.push_back({numbers[p][k], p, k});
+    }
+    std::ranges::sort(at);
+    BondNumbers all;
+    for (const auto& [number, p, k] : at) append_row(all, of_part[p], k, start[p], stride);
+    return all;
+}
+
+void ascending_once(std::vector<std::array<std::uint32_t, 2>>& pairs) {
+    std::ranges::sort(pairs);
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
 template <int Dim>
 Vec<Dim> vector_of(const Point<Dim>& r) {
     Vec<Dim> v;
@@ -100,7 +147,10 @@ void Memory<Dim>::among(std::size_t first, std::size_t count) {
         !parts.alone()) {  // written and read is what holds for the whole run
         const double own =
             count > 0 ? parts.number(first) : std::numeric_limits<double>::infinity();
+        own_.clear();
+        for (std::size_t i = 0; i < count; ++i) own_.push_back(parts.number(first + i));
         first = static_cast<std::size_t>(-parts.most(-own));
+        for (std::uint32_t& i : own_) i -= static_cast<std::uint32_t>(first);
         count = parts.total(count);
     }
     std::size_t was = first;
@@ -120,11 +170,11 @@ void Memory<Dim>::particles(Field field, std::vector<double>& values) {
     Parts& parts = Parts::here();
     const std::size_t components = field.components<Dim>();
     std::vector<double> old;
-    if (!reading()) old = parts.by_number(std::span<const double>(values), components);
+    if (!reading()) old = parts.by_number(std::span<const double>(values), components, own_);
     archive_(old);
     if (!reading()) return;
     expect(field, old.size() == components * was_);
-    if (!carries()) values = parts.own_of(std::span<const double>(old), components);
+    if (!carries()) values = parts.own_of(std::span<const double>(old), components, own_);
     if (!carries() || field.role() == Role::derived) return;
     values.resize(components * count_);
     change_.carry(field, old.data(), values.data(), components);
@@ -135,11 +185,11 @@ void Memory<Dim>::particles(Field field, std::vector<std::int32_t>& labels) {
     begin(field, Holder::particle);
     Parts& own = Parts::here();
     std::vector<std::int32_t> old;
-    if (!reading()) old = own.by_number(std::span<const std::int32_t>(labels));
+    if (!reading()) old = own.by_number(std::span<const std::int32_t>(labels), 1, own_);
     archive_(old);
     if (!reading()) return;
     expect(field, old.size() == was_);
-    if (!carries()) labels = own.own_of(std::span<const std::int32_t>(old));
+    if (!carries()) labels = own.own_of(std::span<const std::int32_t>(old), 1, own_);
     if (!carries() || field.role() == Role::derived) return;
     labels.clear();
     for (const auto& parts : change_.parts) {
@@ -168,6 +218,8 @@ void Memory<Dim>::bonds(std::span<const Field> fields, BondNumbers& bonds) {
         begin(field, Holder::bond);
         stride += field.components<Dim>();
     }
+    const bool alone = Parts::here().alone();
+    if (!reading() && !alone) bonds = rows_of_all(bonds, own_, stride);
     archive_(bonds.count, bonds.partners, bonds.numbers);
     if (!reading()) return;
     const std::size_t all = std::accumulate(bonds.count.begin(), bonds.count.end(), std::size_t{0});
@@ -175,11 +227,14 @@ void Memory<Dim>::bonds(std::span<const Field> fields, BondNumbers& bonds) {
            bonds.count.size() == was_ && bonds.partners.size() == all &&
                bonds.numbers.size() == stride * all &&
                std::ranges::all_of(bonds.partners, [&](std::uint32_t j) { return j < was_; }));
+    const std::vector<std::size_t> start = starts_of(bonds.count);
+    if (!alone) {
+        const BondNumbers whole = std::move(bonds);
+        bonds = {};
+        for (const std::uint32_t k : own_) append_row(bonds, whole, k, start, stride);
+    }
     if (!carries()) return;
 
-    std::vector<std::size_t> start(was_ + 1, 0);
-    std::inclusive_scan(bonds.count.begin(), bonds.count.end(), start.begin() + 1, std::plus<>(),
-                        std::size_t{0});
     const auto heirs = this->heirs();
     BondNumbers made;
     struct Sum {
@@ -226,6 +281,12 @@ void Memory<Dim>::bonds(std::span<const Field> fields, BondNumbers& bonds) {
 template <int Dim>
 void Memory<Dim>::pairs(Field field, std::vector<std::array<std::uint32_t, 2>>& pairs) {
     begin(field, Holder::bond);
+    if (Parts& parts = Parts::here(); !reading() && !parts.alone()) {
+        const auto of_all = parts.gather(std::span<const std::array<std::uint32_t, 2>>(pairs));
+        pairs.clear();
+        for (const auto& some : of_all) pairs.insert(pairs.end(), some.begin(), some.end());
+        ascending_once(pairs);
+    }
     archive_(pairs);
     if (!reading()) return;
     expect(field, std::ranges::all_of(
@@ -237,8 +298,7 @@ void Memory<Dim>::pairs(Field field, std::vector<std::array<std::uint32_t, 2>>& 
         for (const std::uint32_t k : heirs[a])
             for (const std::uint32_t j : heirs[b])
                 if (k != j) made.push_back({std::min(k, j), std::max(k, j)});
-    std::ranges::sort(made);
-    made.erase(std::unique(made.begin(), made.end()), made.end());
+    ascending_once(made);
     pairs = std::move(made);
 }
 

@@ -6,9 +6,10 @@
 namespace spam {
 
 template <int Dim>
-void MotionSince<Dim>::begin(const Eigen::Ref<const Points<Dim>>& position) {
+void MotionSince<Dim>::begin(const Eigen::Ref<const Points<Dim>>& position,
+                             const RigidMotion<Dim>& motion) {
     then_ = position;
-    motion_ = {};
+    motion_ = motion;
 }
 
 template <int Dim>

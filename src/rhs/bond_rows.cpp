@@ -30,6 +30,7 @@ BondNumbers room_for(std::size_t particles, std::size_t bonds) {
 template <int Dim>
 BondRows<Dim>::BondRows(std::size_t particles, std::size_t lanes)
     : lanes_(lanes),
+      others_(particles, (particles + lanes - 1) / lanes * lanes),
       count_(particles, 0),
       first_((particles + lanes - 1) / lanes + 1, 0),
       shift_((particles + block - 1) / block, 0) {}
@@ -80,6 +81,7 @@ void BondRows<Dim>::lay_out(const std::vector<std::uint32_t>& capacity) {
             for (std::size_t s = 0; s < held; ++s) {
                 const std::uint32_t j = partner[from + s];
                 partner_[to + s] = j;
+                if (others_.elsewhere(j)) continue;
                 reverse_[to + s] =
                     static_cast<std::uint32_t>(reverse[from + s] - shift_before[j / block] -
                                                first_before[j / lanes_] + first_[j / lanes_]);
@@ -128,6 +130,7 @@ void BondRows<Dim>::make_room(std::vector<Newcomer>& newcomers) {
 }
 
 /// Those who are there in both directions: where rounding lets only one of two meet the other, they meet next time.
+/// Partners elsewhere are.
 template <int Dim>
 class BondRows<Dim>::Meetings {
   public:
@@ -135,7 +138,7 @@ class BondRows<Dim>::Meetings {
         : newcomers_(newcomers),
           first_(particles + 1, 0) {
         index();
-        const auto met = [&](const Newcomer& bond) { return back(bond) != nullptr; };
+        const auto met = [&](const Newcomer& bond) { return elsewhere(bond) || back(bond); };
         if (std::all_of(newcomers.begin(), newcomers.end(), met)) return;
         std::vector<Newcomer> both;
         std::copy_if(newcomers.begin(), newcomers.end(), std::back_inserter(both), met);
@@ -150,6 +153,7 @@ class BondRows<Dim>::Meetings {
     }
 
   private:
+    bool elsewhere(const Newcomer& bond) const { return bond.j + 1 >= first_.size(); }
     void index() {
         std::fill(first_.begin(), first_.end(), 0);
         for (const Newcomer& bond : newcomers_) ++first_[bond.k + 1];
@@ -167,9 +171,11 @@ void BondRows<Dim>::enter(std::vector<Newcomer>& newcomers) {
     parallel_for(newcomers.size(), [&](std::size_t n) {
         const Newcomer& bond = newcomers[n];
         partner_[slot(bond.k, bond.row)] = bond.j;
+        if (others_.elsewhere(bond.j)) return;
         reverse_[slot(bond.k, bond.row)] = place(bond.j, meetings.back(bond)->row);
     });
     bonds_ += newcomers.size();
+    scheduled_ = scheduled_ && others_.none();
     for (const Newcomer& bond : newcomers) {
         if (!scheduled_) break;
         const BondSchedule::Reach& reach = reach_[bond.k / block];
@@ -180,6 +186,7 @@ void BondRows<Dim>::enter(std::vector<Newcomer>& newcomers) {
 template <int Dim>
 void BondRows<Dim>::find_way_back(std::size_t k, std::size_t m) {
     const std::size_t j = partner(k, m);
+    if (others_.elsewhere(j)) return;
     reverse_[slot(k, m)] = place(j, place_of(j, k));
 }
 
@@ -219,15 +226,17 @@ void BondRows<Dim>::hold(const BondNumbers& contents) {
 
 template <int Dim>
 void BondRows<Dim>::tidy() {
-    if (5 * places() <= 6 * bonds_) return;
+    Parts& parts = Parts::here();
+    if (5 * parts.total(places()) <= 6 * parts.total(bonds_)) return;
     BondNumbers contents = room_for<Dim>(particles(), bonds_);
     std::vector<std::uint32_t> order;
     for (std::size_t k = 0; k < particles(); ++k) {
         order.clear();
         for (std::uint32_t m = 0; m < row(k); ++m)
             if (!vacant(k, m)) order.push_back(m);
+        const auto number = [&](std::uint32_t m) { return others_.number(partner(k, m)); };
         std::sort(order.begin(), order.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return partner(k, a) < partner(k, b); });
+                  [&](std::uint32_t a, std::uint32_t b) { return number(a) < number(b); });
         for (const std::uint32_t m : order) add(contents, k, m);
     }
     hold(contents);
@@ -243,6 +252,10 @@ void BondRows<Dim>::find_reach() {
             reach_[b] = {b, b};
             for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k)
                 for (std::size_t m = 0; m < row(k); ++m) {
+                    if (others_.elsewhere(partner(k, m))) {
+                        reach_[b].elsewhere = true;
+                        continue;
+                    }
                     reach_[b].first = std::min<std::size_t>(reach_[b].first, partner(k, m) / block);
                     reach_[b].last = std::max<std::size_t>(reach_[b].last, partner(k, m) / block);
                 }
@@ -274,9 +287,10 @@ const BondSchedule& BondRows<Dim>::schedule(std::size_t threads) {
         groups(),
         [&](std::size_t group) {
             for (std::size_t s = first_[group]; s < first_[group + 1]; ++s)
-                reverse_[s] += change[partner_[s] / block];
+                if (!others_.elsewhere(partner_[s])) reverse_[s] += change[partner_[s] / block];
         },
         lanes_);
+    find_ways_across(schedule_.rooms() * largest);
     return schedule_;
 }
 
@@ -298,8 +312,12 @@ void BondRows<Dim>::remember(Memory<Dim>& memory) {
     if (!memory.reading())
         for (std::size_t k = 0; k < particles(); ++k)
             for (std::size_t m = 0; m < row(k); ++m) add(contents, k, m);
+    for (std::uint32_t& j : contents.partners) j = others_.number(j);
     memory.bonds(std::array<Field, 2>{vector_kind, weight_kind}, contents);
-    if (memory.reading()) hold(contents);
+    if (!memory.reading()) return;
+    others_.set(contents.partners);
+    for (std::uint32_t& j : contents.partners) j = others_.place(j);
+    hold(contents);
 }
 
 template class BondRows<2>;

@@ -3,6 +3,7 @@
 
 #include "bond_schedule.hpp"
 #include "bond_sweeps.hpp"
+#include "other_partners.hpp"
 #include <spam/core/memory.hpp>
 #include <spam/core/tensor.hpp>
 
@@ -16,7 +17,8 @@ namespace spam {
 /// weight; every pair stands in both rows. Rows of as many particles as there are lanes, a group, lie together
 /// and are as long as the longest. A bond that is gone leaves a vacancy, whose partner is k itself and whose
 /// X and g are 0: it adds exact zeros to every sum. The order of a row is that in which bonds came, whatever the
-/// number of lanes.
+/// number of lanes. Partners in other parts of the run have places behind those of all groups, and their rows are
+/// there (bond_parts.cpp).
 template <int Dim>
 class BondRows {
   public:
@@ -30,6 +32,8 @@ class BondRows {
     std::size_t lanes() const { return lanes_; }
     /// Without vacancies; both directions of each pair.
     std::size_t bonds() const { return bonds_; }
+    /// Each pair is counted in one part of the run.
+    std::size_t pairs() const;
 
     std::size_t row(std::size_t k) const { return count_[k]; }  ///< with vacancies
     /// The lengths of all rows.
@@ -55,12 +59,20 @@ class BondRows {
         std::size_t row = 0;  ///< where it stands; set by enter()
     };
     /// Takes them in, where vacancies are first, and says which row of k each has; with X = g = 0 until set().
-    /// `newcomers`: ascending by k, then j; those that have no other direction are dropped.
+    /// `newcomers`: ascending by k, then the number of j; those that have no other direction are dropped.
     void enter(std::vector<Newcomer>& newcomers);
     /// What bonds are left after so many have gone, where loops have written vacancies.
     void discount(std::size_t gone) { bonds_ -= gone; }
-    /// Rows without vacancies, partners ascending, where these have become many.
+    /// Rows without vacancies, partners ascending, where these have become many in all parts of the run together.
     void tidy();
+
+    const OtherPartners& others() const { return others_; }
+    /// The partners in other parts are those that rows have and those of these numbers. Returns what OtherPartners::set
+    /// returns.
+    std::vector<std::uint32_t> meet(std::vector<std::uint32_t> numbers);
+    /// Gives other parts what our bonds with their particles have found, and takes what theirs have: before any block
+    /// that is given last.
+    void pass_on();
 
     /// Blocks in an order for so many threads, with t laid out for it; made anew where rows have changed.
     const BondSchedule& schedule(std::size_t threads);
@@ -93,8 +105,10 @@ class BondRows {
     void find_reach();
     void vacate(std::size_t begin, std::size_t end, std::size_t group);
     void find_way_back(std::size_t k, std::size_t m);
+    void find_ways_across(std::size_t base);
 
     std::size_t lanes_, bonds_ = 0;
+    OtherPartners others_;
     std::vector<std::uint32_t> count_;  ///< by particle
     std::vector<std::size_t> first_;    ///< by group
     std::vector<std::uint32_t> partner_, reverse_;
@@ -103,6 +117,8 @@ class BondRows {
     std::vector<BondSchedule::Reach> reach_;
     BondSchedule schedule_;
     bool scheduled_ = false;  ///< for these rows
+    /// By part: places in t of what it is given, and of what comes from there.
+    std::vector<std::vector<std::uint32_t>> given_, taken_;
 };
 
 extern template class BondRows<2>;

@@ -19,7 +19,8 @@ void BondSchedule::order(std::span<const Reach> reach) {
         for (std::size_t b = begin(thread); b < end(thread); ++b) {
             for (; next <= b; ++next) {
                 const auto one = static_cast<std::uint32_t>(next);
-                if (reach[next].first < begin(thread) || reach[next].last >= end(thread))
+                if (reach[next].elsewhere || reach[next].first < begin(thread) ||
+                    reach[next].last >= end(thread))
                     last_.push_back(one);
                 else if (reach[next].last <= b)
                     given_.push_back(one);

@@ -12,12 +12,13 @@ namespace spam {
 /// is kept meanwhile. A block is found first, and given back what its partners have found as soon as all of these
 /// are there; then the room of those that nobody waits for any more is used again, so that what is found stays in
 /// the cache. Every thread has blocks that follow each other; a block with partners among those of another thread is
-/// given last, when all are found. No sum depends on it.
+/// given last, when all are found; likewise one with partners in other parts of the run. No sum depends on it.
 class BondSchedule {
   public:
     /// The first and the last block that a block has bonds with.
     struct Reach {
         std::size_t first, last;
+        bool elsewhere = false;  ///< and with particles of other parts
     };
 
     BondSchedule() = default;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr FieldKind listed_kind{"listed_at", Rank::vector, Role::derived, "l"};
 constexpr FieldKind sought_kind{"sought_at", Rank::vector, Role::derived, "l"};
+constexpr FieldKind moved_kind{"moved_since", Rank::scalar, Role::derived, "1"};
 constexpr FieldKind bodies_kind{"body_of_vectors", Rank::scalar, Role::memory, "1", 100,
                                 Quantity::scalar,  Share::equal};
 
@@ -30,7 +31,7 @@ constexpr auto kinds_of_record = [] {
     return kinds;
 }();
 
-/// Whether somebody is among the partners of a particle, answered by a table of hashes.
+/// Whether a number is that of a partner of a particle, answered by a table of hashes.
 class Partners {
   public:
     template <int Dim>
@@ -38,7 +39,10 @@ class Partners {
         mask_ = std::bit_ceil(2 * rows.row(k) + 1) - 1;
         held_.assign(mask_ + 1, nobody);
         for (std::size_t m = 0; m < rows.row(k); ++m)
-            if (!rows.vacant(k, m)) held_[place(rows.partner(k, m))] = rows.partner(k, m);
+            if (!rows.vacant(k, m)) {
+                const std::uint32_t j = rows.others().number(rows.partner(k, m));
+                held_[place(j)] = j;
+            }
     }
     bool contain(std::uint32_t j) const { return held_[place(j)] == j; }
 
@@ -72,6 +76,7 @@ BondTable<Dim>::BondTable(double range, const Box<Dim>& box, int lanes,
     x_.assign(filled * Dim, 0.0);
     missing_.assign(filled * NeighbourSums::numbers, 0.0);
     anchoring_.assign(filled * Dim * Dim, 0.0);
+    list_neighbours(x);
     renew(x, 0.0);
     admit();
     for (const Newcomer& bond : newcomers_) set_X(bond.k, bond.row, bond.r);
@@ -99,8 +104,9 @@ Vec<Dim> BondTable<Dim>::separation(const double* x, std::size_t k, std::size_t 
 
 template <int Dim>
 std::vector<double> BondTable<Dim>::positions(const double* x) const {
-    std::vector<double> placed(x_.size(), 0.0);
+    std::vector<double> placed(others().places() * Dim, 0.0);
     place(x, placed.data());
+    place_others(x, placed, nullptr);
     return placed;
 }
 
@@ -131,10 +137,10 @@ BondView<Dim> BondTable<Dim>::view(double N0) {
 template <int Dim>
 void BondTable<Dim>::list_neighbours(const Eigen::Ref<const Points<Dim>>& x) {
     near_.build(x);
+    listed_.begin(x);
     slot_of_.resize(particles());
     for (std::size_t slot = 0; slot < particles(); ++slot)
         slot_of_[near_.list().order()[slot]] = static_cast<std::uint32_t>(slot);
-    rows_.tidy();
 }
 
 /// NeighbourSums of those of its body that are nearer than range + skin, by particle.
@@ -146,7 +152,7 @@ void BondTable<Dim>::count_neighbours(const double* x) {
         [&](std::size_t i, double* record) {
             std::copy_n(x + i * Dim, Dim, record);
             record[Dim] = 2.0 * reach * bodies_[i];  // another body is far away
-            record[Dim + 1] = static_cast<double>(i);
+            record[Dim + 1] = others().number(i);
         },
         kinds_of_record<Dim>);
     const ClusterView view = near_.list().view();
@@ -160,7 +166,6 @@ template <int Dim>
 template <class Partners>
 void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& partners,
                                   std::vector<Newcomer>& newcomers) const {
-    constexpr std::size_t stride = Dim + 2;
     const double reach2 = (1.0 + skin) * (1.0 + skin) * range_ * range_;
     const std::size_t cluster = slot_of_[k] / rows_.lanes(), before = newcomers.size();
     const double *const own = near_.record(slot_of_[k]), *const records = near_.records().numbers;
@@ -172,9 +177,10 @@ void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& part
             r2 += r * r;
         }
         if (!(r2 < reach2)) continue;
-        const std::uint32_t j = near_.list().particle(entry / stride);
-        if (j != k && !partners.contain(j))
-            newcomers.push_back({static_cast<std::uint32_t>(k), j, separation(x, k, j)});
+        const auto j = static_cast<std::uint32_t>(records[entry + Dim + 1]);
+        if (j == static_cast<std::uint32_t>(own[Dim + 1]) || partners.contain(j)) continue;
+        newcomers.push_back({static_cast<std::uint32_t>(k), j, {}});
+        if (others().none()) newcomers.back().r = separation(x, k, j);
     }
     const auto begin = newcomers.begin() + static_cast<std::ptrdiff_t>(before);
     std::sort(begin, newcomers.end(),
@@ -185,10 +191,11 @@ void BondTable<Dim>::newcomers_of(std::size_t k, const double* x, Partners& part
 }
 
 /// One or two follow from how many are missing, the sum of their numbers and that of the squares. False where these
-/// say something else.
+/// say something else, and where places are no numbers.
 template <int Dim>
 bool BondTable<Dim>::newcomers_by_sums(std::size_t k, const double* x,
                                        std::vector<Newcomer>& newcomers) const {
+    if (!others().none()) return false;
     using N = NeighbourSums;
     const double* const missing = &missing_[k * N::numbers];
     const double sum = missing[N::sum], squares = missing[N::squares];
@@ -231,7 +238,10 @@ void BondTable<Dim>::idle_of(std::size_t k, const double* x, std::vector<Newcome
 
 template <int Dim>
 void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
-    if (!near_.list_serves(x)) list_neighbours(x);
+    if (!listed_.within(0.5 * near_.list().skin(), x, box_.of_images())) {
+        list_neighbours(x);
+        rows_.tidy();
+    }
     motion_.begin(x);
     ++updates_;
     load(x.data());
@@ -264,7 +274,8 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
                     if ((found[group].fewer >> l & 1) != 0 &&
                         !newcomers_by_sums(k, x.data(), of_block[b].newcomers))
                         newcomers_of(k, x.data(), partners, of_block[b].newcomers);
-                    if ((found[group].idle >> l & 1) != 0) idle_of(k, x.data(), of_block[b].idle);
+                    if ((found[group].idle >> l & 1) != 0)
+                        idle_of(k, places(x.data()), of_block[b].idle);
                 }
             }
             return gone;
@@ -280,6 +291,7 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
         idle_.insert(idle_.end(), some.idle.begin(), some.idle.end());
         some = {};
     }
+    meet_others(x.data());
 }
 
 template <int Dim>
@@ -298,14 +310,17 @@ void BondTable<Dim>::remember(Memory<Dim>& memory) {
         return Eigen::Map<const Points<Dim>>(x.data(), Dim,
                                              static_cast<Eigen::Index>(x.size() / Dim));
     };
-    std::vector<double> listed_at = flat(near_.list().built_at()), sought_at = flat(motion_.then());
+    std::vector<double> listed_at = flat(listed_.then()), sought_at = flat(motion_.then());
     memory.particles(listed_kind, listed_at);
     memory.particles(sought_kind, sought_at);
     memory.particles(bodies_kind, bodies_);
+    RigidMotion<Dim> listed = listed_.motion(), sought = motion_.motion();
+    memory.run(moved_kind, listed, sought);
     rows_.remember(memory);
     if (!memory.reading() || memory.carries()) return;
-    motion_.begin(points(sought_at));
     list_neighbours(points(listed_at));
+    listed_.begin(points(listed_at), listed);
+    motion_.begin(points(sought_at), sought);
 }
 
 template class BondTable<2>;

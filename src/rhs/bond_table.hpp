@@ -30,8 +30,8 @@ class BondTable {
     /// Drops bonds that are beyond range + skin, gives others that are beyond the range vectors without misfit, and
     /// finds who has come nearer and is in no row yet. N0: of a whole particle (Wholeness).
     void renew(const Eigen::Ref<const Points<Dim>>& x, double N0);
-    /// Of the last renew(), ascending by k, then j, both directions of every pair; to be admitted, and their
-    /// vectors set.
+    /// Of the last renew(), ascending by k, then the number of j, both directions of every pair; to be admitted, and
+    /// their vectors set.
     const std::vector<Newcomer>& newcomers() const { return newcomers_; }
     void admit() { rows_.enter(newcomers_); }
     /// Bonds within the range that weigh nothing, because their vectors are too long: they may be anchored anew.
@@ -43,7 +43,8 @@ class BondTable {
 
     std::size_t particles() const { return rows_.particles(); }
     std::size_t groups() const { return rows_.groups(); }
-    std::size_t bonds() const { return rows_.bonds(); }  ///< both directions of each pair
+    /// Each once, in one part of the run.
+    std::size_t pairs() const { return rows_.pairs(); }
     std::size_t updates() const { return updates_; }
 
     std::size_t row(std::size_t k) const { return rows_.row(k); }
@@ -64,9 +65,17 @@ class BondTable {
     static constexpr std::size_t block = BondRows<Dim>::block;
     std::size_t blocks() const { return (particles() + block - 1) / block; }
     const BondSchedule& schedule(std::size_t threads) { return rows_.schedule(threads); }
+    void pass_on() { rows_.pass_on(); }
+
+    const OtherPartners& others() const { return rows_.others(); }
+    /// Of our own particles and of partners in other parts, by place: x, the positions that were loaded last.
+    const double* places(const double* x) const { return others().none() ? x : at_.data(); }
 
     /// Positions for the loops: inside a periodic box, and some behind the last one.
-    void load(const double* x) { place(x, x_.data()); }
+    void load(const double* x) {
+        place(x, x_.data());
+        load_others(x);
+    }
     /// The same for a view of its own, so that observers leave alone what right-hand sides have loaded.
     std::vector<double> positions(const double* x) const;
     /// For these loops, which write t.
@@ -77,6 +86,9 @@ class BondTable {
 
   private:
     void place(const double* x, double* to) const;
+    void load_others(const double* x);
+    void place_others(const double* x, std::vector<double>& placed, double* at) const;
+    void meet_others(const double* x);
     void list_neighbours(const Eigen::Ref<const Points<Dim>>& x);
     void count_neighbours(const double* x);
     template <class Partners>
@@ -93,8 +105,9 @@ class BondTable {
     Neighbourhood<Dim> near_;             ///< of positions, bodies and numbers
     std::vector<std::uint32_t> slot_of_;  ///< in the list, of a particle
     MotionSince<Dim> motion_;             ///< since newcomers were looked for
+    MotionSince<Dim> listed_;             ///< since the list was made
     BondRows<Dim> rows_;
-    std::vector<double> x_, anchoring_;
+    std::vector<double> x_, at_, anchoring_;
     std::vector<double> missing_;  ///< NeighbourSums by particle
     std::vector<Newcomer> newcomers_, idle_;
     std::size_t updates_ = 0;

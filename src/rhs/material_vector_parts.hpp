@@ -41,10 +41,10 @@ struct MaterialVectors<Dim>::Parts {
     bool brittle = false;
     BondBreaks breaks{};
     std::size_t told = 0;  ///< pairs, by the latest remark
-    /// Pairs k < j that have broken and have not been apart since, ascending.
+    /// Pairs of numbers k < j that have broken and have not been apart since, ascending; with one of ours at least.
     std::vector<std::array<std::uint32_t, 2>> excluded{};
     std::vector<unsigned char> breaking{};  ///< by particle
-    std::vector<SymTensor<Dim>> tau{};      ///< likewise
+    std::vector<SymTensor<Dim>> tau{};      ///< likewise, and by partner elsewhere
     std::size_t watched = 0;                ///< states that watch() was shown
     bool warned = false;
 
@@ -106,13 +106,24 @@ struct MaterialVectors<Dim>::Parts {
             return std::size_t{0};
         });
     }
-    bool excludes(std::uint32_t k, std::uint32_t j) const {
-        return std::binary_search(excluded.begin(), excluded.end(),
-                                  std::array{std::min(k, j), std::max(k, j)});
+    /// The numbers of what stands at these places.
+    std::array<std::uint32_t, 2> pair_of(std::uint32_t k, std::uint32_t j) const {
+        const std::uint32_t a = table.others().number(k), b = table.others().number(j);
+        return {std::min(a, b), std::max(a, b)};
     }
-    /// No weight for the bonds of this pair.
+    /// Those of all parts of the run, ascending.
+    void add_other_pairs(std::vector<std::array<std::uint32_t, 2>>& pairs) const;
+    /// Forgets pairs of others.
+    void keep_own(std::vector<std::array<std::uint32_t, 2>>& pairs) const;
+    bool is_own(std::uint32_t place) const { return place < numbers.size(); }
+    bool excludes(std::uint32_t k, std::uint32_t j) const {
+        return std::binary_search(excluded.begin(), excluded.end(), pair_of(k, j));
+    }
+    /// No weight for the bonds of the pair with these numbers.
     void part(const std::array<std::uint32_t, 2>& pair) {
-        for (const auto& [k, j] : {pair, {pair[1], pair[0]}}) {
+        const std::uint32_t a = table.others().place(pair[0]), b = table.others().place(pair[1]);
+        for (const auto& [k, j] : {std::pair(a, b), {b, a}}) {
+            if (!is_own(k)) continue;
             const std::size_t m = table.place_of(k, j);
             table.set_bond(k, m, table.X(k, m), 0.0);
         }
@@ -137,6 +148,7 @@ struct MaterialVectors<Dim>::Parts {
                 }
             },
             (table.particles() + schedule.threads() - 1) / schedule.threads());
+        table.pass_on();
         const auto last = schedule.last();
         parallel_for(
             last.size(), [&](std::size_t n) { of_block(give, last[n]); }, table.block);

@@ -87,7 +87,6 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     : Term<Dim>(among),
       material_(material),
       scheme_(validated(scheme, this->particles(), material)) {
-    this->require_one_part("a solid with material vectors");
     const auto sweeps = at_level(instruction_set(), [&](auto level) {
         return bond_sweeps<Dim, level>(this->box().periodic());
     });
@@ -105,12 +104,13 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     p.heat.assign(n, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
         BondFit<Dim, double> sums;
-        for (const Bond& bond : bonds_at(all.reference_position.data(), k))
+        for (const Bond& bond : bonds_at(p.table.places(all.reference_position.data()), k))
             sums.add(bond.weight, bond.X, bond.X);
         double trace = 0.0;
         for (int a = 0; a < Dim; ++a) trace += sums.N(a, a);
         p.N0 = std::max(p.N0, trace / Dim);
     }
+    p.N0 = spam::Parts::here().most(p.N0);
     if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
     p.stiffness = scheme.penalty * material.stiffness() / p.N0;
     if (scheme.bond_yield > 0.0) p.misfit_limit = scheme.bond_yield * material.yield_strain();
@@ -199,7 +199,7 @@ std::string MaterialVectors<Dim>::complaint(const ConstState<Dim>& state) const 
     const auto finite = [](const Mat<Dim>& t) {
         return std::all_of(t.c.begin(), t.c.end(), [](double x) { return std::isfinite(x); });
     };
-    const double* const x = state.position().data();
+    const double* const x = parts_->table.places(state.position().data());
     for (const std::uint32_t& k : parts_->numbers) {
         const Mat<Dim> F = fit(x, k).F;
         Mat<Dim> P;
@@ -214,7 +214,7 @@ std::string MaterialVectors<Dim>::complaint(const ConstState<Dim>& state) const 
 
 template <int Dim>
 auto MaterialVectors<Dim>::counts() const -> Counts {
-    return {parts_->table.bonds() / 2, parts_->table.updates()};
+    return {parts_->table.pairs(), parts_->table.updates()};
 }
 
 template <int Dim>
@@ -223,7 +223,12 @@ void MaterialVectors<Dim>::remember(Memory<Dim>& memory) {
     memory.run(stiffness_kind, p.N0, p.stiffness);
     memory.particles(heat_kind, p.heat);
     p.table.remember(memory);
-    memory.pairs(broken_kind, p.excluded);
+    auto excluded = p.excluded;
+    memory.pairs(broken_kind, excluded);
+    if (memory.reading()) {
+        p.keep_own(excluded);
+        p.excluded = std::move(excluded);
+    }
     memory.run(breaks_kind, p.breaks, p.told);
     memory.run(watched_kind, p.watched, p.warned);
 }

@@ -14,7 +14,7 @@ template <int Dim>
 SymTensor<Dim> MaterialVectors<Dim>::kirchhoff_stress(std::size_t k,
                                                       const ConstState<Dim>& state) const {
     SymTensor<Dim> tau;
-    const Fit now = fit(state.position().data(), k);
+    const Fit now = fit(parts_->table.places(state.position().data()), k);
     const Wholeness whole = Wholeness::of(now.K, parts_->N0);
     if (!whole.spans()) return tau;
     Mat<Dim> P;
@@ -29,19 +29,24 @@ SymTensor<Dim> MaterialVectors<Dim>::kirchhoff_stress(std::size_t k,
 template <int Dim>
 bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
     Parts& p = *parts_;
-    const double* const x = state.position().data();
     const std::size_t n = p.numbers.size();
     const double stretch2 = scheme_.stretch_limit * scheme_.stretch_limit,
                  range2 = scheme_.range * scheme_.range;
     const bool by_stress = scheme_.stress_limit < HUGE_VAL;
     p.breaking.assign(n, 0);
-    bool any = p.count_particles(x, HUGE_VAL, stretch2,
+    bool any = p.count_particles(state.position().data(), HUGE_VAL, stretch2,
                                  [&](std::size_t k, const Mat<Dim>&, bool beyond) -> std::size_t {
                                      p.breaking[k] = beyond;
                                      return beyond;
                                  }) > 0;
-    p.tau.resize(by_stress ? n : 0);
-    if (by_stress) parallel_for(n, [&](std::size_t k) { p.tau[k] = kirchhoff_stress(k, state); });
+    const OtherPartners& others = p.table.others();
+    const double* const x = p.table.places(state.position().data());
+    p.tau.resize(by_stress ? others.places() : 0);
+    if (by_stress) {
+        parallel_for(n, [&](std::size_t k) { p.tau[k] = kirchhoff_stress(k, state); });
+        others.fetch<SymTensor<Dim>>([&](std::size_t k) { return p.tau[k]; },
+                                     [&](std::size_t j, const auto& tau) { p.tau[j] = tau; });
+    }
     const auto breaks = [&](std::size_t k, std::size_t m) {
         if (!(p.table.g(k, m) > 0.0)) return false;
         const std::uint32_t j = p.table.partner(k, m);
@@ -57,21 +62,22 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
                       if (breaks(k, m)) p.breaking[k] = 1;
                   return p.breaking[k];
               }) > 0;
-    if (!any) return false;
+    spam::Parts& run = spam::Parts::here();
+    if (!run.any(any)) return false;
 
     std::vector<std::array<std::uint32_t, 2>> pairs;
     for (std::uint32_t k = 0; k < n; ++k)
         if (p.breaking[k] != 0)
             for (std::size_t m = 0; m < p.table.row(k); ++m)
-                if (breaks(k, m)) {
-                    const std::uint32_t j = p.table.partner(k, m);
-                    pairs.push_back({std::min(k, j), std::max(k, j)});
-                }
+                if (breaks(k, m)) pairs.push_back(p.pair_of(k, p.table.partner(k, m)));
+    p.add_other_pairs(pairs);
     if (pairs.empty()) return false;
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    p.breaks.pairs += pairs.size();
+    p.keep_own(pairs);
     std::vector<std::uint32_t> ends;
-    for (const auto& pair : pairs) ends.insert(ends.end(), pair.begin(), pair.end());
+    for (const auto& pair : pairs)
+        for (const std::uint32_t number : pair)
+            if (const std::uint32_t k = others.place(number); p.is_own(k)) ends.push_back(k);
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
 
@@ -85,10 +91,9 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
         loss[e] = book_loss(k, energy, before[e], state);
     });
     const auto gain = [&](std::size_t e) { return std::max(-loss[e], 0.0); };
-    p.breaks.gains +=
-        parallel_count(loss.size(), [&](std::size_t e) -> std::size_t { return gain(e) > 0.0; });
+    p.breaks.gains += run.total(
+        parallel_count(loss.size(), [&](std::size_t e) -> std::size_t { return gain(e) > 0.0; }));
     p.breaks.gained += exact_sum(loss.size(), gain);
-    p.breaks.pairs += pairs.size();
     p.excluded.insert(p.excluded.end(), pairs.begin(), pairs.end());
     std::sort(p.excluded.begin(), p.excluded.end());
     return true;
@@ -100,7 +105,7 @@ bool MaterialVectors<Dim>::break_bonds(const ConstState<Dim>& state) {
 template <int Dim>
 double MaterialVectors<Dim>::book_loss(std::size_t k, double energy, const Fit& kept,
                                        const ConstState<Dim>& state) {
-    const double* const x = state.position().data();
+    const double* const x = parts_->table.places(state.position().data());
     const double rounding = 1e-12 * parts_->volume[k] * material_.stiffness();
     const auto loss = [&] { return energy - energy_of(fit(x, k), k, state); };
     double lost = loss();
@@ -127,12 +132,34 @@ bool MaterialVectors<Dim>::anchor(std::size_t k, const Fit& fit, const double* x
     return invertible;
 }
 
+template <int Dim>
+void MaterialVectors<Dim>::Parts::add_other_pairs(
+    std::vector<std::array<std::uint32_t, 2>>& pairs) const {
+    if (!table.others().none()) {
+        const auto of_all =
+            spam::Parts::here().gather(std::span<const std::array<std::uint32_t, 2>>(pairs));
+        pairs.clear();
+        for (const auto& some : of_all) pairs.insert(pairs.end(), some.begin(), some.end());
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+template <int Dim>
+void MaterialVectors<Dim>::Parts::keep_own(std::vector<std::array<std::uint32_t, 2>>& pairs) const {
+    const auto own = [&](std::uint32_t number) { return is_own(table.others().place(number)); };
+    std::erase_if(pairs, [&](const auto& pair) { return !own(pair[0]) && !own(pair[1]); });
+}
+
 /// After rows have been made anew: pairs that have broken weigh nothing until they have been apart.
 template <int Dim>
 void MaterialVectors<Dim>::exclude(const double* x) {
     Parts& p = *parts_;
     const auto apart = [&](const std::array<std::uint32_t, 2>& pair) {
-        const Vec<Dim> r = p.table.separation(x, pair[0], pair[1]);
+        const std::uint32_t a = p.table.others().place(pair[0]),
+                            b = p.table.others().place(pair[1]);
+        if (a == OtherPartners::nowhere || b == OtherPartners::nowhere) return true;
+        const Vec<Dim> r = p.table.separation(x, a, b);
         if (dot(r, r) >= scheme_.range * scheme_.range) return true;
         p.part(pair);
         return false;

@@ -31,7 +31,7 @@ bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
 template <int Dim>
 bool MaterialVectors<Dim>::flow_of_particle(std::size_t k, const ConstState<Dim>& state) {
     Parts& p = *parts_;
-    const double* const x = state.position().data();
+    const double* const x = p.table.places(state.position().data());
     const Fit before = fit(x, k);
     if (!Wholeness::of(before.K, p.N0).spans()) return false;
     const std::optional<Mat<Dim>> G = material_.flow(before.F);
@@ -48,7 +48,7 @@ template <int Dim>
 bool MaterialVectors<Dim>::flow_of_bonds(std::size_t k, const Mat<Dim>& F,
                                          const ConstState<Dim>& state) {
     Parts& p = *parts_;
-    const double* const x = state.position().data();
+    const double* const x = p.table.places(state.position().data());
     const double limit2 = p.misfit_limit * p.misfit_limit, range2 = scheme_.range * scheme_.range;
     // How far the misfit is beyond its limit, as part of it; 0 where it is not.
     const auto excess = [&](const Mat<Dim>& gradient, std::size_t m, Vec<Dim>& e) {
@@ -87,7 +87,7 @@ bool MaterialVectors<Dim>::flow_of_bonds(std::size_t k, const Mat<Dim>& F,
 template <int Dim>
 bool MaterialVectors<Dim>::weigh(const ConstState<Dim>& state) {
     Parts& p = *parts_;
-    const double* const x = state.position().data();
+    const double* const x = p.table.places(state.position().data());
     return parallel_count(p.numbers.size(), [&](std::size_t k) -> std::size_t {
                const auto changed = [&](std::size_t m) {
                    const Vec<Dim> X = p.table.X(k, m);

@@ -96,8 +96,8 @@ bool MaterialVectors<Dim>::settle(double, const State<Dim>& state) {
 template <int Dim>
 bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
     Parts& p = *parts_;
-    const double* const x = state.position().data();
     p.table.renew(state.position(), p.N0);
+    const double* const x = p.table.places(state.position().data());
     const auto anchored = [&](const auto& bond) { return p.table.anchoring(bond.k) * bond.r; };
     const auto weighs = [&](const auto& bond) {
         const Vec<Dim> X = anchored(bond);
@@ -164,7 +164,7 @@ void MaterialVectors<Dim>::take_over(const Term<Dim>& before, const ConstState<D
 template <int Dim>
 auto MaterialVectors<Dim>::bonds(std::span<const double> y, std::size_t k) const
     -> std::vector<Bond> {
-    return bonds_at(this->state_of(y).position().data(), k);
+    return bonds_at(parts_->table.places(this->state_of(y).position().data()), k);
 }
 
 template <int Dim>

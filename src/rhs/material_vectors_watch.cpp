@@ -28,7 +28,9 @@ double MaterialVectors<Dim>::largest_tension(std::span<const double> y) const {
         const Vec<Dim> principal = symmetric_eigen(cauchy).value;
         for (int a = 0; a < Dim; ++a) largest[k] = std::max(largest[k], principal[a]);
     });
-    return *std::max_element(largest.begin(), largest.end());
+    double most = -HUGE_VAL;
+    for (const double of_one : largest) most = std::max(most, of_one);
+    return spam::Parts::here().most(most);
 }
 
 template <int Dim>

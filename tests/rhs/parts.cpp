@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any model cut into parts gives the bytes of the whole: laws with schemes, walls, externals, periodic boxes, a fixed
-// and an adaptive method; particles move between the parts on the way.
+// Any model cut into parts gives the bytes of the whole, and remembers the same: laws with schemes, walls, externals,
+// periodic boxes, a fixed and an adaptive method; particles move between the parts on the way.
 #include "rhs/more_laws.hpp"
 #include "rhs/walled.hpp"
 #include "support/parts_in_threads.hpp"
@@ -42,39 +42,49 @@ std::vector<std::uint32_t> own_numbers(std::size_t count, std::size_t own, int s
     return numbers;
 }
 
+/// Of the whole.
+struct Reached {
+    std::vector<double> y;
+    std::vector<std::byte> memory;  ///< of laws, beyond y
+};
+
+/// `memory` is read, unless it is empty, and written.
 template <int Dim>
 std::vector<double> moved(Sample<Dim>& sample, const std::vector<double>& y0,
-                          const IntegratorOptions& options) {
+                          const IntegratorOptions& options, std::vector<std::byte>& memory) {
+    if (Archive before(memory); !memory.empty()) sample.model.remember(before);
     Motion<Dim> motion(sample.model, y0, options);
     for (int step = 0; step < steps_in_each; ++step) motion.step(1.0);
+    Archive now;
+    sample.model.remember(now);
+    memory = now.take();
     return {motion.y().begin(), motion.y().end()};
 }
 
 template <int Dim>
-std::vector<double> whole(const Add<Dim>& make, const Box<Dim>& box,
-                          const IntegratorOptions& options) {
-    std::vector<double> y;
+Reached whole(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions& options) {
+    Reached all;
     for (int segment = 0; segment < segments; ++segment) {
         Sample<Dim> sample(box);
         make(sample);
         sample.model.events();
         const std::vector<double> start = sample.start();  // it tells scales as well
-        y = moved(sample, segment == 0 ? start : y, options);
+        all.y = moved(sample, segment == 0 ? start : all.y, options, all.memory);
     }
-    return y;
+    return all;
 }
 
 template <int Dim>
-std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<Dim>& box,
-                             const IntegratorOptions& options, Wrong wrong = Wrong::nothing) {
+Reached in_parts(std::size_t count, const Add<Dim>& make, const Box<Dim>& box,
+                 const IntegratorOptions& options, Wrong wrong = Wrong::nothing) {
     Sample<Dim> all_of_it(box);
     make(all_of_it);
     const Points<Dim> X = all_of_it.model.particles().reference_position;
     const FieldLayout<Dim>& layout = all_of_it.model.layout();
-    std::vector<double> result;
+    Reached result;
     const auto work = [&] {
         Parts& parts = Parts::here();
-        std::vector<double> all;
+        Reached all;
         Points<Dim> x = X;
         for (int segment = 0; segment < segments; ++segment) {
             parts.set_numbers(own_numbers(count, parts.own(), segment, x));
@@ -82,10 +92,10 @@ std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<
             make(sample);
             sample.model.events();
             std::vector<double> y = sample.start();
-            if (segment > 0) y = own_state<Dim>(parts, layout, all);
-            y = moved(sample, y, options);
-            all = whole_state<Dim>(parts, sample.model.layout(), y);
-            x = Eigen::Map<const Points<Dim>>(all.data(), Dim, X.cols());
+            if (segment > 0) y = own_state<Dim>(parts, layout, all.y);
+            y = moved(sample, y, options, all.memory);
+            all.y = whole_state<Dim>(parts, sample.model.layout(), y);
+            x = Eigen::Map<const Points<Dim>>(all.y.data(), Dim, X.cols());
         }
         if (parts.own() == 0) result = all;
     };
@@ -93,12 +103,16 @@ std::vector<double> in_parts(std::size_t count, const Add<Dim>& make, const Box<
     return result;
 }
 
-std::size_t different_bytes(const std::vector<double>& a, const std::vector<double>& b) {
+template <class Value>
+std::size_t different(const std::vector<Value>& a, const std::vector<Value>& b) {
     if (a.size() != b.size()) return std::max(a.size(), b.size());
     std::size_t different = 0;
     for (std::size_t k = 0; k < a.size(); ++k)
-        different += std::memcmp(&a[k], &b[k], sizeof(double)) != 0 ? 1 : 0;
+        different += std::memcmp(&a[k], &b[k], sizeof(Value)) != 0 ? 1 : 0;
     return different;
+}
+std::size_t different_bytes(const Reached& a, const Reached& b) {
+    return different(a.y, b.y) + different(a.memory, b.memory);
 }
 
 const IntegratorOptions fixed{.method = "rk4", .dt = 0.05};
@@ -109,7 +123,7 @@ const IntegratorOptions adaptive{
 template <int Dim>
 void compare(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions& options,
              Counts& counts, std::size_t most = 4) {
-    std::vector<double> right;
+    Reached right;
     try {
         right = whole<Dim>(make, box, options);
     } catch (const InputError&) {
@@ -120,7 +134,7 @@ void compare(const Add<Dim>& make, const Box<Dim>& box, const IntegratorOptions&
     }
     if (Dim == 3) most = 2;  // more of them only wait for each other
     for (std::size_t count = 2; count <= most; ++count) {
-        std::vector<double> found;
+        Reached found;
         try {
             found = in_parts<Dim>(count, make, box, options);
         } catch (const InputError& refused) {
@@ -224,6 +238,37 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_any_range_reactions_and_ellipses, In, Pa
     BOOST_TEST(counts.ran == 6);
 }
 
+/// So fast that neighbours come and go, solids flow, and bonds break.
+template <int Dim>
+Add<Dim> fast(const std::string& law) {
+    return [build = every_law<Dim>().at(law)](Sample<Dim>& s) {
+        s.speed = 25.0;
+        build(s, Scheme{});
+    };
+}
+const IntegratorOptions long_steps{.method = "rk4", .dt = 0.1};
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(solids_that_meet_new_neighbours_flow_and_break, In, PartsIn) {
+    constexpr int Dim = In::value;
+    Counts counts;
+    for (const char* law : {"MaterialVectors", "FlowingSolid, which breaks"})
+        for (const auto& box : {Box<Dim>(), full_box<Dim>()})
+            BOOST_TEST_CONTEXT(law << (box.periodic() ? ", periodic" : "")) {
+                compare<Dim>(fast<Dim>(law), box, long_steps, counts);
+            }
+    BOOST_TEST(counts.ran == 4);
+    // Not only what rows were at the start travels.
+    Sample<Dim> sample;
+    fast<Dim>("FlowingSolid, which breaks")(sample);
+    Motion<Dim> motion(sample.model, sample.start(), long_steps);
+    const auto& law = *sample.model.template term<MaterialVectors<Dim>>();
+    const std::size_t builds = law.counts().list_builds;
+    motion.advance_to(segments * steps_in_each * *long_steps.dt);
+    BOOST_TEST(law.counts().list_builds > builds + 3);
+    BOOST_TEST(law.breaks().pairs > 10U);
+    BOOST_TEST(law.heat() > 0.0);
+}
+
 // The test can fail: images that are not refreshed, sums of parts that are rounded before they are added, neighbours of
 // other parts that are added after one's own, and a part that returns a reason before an exchange that others make.
 BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PartsIn) {
@@ -236,7 +281,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PartsIn) {
     const auto right = whole<Dim>(make, {}, fixed);
     BOOST_TEST(different_bytes(in_parts<Dim>(3, make, {}, fixed), right) == 0U);
     for (const auto wrong : {Wrong::images, Wrong::sums, Wrong::order, Wrong::calls}) {
-        std::vector<double> found;
+        Reached found;
         try {
             found = in_parts<Dim>(3, make, {}, fixed, wrong);
         } catch (const GuardStop&) {  // it has none of the bytes
@@ -245,6 +290,20 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_is_seen, In, PartsIn) {
         }
         BOOST_TEST(different_bytes(found, right) > 0U);
     }
+}
+
+// Likewise for material vectors: what bonds give to particles in other parts is not new.
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_of_bonds_is_seen, In, PartsIn) {
+    constexpr int Dim = In::value;
+    const auto make = fast<Dim>("MaterialVectors");
+    const auto right = whole<Dim>(make, {}, long_steps);
+    BOOST_TEST(different_bytes(in_parts<Dim>(2, make, {}, long_steps), right) == 0U);
+    Reached found;
+    try {
+        found = in_parts<Dim>(2, make, {}, long_steps, Wrong::images);
+    } catch (const GuardStop&) {  // it has none of the bytes
+    }
+    BOOST_TEST(different_bytes(found, right) > 0U);
 }
 
 // A state without meaning in one part ends the right-hand sides of all, with its reason.

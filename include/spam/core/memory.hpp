@@ -45,6 +45,9 @@ struct BondNumbers {
 ///     memory.particles(heat_kind, heat);      memory.run(breaks_kind, breaks);
 /// Names are kept with the numbers, so that what another law remembered is refused. Where particles have changed,
 /// fields of Role::derived are read and left alone: their owner makes them anew.
+///
+/// In one of several parts of a run (core/parts.hpp) what is written is that of the whole run, by number, and what is read
+/// is that of its own particles.
 template <int Dim>
 class Memory {
   public:
@@ -78,8 +81,10 @@ class Memory {
     /// Bonds with these fields, the vectors (of Quantity::position) from a particle to its partner in the material: in
     /// terms of F_a of particle a they become X + F_a^-1 (way of the partner - way of the particle), and misfits stay.
     /// A new bond has the mean of the old ones between the parts of both, by mass; none is left inside one particle.
+    /// Partners are numbers in the whole run.
     void bonds(std::span<const Field> fields, BondNumbers& bonds);
-    /// Pairs of particles k < j, ascending: those of the parts.
+    /// Pairs of particles k < j, ascending: those of the parts. Numbers are those in the whole run, and what is read are
+    /// all pairs.
     void pairs(Field field, std::vector<std::array<std::uint32_t, 2>>& pairs);
 
   private:
@@ -92,6 +97,7 @@ class Memory {
     const Change<Dim>* whole_ = nullptr;
     Change<Dim> change_{};  ///< of the particles of a law
     std::size_t count_ = 0, was_ = 0;
+    std::vector<std::uint32_t> own_{};  ///< numbers of the particles of this part
     std::vector<std::pair<Field, Holder>> fields_;
 };
 

@@ -18,6 +18,7 @@ struct RigidMotion {
     Point<Dim> operator()(const P& x) const {
         return to + rotation * (x - from);
     }
+    void remember(auto& archive) { archive(rotation, from, to); }
 };
 
 /// The motion that brings the points `from` nearest to the points `to` (least squares, proper

@@ -49,8 +49,6 @@ class ClusterList {
     /// true where a position is not finite.
     bool serves(const Eigen::Ref<const Points<Dim>>& position);
 
-    /// The positions of the last build, Dim x N.
-    const Points<Dim>& built_at() const { return motion_.then(); }
     /// Who has moved by more than half the skin since the build, the rigid motion known last taken
     /// off. Where nobody has, the list serves.
     Displacement<Dim> displacement() const { return motion_.displacement(0.5 * skin_); }

@@ -13,9 +13,11 @@ namespace spam {
 template <int Dim>
 class MotionSince {
   public:
-    /// Takes these positions, Dim x N, as those from which particles move.
-    void begin(const Eigen::Ref<const Points<Dim>>& position);
+    /// Takes these positions, Dim x N, as those from which particles move; `motion` where it is known already.
+    void begin(const Eigen::Ref<const Points<Dim>>& position, const RigidMotion<Dim>& motion = {});
     const Points<Dim>& then() const { return then_; }
+    /// The one that was good enough last. What within() says depends on it: on whether a better one is looked for.
+    const RigidMotion<Dim>& motion() const { return motion_; }
 
     /// Whether no particle has moved farther than that. Never true where a position is not finite.
     bool within(double distance, const Eigen::Ref<const Points<Dim>>& position,

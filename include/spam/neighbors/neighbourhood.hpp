@@ -59,9 +59,6 @@ class Neighbourhood {
     /// A list for these finite positions, and room for records: zeros at first.
     void build(const Eigen::Ref<const Points<Dim>>& x);
 
-    /// Whether the list still serves these positions (ClusterList::serves), for records that are made by write().
-    bool list_serves(const Eigen::Ref<const Points<Dim>>& x) { return list_->serves(x); }
-
     /// fill(i, number): sets `count` numbers, from that one on, in the record R of each particle i, positions as they
     /// are in y; these come home as in ClusterList::home. Images follow.
     template <class R, class Fill>

@@ -135,8 +135,6 @@ class Term {
     Nature nature_{};
     /// To be called once for each, when it is made; it stays where it is.
     void look_after(Neighbourhood<Dim>& near) { neighbourhoods_.push_back(&near); }
-    /// For laws whose neighbours are not those of a Neighbourhood. Throws InputError where a run is in several parts.
-    void require_one_part(const std::string& what) const;
     const Particles<Dim>& particles() const { return among_.particles(); }
     const Box<Dim>& box() const { return model().box(); }
     const FieldLayout<Dim>& layout() const { return model().layout(); }
