@@ -15,11 +15,18 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <regex>
 
 namespace spam {
 namespace {
 
 constexpr const char* last_checkpoint = "checkpoint_last.h5";
+
+/// Without where results go and how many processes find them: checkpoints have the same bytes whichever these are.
+std::string without_place_and_ranks(const std::string& command) {
+    static const std::regex option(R"( --(out|ranks)[ =]\S+)");
+    return std::regex_replace(command, option, "");
+}
 
 }  // namespace
 
@@ -36,7 +43,7 @@ Session::Session(Problem& problem, const IntegratorOptions& integrator, std::exc
     memory_->version = version();
     memory_->instruction_set = to_string(instruction_set());
     memory_->problem = problem.name_;
-    memory_->command = command_;
+    memory_->command = without_place_and_ranks(command_);
     memory_->smoke = problem.common_.smoke;
 }
 

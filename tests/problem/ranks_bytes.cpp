@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every problem leaves the bytes of one process on several (--ranks), whichever ranks and threads it runs on, or
-// says in one line why it cannot be parted. A quarter of the problems in each of ctest's lines (SPAM_QUARTER), all
+// Every problem leaves the bytes of one process on several (--ranks), whichever ranks and threads it runs on. A quarter of the problems in each of ctest's lines (SPAM_QUARTER), all
 // without.
 #include "problem/ranks.hpp"
 #include "problem/short_runs.hpp"
@@ -12,8 +11,6 @@ using namespace spam::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::set<std::string> cannot{"pierced_bar"};  // material vectors
 
 /// A tenth of the time, and of that between checkpoints: exchanges cost most where cores are shared.
 Words shorter(Words arguments) {
@@ -47,18 +44,36 @@ BOOST_AUTO_TEST_CASE(every_problem_leaves_the_bytes_of_one_rank) {
                        with(common,
                             {"--ranks", std::to_string(several ? 2 + number % 3 : 2), "--threads",
                              std::to_string(several ? 1 + number / 2 % 2 : 1), "--out", "parted"}));
-            if (parted.status == 2) {
-                BOOST_TEST(parted.err.find(": ranks: ") != std::string::npos, parted.err);
-                BOOST_TEST(lines(parted.err) == 1U, parted.err);
-                BOOST_TEST(!fs::exists(folder / "parted"));
-                BOOST_TEST(cannot.contains(name));
-                continue;
-            }
-            BOOST_TEST(!cannot.contains(name));
             require_ran(parted);
             require_ran(run_in(folder, name, with(common, {"--out", "whole"})));
             check_same(files_of(folder / "whole"), files_of(folder / "parted"));
         }
+}
+
+/// Rows of bonds stay with their particle, and a checkpoint of them goes on on another number of ranks.
+BOOST_AUTO_TEST_CASE(material_vectors_leave_the_bytes_of_one_rank) {
+    if (no_ranks()) return;
+    const Words common{"--formulation", "material_vectors", "--smoke", "--no-plots", "--quiet"};
+    const Scratch folder;
+    require_ran(run_in(folder, "rotating_hexagon", with(common, {"--out", "whole"})));
+    for (const char* ranks : {"2", "3", "4"}) {
+        const std::string out = std::string("parted_") + ranks;
+        require_ran(
+            run_in(folder, "rotating_hexagon", with(common, {"--ranks", ranks, "--out", out})));
+        check_same(files_of(folder / "whole"), files_of(folder / out));
+        for (const char* file : {"invariants.csv", "checkpoint_0.h5"})
+            BOOST_TEST((contents_of(folder / "whole" / file) == contents_of(folder / out / file)),
+                       file << " of " << ranks << " ranks differs");
+    }
+    const Words bar{"--smoke", "--no-plots", "--quiet", "--output-every", "0.5"};
+    require_ran(run_in(folder, "pierced_bar", with(bar, {"--t-end", "6", "--out", "bar"})));
+    require_ran(run_in(folder, "pierced_bar",
+                       with(bar, {"--t-end", "3", "--ranks", "3", "--out", "half"})));
+    require_ran(
+        run_in(folder, "pierced_bar",
+               {"--restart", "half", "--t-end", "6", "--no-plots", "--quiet", "--ranks", "2"}));
+    BOOST_TEST((contents_of(folder / "bar/invariants.csv") ==
+                contents_of(folder / "half/invariants.csv")));
 }
 
 /// A linear solver takes as many directions on every rank, or they wait for each other.
