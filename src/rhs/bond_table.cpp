@@ -265,7 +265,7 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
             double missing = 0.0;
             for (std::size_t k = first * lanes; k < last * lanes; ++k)
                 missing += missing_[k * NeighbourSums::numbers + NeighbourSums::count];
-            of_block[b].newcomers.reserve(static_cast<std::size_t>(missing));
+            of_block[b].newcomers.reserve(static_cast<std::size_t>(std::max(missing, 0.0)));
             std::size_t gone = 0;
             for (std::size_t group = first; group < last; ++group) {
                 gone += found[group].gone;
