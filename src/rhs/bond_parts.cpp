@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds with particles of other parts of a run (core/parts.hpp). Each end's row is where that particle lives, as it is in
-// a run of one part. What one end finds of the bond travels as it is, 8 Dim bytes, and the particle at the other end adds
-// it where its own row says: the same numbers in the same order.
+// Bonds with particles of other parts of a run (core/parts.hpp). Each end's row is where that particle lives, as it is
+// in a run of one part. What one end finds of the bond travels as it is, 8 Dim bytes, and the particle at the other end
+// adds it where its own row says: the same numbers in the same order.
 #include "bond_table.hpp"
 #include <spam/core/parallel.hpp>
 
@@ -109,7 +109,7 @@ void BondTable<Dim>::place_others(const double* x, std::vector<double>& placed, 
         });
 }
 
-/// Newcomers have been found by number. Those of two parts are told to each other: they enter where both have found them.
+/// Newcomers have been found by number. Those of two parts are told to each other: they enter where both found them.
 template <int Dim>
 void BondTable<Dim>::meet_others(const double* x) {
     const OtherPartners& all = others();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every problem leaves the bytes of one process on several (--ranks), whichever ranks and threads it runs on. A quarter of the problems in each of ctest's lines (SPAM_QUARTER), all
-// without.
+// Every problem leaves the bytes of one process on several (--ranks), whichever ranks and threads it runs on. A
+// quarter of the problems in each of ctest's lines (SPAM_QUARTER), all without.
 #include "problem/ranks.hpp"
 #include "problem/short_runs.hpp"
 #include "support/effort.hpp"

@@ -46,8 +46,8 @@ struct BondNumbers {
 /// Names are kept with the numbers, so that what another law remembered is refused. Where particles have changed,
 /// fields of Role::derived are read and left alone: their owner makes them anew.
 ///
-/// In one of several parts of a run (core/parts.hpp) what is written is that of the whole run, by number, and what is read
-/// is that of its own particles.
+/// In one of several parts of a run (core/parts.hpp) what is written is that of the whole run, by number, and what is
+/// read is that of its own particles.
 template <int Dim>
 class Memory {
   public:
@@ -83,8 +83,8 @@ class Memory {
     /// A new bond has the mean of the old ones between the parts of both, by mass; none is left inside one particle.
     /// Partners are numbers in the whole run.
     void bonds(std::span<const Field> fields, BondNumbers& bonds);
-    /// Pairs of particles k < j, ascending: those of the parts. Numbers are those in the whole run, and what is read are
-    /// all pairs.
+    /// Pairs of particles k < j, ascending: those of the parts. Numbers are those in the whole run, and what is read
+    /// are all pairs.
     void pairs(Field field, std::vector<std::array<std::uint32_t, 2>>& pairs);
 
   private:
