@@ -14,6 +14,13 @@ template <int Dim>
 ParticleModel<Dim>::ParticleModel(Particles<Dim> particles, const Box<Dim>& box)
     : Model<Dim>(std::move(particles), box, {Field::position, Field::velocity}),
       walled_(box.walled()) {
+    // Laws of parts are made of the bodies that those of the whole were made of, whatever has been found since.
+    again_.push_back([body = this->particles().body](ParticleModel& part, auto numbers) {
+        if (body.empty()) return;
+        std::vector<std::int32_t> own;
+        for (const std::uint32_t i : numbers) own.push_back(body[i]);
+        part.set_bodies(std::move(own));
+    });
     if (!walled_) return;
     refuse_beyond_walls();
     add_accounts();

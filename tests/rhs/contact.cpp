@@ -14,6 +14,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <numbers>
+#include <numeric>
 
 using namespace spam;
 using namespace spam::test;
@@ -252,6 +253,11 @@ BOOST_AUTO_TEST_CASE(bodies_are_those_of_the_beginning) {
     touching.model.set_bodies(std::vector<std::int32_t>(touching.model.particles().size(), 0));
     BOOST_TEST((rates_of(touching.model, y) == before));
     BOOST_TEST(touching.contact.closest(y) == closest);
+    // Nor in a part of the model that is made afterwards.
+    std::vector<std::uint32_t> all(touching.model.particles().size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto part = touching.model.part(all);
+    BOOST_TEST((rates_of(*part, y) == before));
 }
 
 BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
