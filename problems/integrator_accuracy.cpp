@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         session.smoke_default("problem", p.problem, "md");
-        session.smoke_default("size", p.size, 2);
+        if (p.problem == "md") session.smoke_default("size", p.size, 2);
         if (p.problem == "cube") return study.run<3>(session, {cube(p)});
         auto trials = systems(p);
         if (p.problem != "all")
