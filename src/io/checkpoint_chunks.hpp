@@ -24,9 +24,9 @@ inline std::vector<hsize_t> chunk_of(std::span<const hsize_t> shape, hsize_t ele
     return chunk;
 }
 
-/// Whether a dataset is cut in this way, and as long in the file as this takes. HDF5 1.10 believes what a damaged file
-/// says of its chunks, and reads past the end of those that are shorter.
-inline bool is_cut_so(hid_t dataset, hid_t space, hsize_t element) {
+/// Whether a dataset has the chunks that a run writes, and is as long in the file as these take. HDF5 1.10 believes
+/// what a damaged file says of its chunks, and reads past the end of those that are shorter.
+inline bool has_written_chunks(hid_t dataset, hid_t space, hsize_t element) {
     const Properties creation(H5Dget_create_plist(dataset));
     if (H5Pget_layout(creation) != H5D_CHUNKED) return true;
     const int rank = H5Sget_simple_extent_ndims(space);

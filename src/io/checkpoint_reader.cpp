@@ -43,7 +43,7 @@ struct CheckpointReader::Image {
         const Space space(H5Dget_space(dataset));
         if (H5Tget_class(type) != type_class || (size > 0 && H5Tget_size(type) != size) ||
             H5Sget_simple_extent_ndims(space) != rank ||
-            !is_cut_so(dataset, space, H5Tget_size(type)))
+            !has_written_chunks(dataset, space, H5Tget_size(type)))
             throw InputError(
                 fmt::format("checkpoint '{}' holds '{}', but not as {}; use the version of SPAM "
                             "that wrote it",

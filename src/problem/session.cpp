@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* last_checkpoint = "checkpoint_last.h5";
 
-/// Without where results go and how many processes find them: checkpoints have the same bytes whichever these are.
+/// Without where results go and how many processes find them: no checkpoint differs by these words.
 std::string without_place_and_ranks(const std::string& command) {
     static const std::regex option(R"( --(out|ranks)[ =]\S+)");
     return std::regex_replace(command, option, "");

@@ -36,7 +36,7 @@ std::size_t BondRows<Dim>::pairs() const {
     });
 }
 
-/// Both parts find in which order bonds travel without a word: by whose they are, then by the partner.
+/// Both parts find the order in which bonds travel by themselves: by the number of one end, then of the other.
 template <int Dim>
 void BondRows<Dim>::find_ways_across(std::size_t base) {
     if (others_.none()) return;
@@ -66,20 +66,17 @@ void BondRows<Dim>::find_ways_across(std::size_t base) {
 template <int Dim>
 void BondRows<Dim>::pass_on() {
     if (others_.none()) return;
-    Parts& parts = Parts::here();
-    std::vector<Parts::Bytes> messages(parts.count());
-    for (std::size_t p = 0; p < parts.count(); ++p) {
-        std::vector<double> found(given_[p].size() * Dim);
-        for (std::size_t n = 0; n < given_[p].size(); ++n)
-            std::copy_n(&t_[std::size_t{given_[p][n]} * Dim], Dim, &found[n * Dim]);
-        messages[p] = Parts::bytes_of(std::span<const double>(found));
-    }
-    const auto received = parts.exchange(std::move(messages), Parts::Content::images);
-    for (std::size_t p = 0; p < parts.count(); ++p) {
-        const auto found = Parts::values_of<double>(received[p]);
-        for (std::size_t n = 0; n < taken_[p].size(); ++n)
-            std::copy_n(&found[n * Dim], Dim, &t_[std::size_t{taken_[p][n]} * Dim]);
-    }
+    using Addend = std::array<double, Dim>;
+    OtherPartners::exchange<Addend>(
+        given_, taken_,
+        [&](std::size_t at) {
+            Addend found;
+            std::copy_n(&t_[at * Dim], Dim, found.begin());
+            return found;
+        },
+        [&](std::size_t at, const Addend& found) {
+            std::copy_n(found.begin(), Dim, &t_[at * Dim]);
+        });
 }
 
 /// Positions of partners elsewhere: as they are, behind our own, and as the loops want them.

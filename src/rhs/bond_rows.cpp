@@ -130,7 +130,7 @@ void BondRows<Dim>::make_room(std::vector<Newcomer>& newcomers) {
 }
 
 /// Those who are there in both directions: where rounding lets only one of two meet the other, they meet next time.
-/// Partners elsewhere are.
+/// Partners in other parts have been found there as well (BondTable::meet_others).
 template <int Dim>
 class BondRows<Dim>::Meetings {
   public:

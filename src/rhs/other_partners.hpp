@@ -11,7 +11,7 @@ namespace spam {
 
 /// Partners of our particles that live in other parts of the run (core/parts.hpp). A law has places for its own
 /// particles, in ascending number, and behind them for those. Numbers are those among all particles of the law, in the
-/// whole run; where it is in one part place and number are the same, and there is nobody else.
+/// whole run; where it is in one part place and number are the same, and there are no others.
 class OtherPartners {
   public:
     static constexpr std::uint32_t nowhere = ~0U;
@@ -42,19 +42,25 @@ class OtherPartners {
     /// take(place, value) of every partner elsewhere, of what is own(place) at its home. A call of all parts.
     template <class Value, class Own, class Take>
     void fetch(const Own& own, const Take& take) const {
-        if (none()) return;
+        if (!none()) exchange<Value>(give_, take_, own, take);
+    }
+    /// The same for any places, by part: of those that it is given, and of what comes from there in the same order.
+    template <class Value, class Own, class Take>
+    static void exchange(const std::vector<std::vector<std::uint32_t>>& given,
+                         const std::vector<std::vector<std::uint32_t>>& taken, const Own& own,
+                         const Take& take) {
         Parts& parts = Parts::here();
         std::vector<Parts::Bytes> messages(parts.count());
         std::vector<Value> values;
         for (std::size_t p = 0; p < parts.count(); ++p) {
             values.clear();
-            for (const std::uint32_t k : give_[p]) values.push_back(own(k));
+            for (const std::uint32_t k : given[p]) values.push_back(own(k));
             messages[p] = Parts::bytes_of(std::span<const Value>(values));
         }
         const auto received = parts.exchange(std::move(messages), Parts::Content::images);
         for (std::size_t p = 0; p < parts.count(); ++p) {
             const auto theirs = Parts::values_of<Value>(received[p]);
-            for (std::size_t n = 0; n < take_[p].size(); ++n) take(take_[p][n], theirs[n]);
+            for (std::size_t n = 0; n < taken[p].size(); ++n) take(taken[p][n], theirs[n]);
         }
     }
 

@@ -33,11 +33,9 @@ class FailingProcesses final : public spam::Parts {
 
 }  // namespace
 
-extern "C" {
-// spam::join_processes() by its name in objects.
-std::unique_ptr<spam::Parts> __real__ZN4spam14join_processesEv();
-std::unique_ptr<spam::Parts> __wrap__ZN4spam14join_processesEv();
-std::unique_ptr<spam::Parts> __wrap__ZN4spam14join_processesEv() {
-    return std::make_unique<FailingProcesses>(__real__ZN4spam14join_processesEv());
-}
+// spam::join_processes() by its name in objects: the library's, and the one that is called in its place.
+std::unique_ptr<spam::Parts> real_processes() __asm__("__real__ZN4spam14join_processesEv");
+std::unique_ptr<spam::Parts> failing_processes() __asm__("__wrap__ZN4spam14join_processesEv");
+std::unique_ptr<spam::Parts> failing_processes() {
+    return std::make_unique<FailingProcesses>(real_processes());
 }

@@ -4,7 +4,7 @@
 //
 // These are thousands of runs, which is why cases are small, and why options of the session are tried once for
 // every kind of results that a program leaves, not in every case (`of_the_session`). What a program was tried with in
-// one case is tried again by one time in six in the others, and every time in long runs.
+// one case is tried in every sixth of the others, and in all of them in long runs.
 #include "problem/idle_options.hpp"
 
 #include "problem/result_files.hpp"
