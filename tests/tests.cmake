@@ -126,7 +126,7 @@ spam_test(io/pictures unit)
 find_package(nlohmann_json REQUIRED)  # result_files.hpp
 spam_test(io/image_file unit nlohmann_json::nlohmann_json)
 spam_test(io/checkpoint_file unit hdf5::hdf5)
-spam_test(io/checkpoint_damage property OpenSSL::Crypto)
+spam_test(io/checkpoint_damage property ${NETTLE_LIBRARY})
 spam_test(io/checkpoint_pair property)
 spam_test(io/checkpoint_faults property)
 spam_test(front_door/front_door problem)

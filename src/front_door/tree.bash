@@ -13,7 +13,7 @@ readonly set_up_failed=5 # exit status; those of a problem: src/docs/results.md
 
 # By the names of Debian 12 and Ubuntu 24.04; each verb adds its own.
 readonly build_packages=(g++ cmake ninja-build libsundials-dev libeigen3-dev libgsl-dev libcli11-dev
-    libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libhdf5-dev libssl-dev libfftw3-dev libboost-dev)
+    libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libhdf5-dev nettle-dev libfftw3-dev libboost-dev)
 readonly picture_packages=(gnuplot-nox fonts-dejavu-core)
 
 # --- steps -------------------------------------------------------------------------------------

@@ -39,6 +39,11 @@ void set_unless_given(const char* name, const char* value) { setenv(name, value,
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (usable_cores() < static_cast<int>(count))
         set_unless_given("OMPI_MCA_mpi_yield_when_idle", "1");
+    // To look for faster networks than the memory of one machine takes a quarter of a second.
+    bool of_a_queue = false;
+    for (const char* job : {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID"})
+        of_a_queue = of_a_queue || std::getenv(job) != nullptr;
+    if (!of_a_queue) set_unless_given("OMPI_MCA_pml", "ob1");
     // Longer messages wait for two answers, each of which needs the core of another process.
     set_unless_given("OMPI_MCA_btl_vader_eager_limit", "65536");
     set_unless_given("OMPI_MCA_rmaps_base_oversubscribe", "1");

@@ -195,6 +195,8 @@ const BondBreaks& MaterialVectors<Dim>::breaks() const {
     template double MaterialVectors<D>::book_loss(std::size_t, double, const Fit&,                \
                                                   const ConstState<D>&);                          \
     template bool MaterialVectors<D>::anchor(std::size_t, const Fit&, const double*);             \
+    template void MaterialVectors<D>::Parts::keep_own(std::vector<std::array<std::uint32_t, 2>>&) \
+        const;                                                                                    \
     template void MaterialVectors<D>::exclude(const double*);                                     \
     template void MaterialVectors<D>::tell_breaks(std::vector<Remark>&);                          \
     template const BondBreaks& MaterialVectors<D>::breaks() const;

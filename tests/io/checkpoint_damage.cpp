@@ -5,7 +5,8 @@
 #include <spam/core/error.hpp>
 
 #include <boost/test/unit_test.hpp>
-#include <openssl/sha.h>
+#include <nettle/sha2.h>
+#include <nettle/version.h>
 
 #include <cstdio>
 
@@ -45,8 +46,15 @@ class Vandal {
     }
     static void seal(std::string& bytes) {
         const std::size_t end = bytes.size() - digest_size;
-        SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), end,
-               reinterpret_cast<unsigned char*>(bytes.data() + end));
+        sha256_ctx context;
+        sha256_init(&context);
+        sha256_update(&context, end, reinterpret_cast<const std::uint8_t*>(bytes.data()));
+        auto* const digest = reinterpret_cast<std::uint8_t*>(&bytes[end]);
+#if NETTLE_VERSION_MAJOR >= 4
+        sha256_digest(&context, digest);
+#else
+        sha256_digest(&context, digest_size, digest);
+#endif
     }
 
   private:

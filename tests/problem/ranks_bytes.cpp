@@ -12,6 +12,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of ctest's lines.
+bool only_in_the_first() {
+    const char* const quarter = std::getenv("SPAM_QUARTER");
+    return quarter != nullptr && std::string(quarter) != "0";
+}
+
 /// A tenth of the time, and of that between checkpoints: exchanges cost most where cores are shared.
 Words shorter(Words arguments) {
     static const std::set<std::string> times{"--t-end", "--turns", "--time", "--periods",
@@ -52,7 +58,7 @@ BOOST_AUTO_TEST_CASE(every_problem_leaves_the_bytes_of_one_rank) {
 
 /// Rows of bonds stay with their particle, and a checkpoint of them goes on on another number of ranks.
 BOOST_AUTO_TEST_CASE(material_vectors_leave_the_bytes_of_one_rank) {
-    if (no_ranks()) return;
+    if (no_ranks() || only_in_the_first()) return;
     const Words common{"--formulation", "material_vectors", "--smoke", "--no-plots", "--quiet"};
     const Scratch folder;
     require_ran(run_in(folder, "rotating_hexagon", with(common, {"--out", "whole"})));
@@ -78,7 +84,7 @@ BOOST_AUTO_TEST_CASE(material_vectors_leave_the_bytes_of_one_rank) {
 
 /// A linear solver takes as many directions on every rank, or they wait for each other.
 BOOST_AUTO_TEST_CASE(an_implicit_method_leaves_the_bytes_of_one_rank) {
-    if (no_ranks()) return;
+    if (no_ranks() || only_in_the_first()) return;
     const Scratch folder;
     const Words common{"--formulation", "total_lagrangian", "--integrator", "cvode:bdf",
                        "--smoke",       "--no-plots",       "--quiet"};

@@ -32,7 +32,7 @@ class Spam(CMakePackage):
     depends_on("boost@1.74:", type="build", when="+problems")
     depends_on("fmt@9:")
     depends_on("fftw@3: precision=double")
-    depends_on("openssl@3:")
+    depends_on("nettle@3:")
     depends_on("gnuplot", type="run", when="+problems")
 
     with when("+python"):

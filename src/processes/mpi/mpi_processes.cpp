@@ -7,6 +7,7 @@
 #include <semaphore.h>
 #include <sys/prctl.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -25,7 +26,7 @@ class Bells {
   public:
     Bells(int count, int own)
         : others_(static_cast<std::uint64_t>(count) - 1),
-          looks_(usable_cores() < count ? 0 : 2000) {
+          looks_(usable_cores() < count ? 0 : 10000) {
         MPI_Comm machine;
         MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, own, MPI_INFO_NULL, &machine);
         int here = 0;
@@ -51,6 +52,7 @@ class Bells {
     Bells(const Bells&) = delete;
     Bells& operator=(const Bells&) = delete;
 
+    bool reach_all() const { return own_ != nullptr; }
     /// After a message to p.
     void ring(int p) {
         if (own_ == nullptr) return;
@@ -87,6 +89,7 @@ class MpiProcesses final : public Parts {
     MpiProcesses(int count, int own, bool ours)
         : Parts(static_cast<std::size_t>(count), static_cast<std::size_t>(own)),
           ours_(ours),
+          answered_(largest_without_an_answer()),
           bells_(std::make_unique<Bells>(count, own)) {
         prctl(PR_SET_TIMERSLACK, 1000UL);  // nanoseconds, or each moment takes 50 us more
     }
@@ -95,6 +98,7 @@ class MpiProcesses final : public Parts {
         for (std::size_t p = 0; p < count(); ++p)
             if (p != own()) bells_->ring(static_cast<int>(p));
         bells_->wait();
+        finish_sending();
         bells_.reset();
         if (ours_) MPI_Finalize();
     }
@@ -109,11 +113,36 @@ class MpiProcesses final : public Parts {
         return static_cast<int>(bytes);
     }
 
+    /// Bytes; a longer message arrives only after its receiver has asked for it, and the sender has looked.
+    static std::size_t largest_without_an_answer() {
+        const char* set = std::getenv("OMPI_MCA_btl_vader_eager_limit");
+        constexpr std::size_t of_the_library = 4096, header = 256;
+        const std::size_t limit = set != nullptr ? std::strtoul(set, nullptr, 10) : of_the_library;
+        return limit > header ? limit - header : 0;
+    }
+
+    /// What is on its way belongs to the library until the receiver has copied it. To wait for that at once would
+    /// take as long as the receiver takes to get a core; at the end of the next exchange it has been copied, since the
+    /// receiver has sent its part of that one. Only a message that needs an answer, or another machine, is waited for where
+    /// it is sent.
+    void finish_sending() {
+        until([&] {
+            int done = 0;
+            MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done,
+                        MPI_STATUSES_IGNORE);
+            return done != 0;
+        });
+    }
+
     std::vector<Bytes> transport(std::vector<Bytes> to, Content) override {
         std::vector<Bytes> from(count());
         std::vector<MPI_Request> sent;
         std::vector<int> awaited;
-        for (const Bytes& bytes : to) length(bytes.size());  // all are sent, or none
+        std::size_t longest = 0;
+        for (const Bytes& bytes : to) {  // all are sent, or none
+            length(bytes.size());
+            longest = std::max(longest, bytes.size());
+        }
         for (std::size_t p = 0; p < count(); ++p) {
             if (p == own()) continue;
             awaited.push_back(static_cast<int>(p));
@@ -138,12 +167,11 @@ class MpiProcesses final : public Parts {
             std::erase_if(awaited, arrived);
             return awaited.empty();
         });
-        until([&] {
-            int done = 0;
-            MPI_Testall(static_cast<int>(sent.size()), sent.data(), &done, MPI_STATUSES_IGNORE);
-            return done != 0;
-        });
         from[own()] = std::move(to[own()]);
+        finish_sending();
+        sent_ = std::move(to);
+        requests_ = std::move(sent);
+        if (longest > answered_ || !bells_->reach_all()) finish_sending();
         return from;
     }
 
@@ -155,7 +183,10 @@ class MpiProcesses final : public Parts {
     }
 
     bool ours_;
+    std::size_t answered_;
     std::unique_ptr<Bells> bells_;
+    std::vector<Bytes> sent_;            ///< in the last exchange
+    std::vector<MPI_Request> requests_;  ///< of these
 };
 
 }  // namespace
