@@ -183,7 +183,7 @@ std::span<const double> PartedMotion<Dim>::y() {
     known_ = now();
     {
         const Parts::Here here(processes_);
-        std::ranges::copy(whole_state(processes_, part_->layout(), motion_->y()), y_.begin());
+        whole_state<Dim>(processes_, part_->layout(), motion_->y(), y_);
     }
     tell_whole();
     // A method with fixed steps and no memory goes the same way from here, but where an event has lists of its own.

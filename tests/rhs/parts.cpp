@@ -95,7 +95,8 @@ Reached in_parts(std::size_t count, const Add<Dim>& make, const Box<Dim>& box,
             std::vector<double> y = sample.start();
             if (segment > 0) y = own_state<Dim>(parts, layout, all.y);
             y = moved(sample, y, options, all.memory);
-            all.y = whole_state<Dim>(parts, sample.model.layout(), y);
+            all.y.resize(layout.size());
+            whole_state<Dim>(parts, sample.model.layout(), y, all.y);
             x = Eigen::Map<const Points<Dim>>(all.y.data(), Dim, X.cols());
         }
         if (parts.own() == 0) result = all;

@@ -5,6 +5,8 @@
 #include <spam/core/field_layout.hpp>
 #include <spam/core/parts.hpp>
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -15,23 +17,37 @@ inline std::span<const std::uint32_t> own_numbers(const Parts& parts, Holder hol
     return holder == Holder::element ? parts.elements() : parts.numbers();
 }
 
-/// y of the whole run, by number of the particle or element, from `own` of each part, whose layout this is; accounts,
-/// of which every part has a copy, as they are. A call that all parts make together.
+/// Writes y of the whole run, by number of the particle or element, from `own` of each part, whose layout this is, to
+/// `whole`, which has its length; accounts, of which every part has a copy, as they are. A call that all parts make
+/// together. Of large runs this is when most memory is in use: no second copy of the whole is made.
 template <int Dim>
-std::vector<double> whole_state(Parts& parts, const FieldLayout<Dim>& layout,
-                                std::span<const double> own) {
-    std::vector<double> whole;
+void whole_state(Parts& parts, const FieldLayout<Dim>& layout, std::span<const double> own,
+                 std::span<double> whole) {
+    if (parts.alone()) {
+        std::ranges::copy(own, whole.begin());
+        return;
+    }
+    std::array<std::vector<std::vector<std::uint32_t>>, 2> numbers;  // of particles and elements
+    std::size_t begin = 0;
     for (const auto& block : layout.blocks()) {
         const auto values = own.subspan(block.offset, block.size);
         if (block.field.role() == Role::account) {
-            whole.insert(whole.end(), values.begin(), values.end());
+            std::ranges::copy(values, whole.subspan(begin).begin());
+            begin += values.size();
             continue;
         }
-        const auto all =
-            parts.by_number(values, block.components, own_numbers(parts, block.holder));
-        whole.insert(whole.end(), all.begin(), all.end());
+        auto& theirs = numbers[block.holder == Holder::element ? 1 : 0];
+        if (theirs.empty()) theirs = parts.gather(own_numbers(parts, block.holder));
+        const auto all = parts.gather(values);
+        const std::size_t of_one = block.components;
+        std::size_t count = 0;
+        for (std::size_t p = 0; p < theirs.size(); ++p) {
+            for (std::size_t k = 0; k < theirs[p].size(); ++k)
+                std::copy_n(&all[p][k * of_one], of_one, &whole[begin + theirs[p][k] * of_one]);
+            count += theirs[p].size();
+        }
+        begin += count * of_one;
     }
-    return whole;
 }
 
 /// y of this part, from that of the whole run, whose layout this is.

@@ -171,7 +171,10 @@ class MpiProcesses final : public Parts {
         finish_sending();
         sent_ = std::move(to);
         requests_ = std::move(sent);
-        if (longest > answered_ || !bells_->reach_all()) finish_sending();
+        if (longest > answered_ || !bells_->reach_all()) {
+            finish_sending();
+            sent_.clear();
+        }
         return from;
     }
 
