@@ -28,8 +28,8 @@ constexpr const char* advice = "a run keeps two checkpoints, try the other";
 
 using Digest = std::array<std::byte, digest_size>;
 
-/// Of one after the other. Nettle has the processor's SHA instructions and takes .2 ms to load, where OpenSSL, which the
-/// package of HDF5 brings along, takes 4 ms and more at the first use: a sixth of a short run.
+/// Of one after the other. Nettle has the processor's SHA instructions and takes .2 ms to load, where OpenSSL, which
+/// the package of HDF5 brings along, takes 4 ms and more at the first use: a sixth of a short run.
 Digest sha256(std::initializer_list<std::span<const std::byte>> pieces) {
     sha256_ctx context;
     sha256_init(&context);

@@ -122,9 +122,9 @@ class MpiProcesses final : public Parts {
     }
 
     /// What is on its way belongs to the library until the receiver has copied it. To wait for that at once would
-    /// take as long as the receiver takes to get a core; at the end of the next exchange it has been copied, since the
-    /// receiver has sent its part of that one. Only a message that needs an answer, or another machine, is waited for where
-    /// it is sent.
+    /// take as long as the receiver takes to get a core; at the end of the next exchange it has been copied, since
+    /// the receiver has sent its part of that one. Only a message that needs an answer, or another machine, is
+    /// waited for where it is sent.
     void finish_sending() {
         until([&] {
             int done = 0;
