@@ -105,7 +105,7 @@ export -f alone precompile
 export work
 
 chains | sort >"$work/chains"
-echo "$(wc -w <"$work/chains") words, $(wc -l <"$work/chains") chains of headers"
+awk '{ n += NF - 1 } END { print n " headers in " NR " runs of the compiler" }' "$work/chains"
 cut -d ' ' -f 1 "$work/chains" | sort -u | sed '/^0$/d' |
     xargs -r -P 2 -L 1 bash -c 'precompile "$@"' precompile "${compile[@]}"
 xargs -P 2 -L 1 bash -c 'alone "$@"' alone "${#compile[@]}" "${compile[@]}" <"$work/chains"
