@@ -92,7 +92,7 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     const std::vector<double> others = other_nodes(X, X);
     for (std::size_t k = 0; k < n; ++k) {
         const auto number = material_.empty() ? 0 : material_[k];
-        const Corners x = corners_of(X, others.data(), k);
+        const Corners x = corners_of(X, others.data(), 0, k);
         const double area = QuadrilateralShape<>(x).area;
         if (!(area > 0.0))
             throw InputError(fmt::format(

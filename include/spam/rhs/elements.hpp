@@ -110,14 +110,16 @@ class Elements final : public Term<2> {
     std::vector<double> other_nodes(const double* x, const double* v) const;
     enum Which { places, velocities };
     Corners corners_of(const Nodes& nodes, Which which, std::size_t element) const {
-        return corners_of(nodes.own[which], nodes.others.data() + 2 * which, element);
+        return corners_of(nodes.own[which], nodes.others.data(), 2 * which, element);
     }
-    Corners corners_of(const double* own, const double* others, std::size_t element) const {
+    /// `shift`: of what is asked for among the four numbers of a corner in another part.
+    Corners corners_of(const double* own, const double* others, std::size_t shift,
+                       std::size_t element) const {
         const std::size_t count = among().count();
         Corners corners;
         for (std::size_t c = 0; c < 4; ++c) {
             const std::size_t i = nature_.elements[element][c] - among().first();
-            const double* const at = i < count ? own + 2 * i : others + 4 * (i - count);
+            const double* const at = i < count ? own + 2 * i : others + 4 * (i - count) + shift;
             corners[c] = {{at[0], at[1]}};
         }
         return corners;
