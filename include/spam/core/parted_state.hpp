@@ -19,7 +19,7 @@ inline std::span<const std::uint32_t> own_numbers(const Parts& parts, Holder hol
 
 /// Writes y of the whole run, by number of the particle or element, from `own` of each part, whose layout this is, to
 /// `whole`, which has its length; accounts, of which every part has a copy, as they are. A call that all parts make
-/// together. Of large runs this is when most memory is in use: no second copy of the whole is made.
+/// together. No second copy of the whole is made, which large runs might have no room for.
 template <int Dim>
 void whole_state(Parts& parts, const FieldLayout<Dim>& layout, std::span<const double> own,
                  std::span<double> whole) {
