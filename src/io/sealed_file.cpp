@@ -19,7 +19,7 @@ namespace spam {
 namespace {
 
 constexpr std::string_view magic = "SPAMckpt";
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t format = 2;
 constexpr std::size_t digest_size = 32;
 constexpr std::size_t seal_size = std::tuple_size_v<Seal>;
 static_assert(seal_size == magic.size() + 8 + 8 + digest_size);

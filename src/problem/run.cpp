@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace spam {
 
@@ -21,7 +22,7 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
       recorder_(*one.model, one.plan, folder),
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
-    one.y0 = {};  // the motion holds it from now on
+    one.y0 = std::vector<double>();  // the motion holds it from now on; `= {}` would keep its room
     if (const auto dt = symplectic_step(options)) recorder_.expect_swing(*dt, *one.model);
     record_.label = one.label;
     if (folder != nullptr) events_ = *folder / "events.csv";
@@ -31,6 +32,12 @@ template <int Dim>
 double Run<Dim>::seconds() const {
     return seconds_before_ +
            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+template <int Dim>
+double Run<Dim>::seconds_left(double t_end) const {
+    const double t = motion_->t();
+    return (seconds() - seconds_before_) * (t_end - t) / (t - began_);
 }
 
 /// The file comes into being with the first event.
@@ -55,17 +62,19 @@ void Run<Dim>::snapshot(double t, const Watchers& watchers) {
         if (observer.on_snapshot) observer.on_snapshot(t, *one_.model, motion_->y());
 }
 
+/// Not in the checkpoint: its bytes are those of the motion, the same on every machine and on any ranks.
+template <int Dim>
+void Run<Dim>::recall_cost(const CostOfRates& before) {
+    const auto evaluations = static_cast<double>(statistics().rhs_evaluations);
+    seconds_before_ = evaluations * before.seconds;
+    pairs_before_ = static_cast<std::size_t>(std::llround(evaluations * before.pairs));
+}
+
 template <int Dim>
 void Run<Dim>::remember_records(Archive& archive) {
     recorder_.remember(archive);
     archive(guard_);
-    double so_far = seconds();
-    std::size_t pairs = pair_interactions();
-    archive(record_.remarks, pairs, so_far, snapshot_times_);
-    if (archive.reading()) {
-        seconds_before_ = so_far;
-        pairs_before_ = pairs - motion_->pair_interactions();
-    }
+    archive(record_.remarks, snapshot_times_);
     for (const Observer<Dim>& observer : one_.plan.observers)
         if (observer.memory) observer.memory(archive);
 }
@@ -99,6 +108,7 @@ void Run<Dim>::recall(const CaseMemory& memory) {
     remember_records(records);
     records.expect_end();
     if (events_) rewrite_events();
+    began_ = motion_->t();
     resumed_ = true;
 }
 

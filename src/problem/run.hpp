@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "../io/cost_of_rates.hpp"
 #include "checkpoint.hpp"
 #include "recorder.hpp"
 #include <spam/integrate/driver.hpp>
@@ -45,6 +46,8 @@ class Run {
     CaseMemory memory();
     /// Before drive(), which then goes on. Precondition: state_of(memory, model) is no error.
     void recall(const CaseMemory& memory);
+    /// What the run has cost up to where it is now, before it was gone on with, for each right-hand side.
+    void recall_cost(const CostOfRates& before);
     /// When snapshots were taken.
     const std::vector<double>& snapshot_times() const { return snapshot_times_; }
 
@@ -53,6 +56,8 @@ class Run {
     /// The field that kept the latest step short; empty where none did.
     std::string limiting() const;
     double seconds() const;
+    /// Until `t_end`, as fast as since this start.
+    double seconds_left(double t_end) const;
     std::vector<Drift> drifts() const { return recorder_.drifts(promise_limit_); }
     /// Complete after drive().
     RunRecord& record() { return record_; }
@@ -80,6 +85,7 @@ class Run {
     DriftGuard guard_;
     std::optional<std::filesystem::path> events_;
     std::chrono::steady_clock::time_point start_;
+    double began_ = 0.0;           ///< t of the start or the restart
     double seconds_before_ = 0.0;  ///< a restart
     std::size_t pairs_before_ = 0;
     std::vector<double> snapshot_times_;

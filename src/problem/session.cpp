@@ -23,8 +23,8 @@ namespace {
 constexpr const char* last_checkpoint = "checkpoint_last.h5";
 
 /// Without where results go and how many processes find them: no checkpoint differs by these words.
-std::string without_place_and_ranks(const std::string& command) {
-    static const std::regex option(R"( --(out|ranks)[ =]\S+)");
+std::string without_place_and_processors(const std::string& command) {
+    static const std::regex option(R"( --(out|ranks|threads)[ =]\S+)");
     return std::regex_replace(command, option, "");
 }
 
@@ -43,7 +43,7 @@ Session::Session(Problem& problem, const IntegratorOptions& integrator, std::exc
     memory_->version = version();
     memory_->instruction_set = to_string(instruction_set());
     memory_->problem = problem.name_;
-    memory_->command = without_place_and_ranks(command_);
+    memory_->command = without_place_and_processors(command_);
     memory_->smoke = problem.common_.smoke;
 }
 

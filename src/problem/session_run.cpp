@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../io/cost_of_rates.hpp"
 #include "checkpoint.hpp"
 #include "draw_invariants.hpp"
 #include "duration.hpp"
@@ -228,12 +229,13 @@ void Session::begin_anew(const RunFolder& folder, SnapshotSeries<Dim>& snapshots
 template <int Dim>
 void Session::resume(Run<Dim>& run, CaseMemory& earlier, const RunFolder& folder,
                      SnapshotSeries<Dim>& snapshots) {
+    const auto from =
+        std::filesystem::path(problem_.common_.restart).parent_path() / run.record().label;
     run.recall(earlier);
+    run.recall_cost(cost_of_rates(from));
     snapshots.resume(run.snapshot_times());
     memory_->cases.back() = std::move(earlier);  // until this run comes to a checkpoint of its own
     if (problem_.reopened_ || problem_.muted()) return;
-    const auto from =
-        std::filesystem::path(problem_.common_.restart).parent_path() / run.record().label;
     for (const auto& name : snapshots.names()) {
         std::error_code error;  // where they are gone the list of snapshots begins later
         std::filesystem::copy_file(from / name, folder / name, error);
@@ -277,9 +279,9 @@ typename Run<Dim>::Watchers Session::watchers_of(Run<Dim>& run, const Case<Dim>&
             steps = fmt::format("  dt {:.3g}  rejected {}", s.last_step, s.rejected_steps);
         if (const std::string limiting = run.limiting(); !limiting.empty())
             steps += "  limit " + limiting;
-        terminal_.progress(
-            fraction, fmt::format("{:3.0f} %  t {:.5g}  left {}{}{}", 100.0 * fraction, t,
-                                  duration(run.seconds() * (1.0 / fraction - 1.0)), drifts, steps));
+        terminal_.progress(fraction,
+                           fmt::format("{:3.0f} %  t {:.5g}  left {}{}{}", 100.0 * fraction, t,
+                                       duration(run.seconds_left(t_end)), drifts, steps));
     };
     watchers.remark = [this](double t, const Remark& remark) {
         const auto text = fmt::format("t = {:.6g}: {}, {:.3g}", t, remark.what, remark.value);

@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(foreign_files_are_refused_in_one_line) {
     folder.write("text",
                  "It was a dark and stormy night; the rain fell in torrents - except at "
                  "occasional intervals.\n");
-    const std::string begin = "SPAMckpt" + number(1);
+    const std::string begin = "SPAMckpt" + number(2);
     folder.write("huge", begin.substr(0, 1) + begin + number(~std::uint64_t{0}) + zeros);
     folder.write("bare", begin + number(0) + zeros);
     const hid_t plain =
@@ -179,9 +179,9 @@ BOOST_AUTO_TEST_CASE(other_formats_and_damage_are_told_apart) {
     const std::size_t seal = whole.size() - 56;
     BOOST_TEST_REQUIRE(whole.substr(seal, 8) == "SPAMckpt");
     std::string changed = whole;
-    changed[seal + 8] = 2;
+    changed[seal + 8] = 3;
     folder.write("later", changed);
-    expect_refusal(folder / "later", "has format 2, and this version of SPAM reads format 1 only");
+    expect_refusal(folder / "later", "has format 3, and this version of SPAM reads format 2 only");
     changed = whole;
     changed[seal / 2] ^= 1;
     folder.write("flipped", changed);

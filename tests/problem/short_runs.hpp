@@ -115,13 +115,15 @@ inline const std::set<std::string> without_checkpoints{"algorithm_sweep",
                                                        "stability",
                                                        "turns_survived"};
 
-/// Tables, configurations and the result, by their names.
-inline std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
+/// Tables, configurations and the result, by their names; with `checkpoints` these as well, which hold the command.
+inline std::map<std::string, std::string> files_of(const std::filesystem::path& folder,
+                                                   bool checkpoints = false) {
     std::map<std::string, std::string> all;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         const auto extension = entry.path().extension();
         if (extension == ".csv" || extension == ".vtp" || extension == ".vti" ||
-            extension == ".pvd" || entry.path().filename() == "result.json")
+            extension == ".pvd" || entry.path().filename() == "result.json" ||
+            (checkpoints && extension == ".h5"))
             all[entry.path().lexically_relative(folder).string()] = contents_of(entry.path());
     }
     return all;

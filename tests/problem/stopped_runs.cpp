@@ -5,6 +5,7 @@
 #include "problem/twins.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <random>
 #include <thread>
 
@@ -188,4 +189,34 @@ BOOST_AUTO_TEST_CASE(each_case_has_its_own_end) {
     // ... and a restart goes on to each of them.
     require_ran(run_in(folder, "diffusion_waves", {"--restart", "o", "--no-plots", "--out", "p"}));
     check_same(left_by(folder / "o"), left_by(folder / "p"));
+}
+
+/// What a run has cost is in no checkpoint, whose bytes are those of the motion, but in its statistics.
+BOOST_AUTO_TEST_CASE(what_a_run_has_cost_counts_behind_a_restart) {
+    const Scratch folder;
+    const Words half{
+        "--size", "3",       "--transport", "plain", "--no-plots", "--quiet", "--checkpoint-every",
+        "20",     "--t-end", "20",          "--out", "half"};
+    const Words go_on{"--restart", "half", "--t-end", "40", "--no-plots", "--quiet", "--out"};
+    require_ran(run_in(folder, "rotating_hexagon", half));
+    const auto cost = [&](const std::string& results) {
+        const auto all = json_of(folder / (results + "/statistics.json"));
+        return std::pair{all.at("pair_interactions").get<double>(),
+                         all.at("wall_seconds").get<double>()};
+    };
+    const auto first = cost("half");
+    require_ran(run_in(folder, "rotating_hexagon", with(go_on, {"both"})));
+    const auto both = cost("both");
+    BOOST_TEST(both.second > first.second);
+    // Where it is gone or damaged, only what comes afterwards counts.
+    for (const std::string& text :
+         {std::string(), std::string("7"), std::string(100000, '['),
+          std::string(R"({"wall_seconds": -1e300, "pair_interactions": {"a": [1]}})")}) {
+        folder.write("half/statistics.json", text);
+        require_ran(run_in(folder, "rotating_hexagon", with(go_on, {"later", "--force"})));
+        BOOST_TEST(std::abs(cost("later").first + first.first - both.first) <= 1.0);
+    }
+    fs::remove(folder / "half/statistics.json");
+    require_ran(run_in(folder, "rotating_hexagon", with(go_on, {"later", "--force"})));
+    BOOST_TEST(std::abs(cost("later").first + first.first - both.first) <= 1.0);
 }
