@@ -263,21 +263,7 @@ endif()
 
 # Nothing of this is run: it is the same in every build, and one will do.
 if(NOT SPAM_SANITIZE AND NOT SPAM_COVERAGE)
-  separate_arguments(flags UNIX_COMMAND "${CMAKE_CXX_FLAGS} -std=c++20 -fopenmp")
-  # /usr/include in the wrong place hides the C library from the C++ library.
-  set(includes $<TARGET_PROPERTY:test.style.house_rules,INCLUDE_DIRECTORIES>)
-  set(includes $<FILTER:${includes},EXCLUDE,^/usr/include$>)
-  # spam_headers_test(<name> <folder>)
-  function(spam_headers_test name folder)
-    add_test(NAME ${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/style/headers.sh ${folder}
-      ${CMAKE_CURRENT_BINARY_DIR}/${name} ${CMAKE_CXX_COMPILER} ${flags}
-      "-isystem;$<JOIN:${includes},;-isystem;>" COMMAND_EXPAND_LISTS)
-    set_tests_properties(${name} PROPERTIES LABELS style TIMEOUT ${timeout} PROCESSORS 2)
-  endfunction()
-  spam_headers_test(style.headers ${PROJECT_SOURCE_DIR}/include)
-  spam_headers_test(style.headers_gate ${CMAKE_CURRENT_SOURCE_DIR}/style/not_alone)
-  set_tests_properties(style.headers_gate PROPERTIES
-    PASS_REGULAR_EXPRESSION "needs_vector.hpp does not compile by itself")
+  include(${CMAKE_CURRENT_SOURCE_DIR}/style/headers.cmake)
 endif()
 
 # What is written in Python needs 3.11, for TOML.
