@@ -22,7 +22,7 @@ Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder*
       recorder_(*one.model, one.plan, folder),
       guard_(one.plan.guard),
       start_(std::chrono::steady_clock::now()) {
-    one.y0 = std::vector<double>();  // the motion holds it from now on; `= {}` would keep its room
+    one.y0 = std::vector<double>();  // the motion holds it from now on (`= {}` would keep its room)
     if (const auto dt = symplectic_step(options)) recorder_.expect_swing(*dt, *one.model);
     record_.label = one.label;
     if (folder != nullptr) events_ = *folder / "events.csv";

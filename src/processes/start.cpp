@@ -65,6 +65,14 @@ void set_unless_given(const char* name, const char* value) { setenv(name, value,
 
 }  // namespace
 
+/// Open MPI, and those whose processes are started by the protocol of MPICH.
+bool started_with_others() {
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+        if (const char* size = std::getenv(name); size != nullptr && std::atoi(size) > 1)
+            return true;
+    return false;
+}
+
 std::size_t ranks_asked_for(int argc, const char* const* argv) {
     for (int k = 1; k < argc; ++k) {
         const std::string word = argv[k];

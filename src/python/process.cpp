@@ -53,7 +53,7 @@ void enter(std::size_t particles, int threads) {
 }
 
 Parts& processes() {
-    if (!joined && started_with_others() && why_one_process().empty()) {
+    if (!joined && started_with_others()) {
         joined = join_processes();
         py::module_::import("atexit").attr("register")(py::cpp_function(&leave_processes));
     }

@@ -16,7 +16,7 @@ std::string why_one_process();
 bool started_with_others();
 
 /// Joins the others, once in a program: Parts whose exchanges are messages. They part for good with its end, which all
-/// must come to. Precondition: started_with_others() and no why_one_process().
+/// must come to. Throws InputError where this build has no MPI. Precondition: started_with_others().
 std::unique_ptr<Parts> join_processes();
 
 /// The number that `--ranks` of a command line says; 1 where there is none or it is no number (the options say so).

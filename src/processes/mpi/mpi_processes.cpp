@@ -196,14 +196,6 @@ class MpiProcesses final : public Parts {
 
 std::string why_one_process() { return {}; }
 
-/// Open MPI, and those whose processes are started by the protocol of MPICH.
-bool started_with_others() {
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-        if (const char* size = std::getenv(name); size != nullptr && std::atoi(size) > 1)
-            return true;
-    return false;
-}
-
 std::unique_ptr<Parts> join_processes() {
     int there = 0, provided = 0, count = 1, own = 0;
     MPI_Initialized(&there);  // by a package of Python, perhaps
