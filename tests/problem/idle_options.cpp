@@ -10,6 +10,7 @@
 #include "problem/result_files.hpp"
 #include "support/effort.hpp"
 #include <spam/io/checkpoint_file.hpp>
+#include <spam/problem/problem.hpp>
 
 #include <boost/test/unit_test.hpp>
 #include <sys/resource.h>
@@ -128,13 +129,16 @@ class Trial {
 
   private:
     void check(const Words& words, const Option& option, bool has_run);
-    /// An option of the session is tried in every fourth program, and in all of them in long runs.
+    /// An option of the session is tried in every eighth program, one of the scheme in every second, and all of them
+    /// everywhere in long runs.
     bool left_to_others(const std::string& option) const {
-        const auto at = of_the_session.find(option);
-        return !long_runs() && at != of_the_session.end() &&
-               (number_ + static_cast<std::size_t>(std::distance(of_the_session.begin(), at))) %
-                       4 !=
-                   0;
+        const auto left = [&](const auto& shared, std::size_t programs) {
+            const auto at = std::find(shared.begin(), shared.end(), option);
+            const auto place = static_cast<std::size_t>(std::distance(shared.begin(), at));
+            return at != shared.end() && (number_ + place) % programs != 0;
+        };
+        return !long_runs() &&
+               (left(of_the_session, 8) || left(spam::Problem::scheme_option_names(), 2));
     }
     /// The run to compare with.
     const Ran& ran_with(const Words& words) {

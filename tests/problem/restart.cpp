@@ -46,8 +46,10 @@ const Words adaptive{"--integrator", "arkode:DORMAND_PRINCE_7_4_5"};
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
-    std::size_t twins = 0;
+    std::size_t twins = 0, number = 0;
     for (const auto& name : problems) {
+        // Every second problem; all in long runs. restart_table.cpp restarts each of them as well.
+        if (!long_runs() && ++number % 2 == 0) continue;
         const Scratch folder;
         const Words smoke{"--smoke", "--no-plots"};
         require_ran(run_in(folder, name, with(smoke, {"--out", "probe"})));
@@ -61,7 +63,7 @@ BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
         const double end = effort(1.0, 0.2) * CheckpointReader(*probe).numbers("/cases/0/t").at(0);
         const double dt = key(folder / "probe/case.toml", "dt");
         const double T = 16.0 * dt * std::max(1.0, std::round(end / 16.0 / dt));
-        // One of the methods in turn; both in long runs. restart_table.cpp has others again.
+        // One of the methods in turn; both in long runs.
         const bool fixed = ++twins % 2 == 0;
         for (const Words& method : {Words{}, adaptive}) BOOST_TEST_CONTEXT(name << method.size()) {
                 if (!long_runs() && method.empty() != fixed) continue;
@@ -88,7 +90,7 @@ BOOST_AUTO_TEST_CASE(every_problem_goes_on_bit_for_bit) {
                 }
             }
     }
-    BOOST_TEST(twins >= 14u);
+    BOOST_TEST(twins >= 10u);
 }
 
 /// Of more particles, so that threads share the sums and the norms of steps.
