@@ -280,6 +280,7 @@ endfunction()
 # Optimised code only: flags of other builds take other times.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT SPAM_SANITIZE AND CMAKE_GENERATOR STREQUAL "Ninja")
   spam_python_test(builds/compile_time ${PROJECT_BINARY_DIR})
+  spam_python_test(builds/device ${PROJECT_BINARY_DIR} $<TARGET_FILE:spam>)
 endif()
 spam_python_test(numbers/numbers)
 spam_python_test(docs/docs)

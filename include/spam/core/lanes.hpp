@@ -217,7 +217,7 @@ SPAM_INLINE void round_in_place(Number& x) {
     return;
 #endif
 #endif
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__CUDA__) && !defined(__HIP__)
 #if defined(__AVX512F__)
     constexpr std::size_t widest = 64;
 #elif defined(__AVX__)

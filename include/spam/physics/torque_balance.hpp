@@ -95,8 +95,9 @@ struct TorqueParts {
         sums.force.store(to);
         to.set(to.out.positive_torque, sums.positive.torque);
         to.set(to.out.negative_torque, sums.negative.torque);
-        to.set(to.out.torque_parts, std::tuple(sums.positive.v_dot, T(0.5) * sums.positive.power,
-                                               sums.negative.v_dot, T(0.5) * sums.negative.power));
+        to.set(to.out.torque_parts,
+               std::make_tuple(sums.positive.v_dot, T(0.5) * sums.positive.power,
+                               sums.negative.v_dot, T(0.5) * sums.negative.power));
     }
 };
 

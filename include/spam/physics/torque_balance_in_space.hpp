@@ -104,7 +104,7 @@ struct SpaceTorqueSums {
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
-        to.set(to.out.torque_moments, std::tuple(sums.torque, sums.spread));
+        to.set(to.out.torque_moments, std::make_tuple(sums.torque, sums.spread));
     }
 };
 /// Numbers that are stored of a particle.
