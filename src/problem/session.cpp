@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* last_checkpoint = "checkpoint_last.h5";
 
-/// Without where results go and how many processes find them: no checkpoint differs by these words.
+/// Without where results go and how many processes and threads find them: no checkpoint differs by these words.
 std::string without_place_and_processors(const std::string& command) {
     static const std::regex option(R"( --(out|ranks|threads)[ =]\S+)");
     return std::regex_replace(command, option, "");

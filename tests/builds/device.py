@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sums over pairs are code for a device: no exception, no std::function, no virtual call, nothing of the host.
+"""Sweeps over lists of neighbours are code for a device: no exception, no std::function, no function of the host.
 
-Every sweep of the library is instantiated for one lane, as device code of CUDA, by clang, which needs neither a device
-nor its libraries to check it. Which sweeps there are the library's symbols say. What a sweep calls is checked as well:
-clang finds what cannot be compiled for a device in all that an instantiation for it leads to."""
+Every one of the library is instantiated for one lane, as device code of CUDA, by clang, which needs neither a device
+nor its libraries to check it. Which there are the library's symbols say; those of a source's own laws are left out.
+What a sweep calls is checked as well: clang finds what cannot be compiled for a device in all that an instantiation
+for it leads to. A virtual call it would let pass. Sweeps over bonds (material vectors) are loops of their own."""
 import json
 import re
 import shutil

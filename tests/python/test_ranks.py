@@ -16,18 +16,18 @@ if shutil.which("mpirun") is None:
 script = pathlib.Path(__file__).parent / "ranks.py"
 
 
-def started(count, *words):
+def started(count, *words, program=(script,)):
     more = {"OMPI_MCA_rmaps_base_oversubscribe": "1", "OMP_WAIT_POLICY": "passive", "OMPI_ALLOW_RUN_AS_ROOT": "1",
             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     with compiled.python_processes():
-        return subprocess.run(["mpirun", "-n", str(count), "--bind-to", "none", sys.executable, "-B", script, *words],
+        return subprocess.run(["mpirun", "-n", str(count), "--bind-to", "none", sys.executable, "-B", *program, *words],
                               env={**os.environ, **more}, timeout=120, text=True, capture_output=True)
 
 
 class Ranks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        ended = started(2)
+        ended = started(2, program=("-c", "import spam_mechanics as spam; spam.rank()"))
         if "this build has no MPI" in ended.stderr:
             assert ended.returncode != 0, "each of two processes has done the whole"
             raise unittest.SkipTest("this build has no MPI")

@@ -6,7 +6,8 @@
 namespace spam {
 
 std::string why_one_process() {
-    return "this build has no MPI; install it (Debian: libopenmpi-dev, openmpi-bin) and build again, or run on one process";
+    return "this build has no MPI; install it (Debian: libopenmpi-dev, openmpi-bin) and build "
+           "again, or run on one process";
 }
 
 /// Where mpirun has started several all the same, each of them would do the whole.
