@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "levels.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/look_ahead.hpp>
 
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace spam {
 namespace {
@@ -55,12 +57,32 @@ InstructionSet chosen() {
         fmt::format("SPAM_ISA: no instruction set '{}'; there are v2, v3 and v4", wish));
 }
 
+std::size_t chosen_ahead() {
+    const char* const wish = std::getenv("SPAM_AHEAD");
+    if (wish == nullptr || *wish == '\0') return most_neighbours_ahead;
+    for (const std::size_t ahead : {1, 2, 4})
+        if (wish == std::to_string(ahead)) return ahead;
+    throw InputError(fmt::format(
+        "SPAM_AHEAD: sweeps look 1, 2 or 4 neighbours ahead, not '{}'; unset it for 4", wish));
+}
+std::size_t& ahead() {
+    static std::size_t ahead = chosen_ahead();
+    return ahead;
+}
+
 }  // namespace
 
 InstructionSet instruction_set() {
-    static const InstructionSet set = chosen();
+    static const InstructionSet set = [] {
+        ahead();  // here, outside of all sweeps, a wrong SPAM_AHEAD is refused
+        return chosen();
+    }();
     return set;
 }
+
+std::size_t neighbours_ahead() { return ahead(); }
+
+std::size_t set_neighbours_ahead(std::size_t now) { return std::exchange(ahead(), now); }
 
 std::string_view to_string(InstructionSet set) {
     switch (set) {

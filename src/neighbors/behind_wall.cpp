@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/look_ahead.hpp>
 #include <spam/neighbors/behind_wall.hpp>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void BehindWall<Dim>::gather(const ClusterList<Dim>& list, std::size_t stride) {
         const auto at = std::lower_bound(images.begin(), images.end(), entry) - images.begin();
         entry = static_cast<std::uint32_t>((lanes + static_cast<std::size_t>(at)) * stride);
     }
-    entries_.insert(entries_.end(), 2, 0);  // sweeps look one ahead
+    entries_.insert(entries_.end(), entries_ahead, 0);
     for (const std::uint32_t image : images)
         slots_.push_back(image / static_cast<std::uint32_t>(stride));
     const std::uint32_t* next = entries_.data();

@@ -4,6 +4,7 @@
 
 #include "../core/levels.hpp"
 #include "search.hpp"
+#include <spam/core/look_ahead.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 
 #include <algorithm>
@@ -55,7 +56,7 @@ class ClusterList<Dim>::CellSearch {
 
     /// To be called when all clusters of the part have their entries.
     void finish() {
-        if (page_ < pages_.size()) pages_[page_][used_] = 0;  // sweeps look one entry ahead
+        if (page_ < pages_.size()) std::fill_n(&pages_[page_][used_], entries_ahead, 0U);
     }
 
   private:
@@ -143,14 +144,14 @@ class ClusterList<Dim>::CellSearch {
 
     std::uint32_t* room_for(std::size_t entries) {
         constexpr std::size_t usual = 2048;
-        if (page_ < pages_.size() && pages_[page_].size() <= used_ + entries) {
+        if (page_ < pages_.size() && pages_[page_].size() < used_ + entries + entries_ahead) {
             finish();
             ++page_;
             used_ = 0;
         }
         if (page_ == pages_.size()) pages_.emplace_back();
-        if (pages_[page_].size() <= used_ + entries)
-            pages_[page_].resize(std::max(usual, used_ + entries + 1));
+        if (pages_[page_].size() < used_ + entries + entries_ahead)
+            pages_[page_].resize(std::max(usual, used_ + entries + entries_ahead));
         return pages_[page_].data() + used_;
     }
     void keep(std::size_t cluster, const std::uint32_t* begin, const std::uint32_t* end) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_search.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/look_ahead.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/parts.hpp>
 #include <spam/neighbors/cluster_list.hpp>
@@ -65,7 +66,7 @@ double begin_of_period(const Points<Dim>& x, const Box<Dim>& box, int a) {
     return middle / box.length(a) - 0.5;
 }
 
-/// Everybody into the box.
+/// All particles into the box.
 template <int Dim>
 void ClusterList<Dim>::take_home() {
     if (!box_.periodic()) return;
@@ -198,7 +199,7 @@ void ClusterList<Dim>::list_all() {
                  0.0, reach(), 0.0});
     parts_.assign(1, {{}});
     std::vector<std::uint32_t>& all = parts_.front().front();
-    all.resize(cells_.count + 1);  // sweeps look one entry ahead
+    all.resize(cells_.count + entries_ahead);
     for (std::size_t k = 0; k < cells_.count; ++k) all[k] = cells_.slots[k] * stride_;
     entries_.assign(boxes_.size(), {all.data(), static_cast<std::uint32_t>(cells_.count)});
     pairs_ = size_ > 0 ? size_ * (cells_.count - 1) / 2 : 0;

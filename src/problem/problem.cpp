@@ -238,7 +238,7 @@ int Problem::run(int argc, char** argv, const std::function<void(Session&)>& bod
         if (!options_.parse(argc, argv)) return 0;
         settle_ranks();
         settle_restart();
-        instruction_set();  // a wrong SPAM_ISA is refused like a wrong option
+        instruction_set();  // a wrong SPAM_ISA or SPAM_AHEAD is refused like a wrong option
         options_.settle();
         if (scheme_.kernel != standard_kernel_) {
             const auto weight = [](Kernel k) { return weight_function<2>(to_string(k), 1.0); };

@@ -145,6 +145,19 @@ BOOST_AUTO_TEST_CASE(too_many_particles_for_the_memory) {
 #endif
 }
 
+BOOST_AUTO_TEST_CASE(a_wrong_number_of_neighbours_ahead_is_refused) {
+    for (const char* wrong : {"0", "3", "four"}) {
+        const Scratch folder;
+        Launch launch{folder.path()};
+        launch.before_exec = [wrong] { setenv("SPAM_AHEAD", wrong, 1); };
+        const Outcome outcome = run(problem("rotating_hexagon", short_run), launch);
+        BOOST_TEST(outcome.status == 2);
+        BOOST_TEST(lines(outcome.err) == 1U);
+        BOOST_TEST(outcome.err.find("1, 2 or 4 neighbours ahead") != std::string::npos);
+        BOOST_TEST(folder.listing().empty());
+    }
+}
+
 BOOST_AUTO_TEST_CASE(the_instruction_set_is_named_and_can_be_chosen) {
     const auto run_with = [](const Scratch& folder, const char* set) {
         Launch launch{folder.path()};

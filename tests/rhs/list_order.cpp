@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Flows: neighbours are summed in ascending number, whatever slots a list has given them, so that rates have
-// the same bits with a list of any age, whatever the formulation reads of neighbours.
+// the same bits with a list of any age and looked at any number of neighbours ahead, whatever the formulation reads of
+// neighbours.
 #include "support/every_potential.hpp"
 #include "support/plane_and_space.hpp"
 #include "support/random_state.hpp"
+#include <spam/core/look_ahead.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/embedded_atom.hpp>
@@ -72,7 +74,12 @@ void any_list_does(const Build<Dim>& build, const Particles<Dim>& particles, con
     for (unsigned k = 0; k < 3; ++k) rates_of(*used, stirred(*used, y, 1.5, k));
     rates_of(*used, stirred(*used, y, 0.02, 10));
     const std::size_t builds = used->list_builds();
-    BOOST_TEST((rates_of(*used, y) == expected), what);
+    const std::size_t usual = neighbours_ahead();
+    for (const std::size_t ahead : {1, 2, 4}) {
+        set_neighbours_ahead(ahead);
+        BOOST_TEST((rates_of(*used, y) == expected), what << ", " << ahead << " ahead");
+    }
+    set_neighbours_ahead(usual);
     BOOST_TEST(used->list_builds() == builds);  // it was an old list
 }
 

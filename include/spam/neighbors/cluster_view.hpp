@@ -11,7 +11,7 @@ namespace spam {
 struct ClusterView {
     struct Entries {
         const std::uint32_t*
-            first;  ///< where the records of neighbours begin; one more may be read
+            first;  ///< where the records of neighbours begin; `entries_ahead` more may be read
         std::uint32_t count;
     };
 

@@ -20,7 +20,7 @@ struct Pair {
     Vec<Dim, T> v_ji;    ///< v_j - v_i
 };
 
-/// The part of a pair that takes longest: a sweep begins it one neighbour ahead of the rest.
+/// The part of a pair that takes longest: a sweep begins it some neighbours ahead of the rest.
 template <int Dim, class T>
 struct Separation {
     Vec<Dim, T> r_ji;

@@ -2,15 +2,26 @@
 #pragma once
 
 #include <spam/core/lanes.hpp>
+#include <spam/core/look_ahead.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/neighbors/cluster_view.hpp>
 #include <spam/neighbors/pair.hpp>
 
 #include <algorithm>
 #include <tuple>
+#include <type_traits>
 
 namespace spam {
 inline namespace SPAM_LANES {
+
+/// The compiler's own vector in a register, or the number that is one.
+template <class T>
+SPAM_INLINE auto& bare(T& x) {
+    if constexpr (requires { x.v; })
+        return x.v;
+    else
+        return x;
+}
 
 template <class Pass>
 constexpr bool is_light() {
@@ -40,6 +51,8 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;
     constexpr bool light = (is_light<Passes>() && ...);
+    constexpr std::size_t most = light ? 1 : most_neighbours_ahead;
+    const std::size_t ahead = light ? 1 : neighbours_ahead();
     for (std::size_t cluster = first; cluster < last; ++cluster) {
         const double* const own = records.numbers + cluster * W * records.stride;
         Lanes gathered;
@@ -56,24 +69,38 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
         Sums sums;
         const ClusterView::Entries entries = list.entries[cluster];
         const std::uint32_t* entry = entries.first;
-        const auto distance_to = [&](const double* other) {
+        // Pairs that are begun: a ring in the nearest cache. An array for each number, of the compiler's own vectors:
+        // so what no pass asks for is never stored.
+        using Number = std::remove_cvref_t<decltype(bare(i.x[0]))>;
+        Number r_ji[Dim][most], r2[most], r[most];
+        const auto begin = [&](std::uint32_t of, std::size_t at) SPAM_FLAT {
+            const double* const other = records.numbers + of;
             Vec<Dim, T> x_j;
             for (int a = 0; a < Dim; ++a) x_j[a] = T(other[a]);
-            return separation<Dim, light>(i.x, x_j);
+            const auto apart = separation<Dim, light>(i.x, x_j);
+            for (int a = 0; a < Dim; ++a) r_ji[a][at] = bare(apart.r_ji[a]);
+            r2[at] = bare(apart.r2);
+            r[at] = bare(apart.r);
         };
-        const double* other = records.numbers + *entry;
-        auto apart = distance_to(other);
+        // A pair takes several times as long, from the load of x_j to its last sum, as the multipliers work on it, and
+        // the processor's queue holds few pairs: distances are found some neighbours ahead. (There are always more
+        // entries than the list's.) A light pass has no time to spare for the ring: one ahead, in registers.
+#pragma GCC unroll 1
+        for (std::size_t k = 0; k < ahead; ++k) begin(entry[k], k);
+        std::size_t at = 0;
         for (const std::uint32_t* const end = entry + entries.count; entry != end; ++entry) {
-            // What waits for a square root would fill the processor's queue before the next one is
-            // begun: it is begun here. (There is always one entry more than the list's.)
-            const double* const next = records.numbers + entry[1];
-            const auto next_apart = distance_to(next);
+            const double* const other = records.numbers + *entry;
             j.visit([&](T& number, int k) { number = T(other[k]); });
+            Separation<Dim, T> apart;
+            for (int a = 0; a < Dim; ++a) apart.r_ji[a] = r_ji[a][at];
+            apart.r2 = r2[at];
+            apart.r = r[at];
+            if constexpr (!light) __builtin_prefetch(records.numbers + entry[entries_ahead]);
+            begin(entry[ahead], at);
+            at = (at + 1) & (ahead - 1);
             const auto pair = make_pair<Dim, T>(weight, apart, i, j);
             std::apply([&](auto&... s) { (std::get<Passes>(passes).add(pair, i, j, s), ...); },
                        sums);
-            other = next;
-            apart = next_apart;
         }
         const Sums found = sums;
         std::apply([&](const auto&... s) SPAM_FLAT { store(cluster * W, gathered, s...); }, found);
