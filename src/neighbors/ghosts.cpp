@@ -114,12 +114,8 @@ void Ghosts<Dim>::collect(double reach, const Points<Dim>& position,
     }
 }
 
-/// Where the image of that code is among those that occur.
 template <int Dim>
-std::uint32_t Ghosts<Dim>::image_of(const Box<Dim>& box, std::uint32_t code) {
-    constexpr std::uint32_t unseen = 0xffffffff;
-    if (images_.empty()) at_.fill(unseen);
-    if (at_[code] != unseen) return at_[code];
+std::uint32_t Ghosts<Dim>::add_image(const Box<Dim>& box, std::uint32_t code) {
     Image<Dim> image;
     for (int a = 0; a < Dim; ++a) {
         const std::uint32_t number = number_along(code, a);
@@ -222,7 +218,6 @@ void Ghosts<Dim>::take_places(const Box<Dim>& box, std::array<std::vector<double
     number_.resize(count);
     code_.resize(count);
     image_.resize(count);
-    wall_of_.resize(count);
     for (std::size_t g = 0; g < count; ++g) {
         const Place& place = places_[g];
         owner_[g] = place.owner;
@@ -230,11 +225,6 @@ void Ghosts<Dim>::take_places(const Box<Dim>& box, std::array<std::vector<double
         code_[g] = place.code;
         for (std::size_t a = 0; a < Dim; ++a) x[a][first_ + g] = place.x[a];
         image_[g] = image_of(box, place.code);
-        wall_of_[g] = -1;
-        for (int a = 0; a < Dim; ++a) {
-            const std::uint32_t number = number_along(place.code, a);
-            if (number != middle && box.walled(a)) wall_of_[g] = 2 * a + (number > middle ? 1 : 0);
-        }
     }
 }
 
@@ -246,7 +236,9 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& po
     first_ = static_cast<std::uint32_t>(first);
     places_.clear();
     images_.clear();
+    for (int a = 0; a < Dim; ++a) walled_[static_cast<std::size_t>(a)] = box.walled(a);
     if (alone && !box.periodic() && !box.walled()) return take_places(box, x);
+    at_.fill(unseen);
     const Corners own = around_ = bounds_of(position);
     for (int a = 0; a < Dim; ++a) find_images(box, a, reach, own);
     collect(reach, position, slot_of, false);
@@ -299,12 +291,16 @@ bool Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const N
             if (k + 1 == count) change += 2 * count;
         }
     if (!alone && !give(records, stride, count, from, valid)) return false;
-    const auto owned = static_cast<std::uint32_t>(first_);
-    parallel_for(owner_.size(), [&](std::size_t g) {
-        if (owner_[g] < owned)
-            make(records + owner_[g] * stride + from, image_[g], count,
-                 records + (first_ + g) * stride + from);
-    });
+    const auto refreshed = [&](std::size_t g) {
+        make(records + owner_[g] * stride + from, image_[g], count,
+             records + (first_ + g) * stride + from);
+    };
+    if (alone)
+        parallel_for(owner_.size(), refreshed);
+    else
+        parallel_for(owner_.size(), [&](std::size_t g) {
+            if (owner_[g] < first_) refreshed(g);
+        });
     return true;
 }
 

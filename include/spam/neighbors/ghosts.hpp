@@ -46,7 +46,13 @@ class Ghosts {
 
     /// Whether ghost number g is behind that wall across direction a; where it is an image of an image, the
     /// wall of the last direction counts. Precondition: the side is not open.
-    bool behind(std::size_t g, int a, bool upper) const { return wall_of_[g] == 2 * a + upper; }
+    bool behind(std::size_t g, int a, bool upper) const {
+        for (int b = Dim - 1; b > a; --b)
+            if (walled_[static_cast<std::size_t>(b)] && number_along(code_[g], b) != middle)
+                return false;
+        const std::uint32_t number = number_along(code_[g], a);
+        return upper ? number > middle : number < middle;
+    }
 
     /// The numbers from `from` on in the records of all ghosts, as those of their owners are now. Returns whether
     /// records are `valid` in every part; where they are not, nothing is given to others.
@@ -62,7 +68,7 @@ class Ghosts {
         double low, high;  ///< a particle between these has none within the reach
     };
     /// Owners in part p are `elsewhere` - p.
-    static constexpr std::uint32_t elsewhere = 0xffffffff;
+    static constexpr std::uint32_t elsewhere = 0xffffffff, unseen = elsewhere;
     struct Place {
         std::uint32_t owner, number, code, unused;
         std::array<double, Dim> x;
@@ -87,7 +93,11 @@ class Ghosts {
     void meet_other_parts(const Box<Dim>& box, double reach, const Points<Dim>& position,
                           std::span<const std::uint32_t> slot_of, const Corners& own);
     void take_places(const Box<Dim>& box, std::array<std::vector<double>, Dim>& x);
-    std::uint32_t image_of(const Box<Dim>& box, std::uint32_t code);
+    /// Where the image of that code is among those that occur.
+    std::uint32_t image_of(const Box<Dim>& box, std::uint32_t code) {
+        return at_[code] != unseen ? at_[code] : add_image(box, code);
+    }
+    std::uint32_t add_image(const Box<Dim>& box, std::uint32_t code);
     bool give(double* records, std::size_t stride, std::size_t count, std::size_t from,
               bool valid) const;
     /// A sign and, for positions, a shift on the grid of the period: exact.
@@ -102,7 +112,7 @@ class Ghosts {
     Corners around_{};  ///< the particles of a part, for which images are looked for
     std::uint32_t first_ = 0;
     std::vector<std::uint32_t> owner_, number_, code_, image_;
-    std::vector<int> wall_of_;                     ///< 2 a + (1 for the upper one); -1: behind none
+    std::array<bool, Dim> walled_{};               ///< across that direction
     std::vector<Image<Dim>> images_;               ///< those that occur
     std::array<std::uint32_t, 1U << 4 * Dim> at_;  ///< in images_, by code
     std::vector<Exchange> parts_;                  ///< empty where there is one part
