@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sweeps over lists of neighbours are code for a device: no exception, no std::function, no function of the host.
+"""Sweeps over lists of neighbours, loops over bonds and what a material does with a particle are code for a device: no
+exception, no std::function, no function of the host.
 
-Every one of the library is instantiated for one lane, as device code of CUDA, by clang, which needs neither a device
+Every sweep of the library is instantiated for one lane, as device code of CUDA, by clang, which needs neither a device
 nor its libraries to check it. Which there are the library's symbols say; those of a source's own laws are left out.
 What a sweep calls is checked as well: clang finds what cannot be compiled for a device in all that an instantiation
-for it leads to. A virtual call it would let pass. Sweeps over bonds (material vectors) are loops of their own."""
+for it leads to. A virtual call it would let pass. The loop over a block of particles that calls a material opens the
+columns of the state before, which is the host's."""
 import json
 import re
 import shutil
@@ -31,6 +33,57 @@ SOURCE = """
 #pragma clang force_cuda_host_device end
 """
 
+# Laws of spam/material, by what a right-hand side asks them for.
+CLOSURES = """
+namespace spam {
+template <class Law>
+void of_state(const Law& law, double& x) {
+    x = law.pressure(x, x) + sound_speed(law, x, x);
+    if constexpr (requires { law.temperature(x, x); }) x = law.temperature(x, x);
+}
+template <int Dim, class Law>
+void by_rates(const Law& law, const Mat<Dim>& grad_v, SymTensor<Dim>& stress) {
+    stress = law.stress_rate(grad_v, stress);
+}
+template <int Dim, class Law>
+void by_deformation(const Law& law, const Mat<Dim>& F, Mat<Dim>& stress) {
+    if constexpr (requires { law.stress(F); })
+        stress = law.stress(F);
+    else
+        stress = static_cast<decltype(law.in_state(std::declval<ConstState<Dim>>()))*>(nullptr)->stress(0, F);
+}
+template <int Dim, class Law>
+void returned(const Law& law, SymTensor<Dim>& stress) {
+    using Map = decltype(law.return_map(0.0, std::declval<ConstState<Dim>>()));
+    stress = (*static_cast<Map*>(nullptr))(0, stress);
+}
+template <int Dim, class Law>
+void smooth(const Law& law, const Mat<Dim>& grad_v, SymTensor<Dim>& stress) {
+    using Rates = decltype(law.rates(std::declval<ConstState<Dim>>(), std::declval<State<Dim>>()));
+    stress = (*static_cast<Rates*>(nullptr))(0, grad_v, stress);
+}
+""" + "".join(
+    [f"template void of_state(const {law}&, double&);\n"
+     for law in ("IdealGas", "GammaGas", "IsentropicGas", "LucyGas", "VanDerWaals", "VanDerWaalsIsotherm",
+                 "EmbeddedAtom", "CavitatingEmbeddedAtom", "Cavitating<IdealGas>")]
+    + [f"template void by_rates(const ElasticSolid&, const Mat<{n}>&, SymTensor<{n}>&);\n" for n in (2, 3)]
+    + [f"template void by_deformation(const {law}&, const Mat<2>&, Mat<2>&);\n"
+       for law in ("StVenantKirchhoff", "PolynomialSolid")]
+    + [f"template void by_deformation(const HenckySolid<{surface}>&, const Mat<{n}>&, Mat<{n}>&);\n"
+       f"template void returned(const YieldingSolid<{surface}, JohnsonCook>&, SymTensor<{n}>&);\n"
+       f"template void returned(const YieldingSolid<{surface}, Perzyna>&, SymTensor<{n}>&);\n"
+       f"template void smooth(const SmoothYield<{surface}>&, const Mat<{n}>&, SymTensor<{n}>&);\n"
+       for surface, n in (("PlaneVonMises", 2), ("PlaneStrainVonMises", 2), ("SpaceVonMises", 3))]
+    + ["template void returned(const YieldingSolid<PlaneStressVonMises>&, SymTensor<2>&);\n}\n"])
+
+# Their sources, with four lanes of the compiler's own: fewer have instructions of their own on the host.
+BONDS = """
+#define native_lanes(level) 4
+#define SPAM_LEVEL generic
+#include "src/rhs/bond_sweeps.lanes.cpp"
+#include "src/rhs/bond_updates.lanes.cpp"
+"""
+
 # A pass that cannot be one: what it calls is known to the host alone.
 FOR_THE_HOST = """
 namespace spam {
@@ -50,9 +103,10 @@ template void sweep_run<1, 2, RecordOf<2, double, column::Position, column::Mass
 
 
 def headers():
-    """All that define passes, and what makes sweeps of them; and the headers of libraries that these include."""
+    """All that define passes or materials, and what makes sweeps of them; and those of libraries that they include."""
     include = ROOT / "include"
-    ours = [f"spam/physics/{path.name}" for path in sorted((include / "spam/physics").glob("*.hpp"))
+    ours = [f"spam/{path.parent.name}/{path.name}"
+            for path in sorted((*(include / "spam/physics").glob("*.hpp"), *(include / "spam/material").glob("*.hpp")))
             # Events between steps and a solver over all particles are no passes.
             if path.stem not in ("closest_approach", "gauss_constraint")] + ["spam/rhs/run_sweep.hpp"]
     libraries, known, todo = [], set(ours), list(ours)
@@ -93,7 +147,7 @@ def compiled(code):
         source.write_text(SOURCE.format(libraries=as_includes[0], headers=as_includes[1], code=code), encoding="utf-8")
         return subprocess.run([CLANG, "-x", "cuda", "--cuda-device-only", "--cuda-gpu-arch=sm_70", "-nocudainc",
                                "-nocudalib", "-fsyntax-only", "-std=c++20", "-DEIGEN_NO_CUDA", "-DFMT_USE_FLOAT128=0",
-                               *" ".join(include).split(), source],
+                               *" ".join(include).split(), f"-I{ROOT}", source],
                               cwd=BUILD, capture_output=True, text=True, check=False)
 
 
@@ -106,9 +160,15 @@ class Device(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr[:4000])
         print(f"{len(code)} sweeps compile for a device")
 
+    def test_closures_and_loops_over_bonds_compile(self):
+        done = compiled(CLOSURES + BONDS)
+        self.assertEqual(done.returncode, 0, done.stderr[:4000])
+
     def test_what_needs_the_host_is_found(self):
         done = compiled(FOR_THE_HOST)
         self.assertNotEqual(done.returncode, 0)
+        self.assertIn("reference to __host__ function", done.stderr)
+        done = compiled(CLOSURES.replace("stress = law.stress_rate(", "law.describe(), stress = law.stress_rate("))
         self.assertIn("reference to __host__ function", done.stderr)
 
 
