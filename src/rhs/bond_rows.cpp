@@ -129,7 +129,7 @@ void BondRows<Dim>::make_room(std::vector<Newcomer>& newcomers) {
     lay_out(capacity);
 }
 
-/// Those who are there in both directions: where rounding lets only one of two meet the other, they meet next time.
+/// Bonds that are there in both directions: where rounding lets only one of two meet the other, they meet next time.
 /// Partners in other parts have been found there as well (BondTable::meet_others).
 template <int Dim>
 class BondRows<Dim>::Meetings {

@@ -49,8 +49,8 @@ class ClusterList {
     /// true where a position is not finite.
     bool serves(const Eigen::Ref<const Points<Dim>>& position);
 
-    /// Who has moved by more than half the skin since the build, the rigid motion known last taken
-    /// off. Where nobody has, the list serves.
+    /// The particles that have moved by more than half the skin since the build, the rigid motion known last taken
+    /// off. Where none has, the list serves.
     Displacement<Dim> displacement() const { return motion_.displacement(0.5 * skin_); }
 
     /// For sweeps over records whose positions the list serves.
