@@ -157,6 +157,14 @@ Profile profile_of(const Star& one, std::span<const double> y) {
     return profile;
 }
 
+/// Of gravity and of the gas, by GM^2/R, of a state at rest. Terms are of the model that has no friction and so no
+/// account of its work: another y.
+std::pair<double, double> energies_of(const Star& one, std::span<const double> rest) {
+    const auto y = restated<3>(*one.at_rest, rest, *one.model);
+    const double unit = G * mass * mass / star, W = one.gravity->energy(y) / unit;
+    return {W, one.model->internal_energy(y) / unit - W};
+}
+
 /// omega^2 by 4 pi G rho_c.
 double squared_frequency(const History& h) {
     const auto t = h.column("t");
@@ -173,14 +181,13 @@ void report(Session& session, const Star& one, const RunRecord& rest, const RunR
     const bool known = rest.complete && !session.common().smoke && one.y0.size() >= 6 * 1200 &&
                        session.at_default({"kernel", "range", "softening", "damping",
                                            "relaxation-time", "amplitude", "periods"});
-    const double unit = G * mass * mass / star;
-    const double W = one.gravity->energy(rest.y), U = one.model->internal_energy(rest.y) - W;
+    const auto [W, U] = energies_of(one, rest.y);
     const std::string source = "exact";
     findings.claim("density_error", profile_of(one, rest.y).error, 0.0, 0.03,
                    "root of the mean square inside 0.7 R, by the exact density", known);
-    findings.claim("gravity_energy", W / unit, -0.75, 0.0225, "exact, by GM^2/R", known);
-    findings.claim("internal_energy", U / unit, 0.25, 0.0075, "exact, by GM^2/R", known);
-    findings.measure("virial", (W + 3.0 * U) / unit, "W + 3 U, which is 0 at rest, by GM^2/R");
+    findings.claim("gravity_energy", W, -0.75, 0.0225, "exact, by GM^2/R", known);
+    findings.claim("internal_energy", U, 0.25, 0.0075, "exact, by GM^2/R", known);
+    findings.measure("virial", W + 3.0 * U, "W + 3 U, which is 0 at rest, by GM^2/R");
     findings.measure("size", size_of(*one.at_rest, rest.y) / star, "sqrt(<r^2>)/R; exact: 0.6262");
     if (swing == nullptr) return;
     findings.claim("squared_frequency", squared_frequency(swing->history), 0.3804, 0.02,
@@ -191,11 +198,10 @@ void report(Session& session, const Star& one, const RunRecord& rest, const RunR
 /// Errors of the larger number of particles by those of the smaller one.
 void compare(Session& session, const std::vector<Star>& stars, const std::vector<RunRecord>& runs) {
     const auto errors = [&](std::size_t k) {
-        const double unit = G * mass * mass / star, W = stars[k].gravity->energy(runs[2 * k].y);
-        return std::array{
-            profile_of(stars[k], runs[2 * k].y).error, std::abs(W / unit + 0.75),
-            std::abs((stars[k].model->internal_energy(runs[2 * k].y) - W) / unit - 0.25),
-            std::abs(squared_frequency(runs[2 * k + 1].history) - 0.38044)};
+        const auto [W, U] = energies_of(stars[k], runs[2 * k].y);
+        return std::array{profile_of(stars[k], runs[2 * k].y).error, std::abs(W + 0.75),
+                          std::abs(U - 0.25),
+                          std::abs(squared_frequency(runs[2 * k + 1].history) - 0.38044)};
     };
     const auto few = errors(0), many = errors(1);
     const char* const names[] = {"density", "gravity", "internal", "frequency"};

@@ -2,6 +2,7 @@
 // A damaged checkpoint is never read: a thousand kinds of damage, each refused in one line. Without
 // the digest HDF5 takes some of them for contents.
 #include "support/checkpoint.hpp"
+#include "support/effort.hpp"
 #include <spam/core/error.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -14,9 +15,10 @@ using namespace spam;
 using namespace spam::test;
 
 /// Asked for by the leak sanitizer. A forged file can keep HDF5 from closing when a program ends ("infinite
-/// loop closing library"): what it then has not freed is its own, out of our reach.
+/// loop closing library"): what it then has not freed is its own, out of our reach. Linked as an
+/// archive it has no name but those of its functions.
 extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
+extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5\nleak:H5"; }
 
 namespace {
 
@@ -154,7 +156,8 @@ BOOST_AUTO_TEST_CASE(no_byte_lets_an_array_be_read_past_its_end) {
     const int status = in_a_child([&] {
         if (std::freopen((folder / "said").c_str(), "a", stderr) == nullptr) return 1;
         std::size_t refusals = 0;
-        for (std::size_t at = 0; at + seal_size < whole.size(); ++at) {
+        const std::size_t each = effort<std::size_t>(1, 7);
+        for (std::size_t at = 0; at + seal_size < whole.size(); at += each) {
             std::string bytes = whole;
             bytes[at] = static_cast<char>(bytes[at] ^ '\x80');
             Vandal::seal(bytes);
@@ -165,7 +168,7 @@ BOOST_AUTO_TEST_CASE(no_byte_lets_an_array_be_read_past_its_end) {
                 ++refusals;
             }
         }
-        return refusals > 100 ? 0 : 3;
+        return refusals > 100 / each ? 0 : 3;
     });
     BOOST_TEST(status == 0);
 }

@@ -99,8 +99,9 @@ class Neighbourhood {
 
     const ClusterList<Dim>& list() const { return *list_; }
     int numbers() const { return static_cast<int>(numbers_); }  ///< in a record
-    double* record(std::size_t slot) { return &records_[slot * numbers_]; }
-    const double* record(std::size_t slot) const { return &records_[slot * numbers_]; }
+    /// Of slot 0 where there are no particles as well: a part may have none.
+    double* record(std::size_t slot) { return records_.data() + slot * numbers_; }
+    const double* record(std::size_t slot) const { return records_.data() + slot * numbers_; }
     Records records() const { return {records_.data(), numbers_}; }
     double range() const { return range_; }
     bool for_good() const { return use_ == ListUse::for_good; }
