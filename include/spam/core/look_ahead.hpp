@@ -10,9 +10,9 @@ namespace spam {
 /// Distances are found at most this many neighbours before what is summed over them.
 inline constexpr std::size_t most_neighbours_ahead = 4;
 
-/// How many: `most_neighbours_ahead`, with which no processor that was measured is slower (tests/bench/README.md), or
-/// what the environment variable SPAM_AHEAD names (1, 2, 4). Settled by the first call. Throws InputError if
-/// SPAM_AHEAD is something else.
+/// How many: `most_neighbours_ahead`, which was quickest on the one processor that was measured
+/// (tests/bench/README.md), or what the environment variable SPAM_AHEAD names (1, 2, 4). Settled by the first call.
+/// Throws InputError if SPAM_AHEAD is something else.
 std::size_t neighbours_ahead();
 
 /// For tests, between right-hand sides: 1, 2 or 4 from now on. Returns the number before.

@@ -68,7 +68,9 @@ class Ghosts {
         double low, high;  ///< a particle between these has none within the reach
     };
     /// Owners in part p are `elsewhere` - p.
-    static constexpr std::uint32_t elsewhere = 0xffffffff, unseen = elsewhere;
+    static constexpr std::uint32_t elsewhere = 0xffffffff;
+    /// In at_: no image of that code has occurred since the build began.
+    static constexpr std::uint32_t unseen = 0xffffffff;
     struct Place {
         std::uint32_t owner, number, code, unused;
         std::array<double, Dim> x;
