@@ -18,7 +18,7 @@ class Alone final : public Parts {
 
 thread_local Parts* parts_here = nullptr;
 
-/// The first byte of every message says whether its sender goes on.
+/// The last byte of every message, behind what its sender tells, says whether it goes on.
 constexpr std::byte goes_on{0}, has_given_up{1}, has_left{2};
 
 }  // namespace
@@ -33,40 +33,51 @@ Parts& Parts::here() { return parts_here != nullptr ? *parts_here : alone_here()
 Parts::Here::Here(Parts& parts) : before_(std::exchange(parts_here, &parts)) {}
 Parts::Here::~Here() { parts_here = before_; }
 
+std::vector<Parts::Bytes> Parts::send(std::vector<Bytes> to, std::byte how, Content content) {
+    for (Bytes& bytes : to) bytes.insert(bytes.end(), {tells_, how});
+    std::vector<Bytes> from = transport(std::move(to), content);
+    for (const Bytes& bytes : from) told_ = std::max(told_, bytes[bytes.size() - trailer]);
+    return from;
+}
+
 std::vector<Parts::Bytes> Parts::exchange(std::vector<Bytes> to, Content content) {
     to.resize(count_);
     if (alone()) return to;
     if (left_) throw PartLeft(*left_);
-    for (Bytes& bytes : to) bytes.insert(bytes.begin(), goes_on);
     ++traffic_.exchanges;
     for (std::size_t p = 0; p < count_; ++p)
-        if (p != own_) traffic_.bytes += to[p].size();
+        if (p != own_) traffic_.bytes += to[p].size() + trailer;
     const auto begin = std::chrono::steady_clock::now();
-    std::vector<Bytes> from = transport(std::move(to), content);
+    std::vector<Bytes> from = send(std::move(to), goes_on, content);
     traffic_.seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (const std::byte how : {has_left, has_given_up})
         for (const Bytes& bytes : from) {
-            if (bytes.front() != how) continue;
-            const std::string why(reinterpret_cast<const char*>(bytes.data()) + 1,
-                                  bytes.size() - 1);
+            if (bytes.back() != how) continue;
+            std::uint64_t turn = 0;
+            std::memcpy(&turn, bytes.data(), sizeof(turn));
+            const auto* const words = reinterpret_cast<const char*>(bytes.data());
+            const std::string why(words + sizeof(turn), bytes.size() - trailer - sizeof(turn));
             if (how == has_left) throw PartLeft(*(left_ = why));
-            throw PartGaveUp(why);
+            throw PartGaveUp(why, turn);
         }
-    for (Bytes& bytes : from) bytes.erase(bytes.begin());
+    for (Bytes& bytes : from) bytes.resize(bytes.size() - trailer);
     return from;
 }
 
-void Parts::end(std::byte how, const std::string& reason) {
+void Parts::end(std::byte how, std::uint64_t turn, const std::string& reason) {
     if (alone() || left_) return;
     if (how == has_left) left_ = reason;
-    Bytes bytes = bytes_of(std::span<const char>(reason));
-    bytes.insert(bytes.begin(), how);
-    transport(std::vector<Bytes>(count_, bytes), Content::others);
+    Bytes bytes = bytes_of(std::span<const std::uint64_t>(&turn, 1));
+    const Bytes words = bytes_of(std::span<const char>(reason));
+    bytes.insert(bytes.end(), words.begin(), words.end());
+    send(std::vector<Bytes>(count_, bytes), how, Content::others);
 }
 
-void Parts::give_up(const std::string& reason) { end(has_given_up, reason); }
-void Parts::leave(const std::string& reason) { end(has_left, reason); }
+void Parts::give_up(const std::string& reason, std::uint64_t turn) {
+    end(has_given_up, turn, reason);
+}
+void Parts::leave(const std::string& reason) { end(has_left, 0, reason); }
 
 std::string Parts::first_of(const std::string& own) {
     if (alone()) return own;

@@ -305,7 +305,7 @@ double Arkode::take_step(double t_stop) {
         whole_step_ = false;
         for (double h = next.length; t_ < next.to; h = next.to - t_) {
             take_piece(h, next.to);
-            if (t_ < next.to && InterruptWatch::received() != 0) return t_;
+            if (t_ < next.to && InterruptWatch::told() != 0) return t_;
         }
         grid_.arrive(next);
         whole_step_ = next.whole;

@@ -2,6 +2,7 @@
 #include "fixed_steps.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/core/parts.hpp>
 #include <spam/integrate/interrupt.hpp>
 
 #include <fmt/format.h>
@@ -20,8 +21,13 @@ FixedSteps::FixedSteps(const Ode& ode, Vector& y, double t0, double dt)
 void FixedSteps::rates(double t, const Vector& at, Vector& y_dot) {
     ++statistics_.rhs_evaluations;
     ode_.rates(t, at.span(), y_dot.span());
-    const std::string reason = ode_.failure();
-    if (!reason.empty()) throw GuardStop(fmt::format("{} at t = {:.6g}", reason, t));
+    if (const std::string reason = ode_.failure(); !reason.empty()) stop(reason, t);
+}
+
+void FixedSteps::stop(const std::string& reason, double t) {
+    const std::string message = fmt::format("{} at t = {:.6g}", reason, t);
+    Parts::here().give_up(message, statistics_.rhs_evaluations);
+    throw GuardStop(message);
 }
 
 std::span<const double> FixedSteps::guarded(double h) {
@@ -54,14 +60,22 @@ void FixedSteps::take_pieces(double h, double t_next) {
             forget();
         }
         h = t_next - t_;
-        if (due && InterruptWatch::received() != 0) return;
+        if (due && InterruptWatch::told() != 0) return;
     }
 }
 
 double FixedSteps::take_step(double t_stop) {
     const FixedGrid::Step next = grid_.next(t_, t_stop);
     whole_step_ = false;
-    take_pieces(next.length, next.to);
+    try {
+        // Where the rates of a stage have no meaning in one part, the others hear of it in the exchange of images of
+        // the next stage, or in that of the guard: to ask all at each stage would take as long as to give images.
+        const Parts::AgreesLater later(Parts::here());
+        take_pieces(next.length, next.to);
+    } catch (const PartGaveUp& other) {
+        if (other.turn > 0) statistics_.rhs_evaluations = other.turn;
+        throw GuardStop(other.what());
+    }
     if (t_ < next.to) return t_;  // interrupted
     whole_step_ = next.whole;
     grid_.arrive(next);

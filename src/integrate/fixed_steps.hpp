@@ -29,6 +29,8 @@ class FixedSteps : public Integrator {
 
     /// y_dot = f(t, at). Throws GuardStop where that has no meaning.
     void rates(double t, const Vector& at, Vector& y_dot);
+    /// Throws GuardStop for that reason at t, in all parts of the run.
+    [[noreturn]] void stop(const std::string& reason, double t);
 
     Vector z_;
 

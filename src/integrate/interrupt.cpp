@@ -107,6 +107,13 @@ void InterruptWatch::check() {
     if (received_signal != 0 && Parts::here().alone()) throw Interrupted();
 }
 
+int InterruptWatch::told() {
+    Parts& parts = Parts::here();
+    if (parts.alone()) return received_signal;
+    parts.tell(static_cast<unsigned char>(received_signal));
+    return parts.told();
+}
+
 int InterruptWatch::agreed() {
     if (!Parts::here().alone())
         received_signal =

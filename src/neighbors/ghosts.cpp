@@ -258,19 +258,20 @@ bool Ghosts<Dim>::give(double* records, std::size_t stride, std::size_t count, s
             messages[p].resize(sizeof(double));
             continue;
         }
-        std::vector<double> numbers(parts_[p].slot.size() * count + 1);
+        // Made and read where they travel: copies of them took a thirtieth of a right-hand side.
+        messages[p] = Parts::room_for((parts_[p].slot.size() * count + 1) * sizeof(double));
+        auto* const numbers = reinterpret_cast<double*>(messages[p].data());
         for (std::size_t n = 0; n < parts_[p].slot.size(); ++n)
             make(records + parts_[p].slot[n] * stride + from, parts_[p].image[n], count,
-                 numbers.data() + n * count);
-        messages[p] = Parts::bytes_of(std::span<const double>(numbers));
+                 numbers + n * count);
     }
     const auto received = parts.exchange(std::move(messages), Parts::Content::images);
     for (const Parts::Bytes& message : received)
         if (message.empty()) return false;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const auto numbers = Parts::values_of<double>(received[p]);
+        const auto* const numbers = reinterpret_cast<const double*>(received[p].data());
         for (std::size_t n = 0; n < parts_[p].ghost.size(); ++n)
-            std::copy_n(numbers.data() + n * count, count,
+            std::copy_n(numbers + n * count, count,
                         records + (first_ + parts_[p].ghost[n]) * stride + from);
     }
     return true;

@@ -120,10 +120,12 @@ bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::sp
 }
 
 /// Where a state has no meaning in some part, the others are told at whatever they exchange next, at the end at the
-/// latest: no law needs to take care that it makes as many exchanges as elsewhere.
+/// latest: no law needs to take care that it makes as many exchanges as elsewhere. Steps of a fixed length agree at
+/// their end (FixedSteps), and tell the others themselves.
 template <int Dim>
 void ParticleModel<Dim>::rates(double t, std::span<const double> y, std::span<double> y_dot) {
     this->failure_.clear();
+    if (Parts::here().agrees_later()) return find_rates(t, y, y_dot);
     try {
         find_rates(t, y, y_dot);
         if (!this->failure_.empty()) return Parts::here().give_up(this->failure_);

@@ -82,7 +82,7 @@ class PartsInThreads {
             }
             if (wrong_ == Wrong::calls && own() == 1 && content == Content::images &&
                 ++images_ == 20)
-                return std::vector<Bytes>(count(), Bytes(1));
+                return std::vector<Bytes>(count(), Bytes(trailer));
             for (std::size_t p = 0; p < count(); ++p) {
                 if (wrong_ == Wrong::sums && content == Content::sums) round(to[p]);
                 if (wrong_ == Wrong::order && content == Content::others) enter_last(to[p]);
@@ -95,7 +95,7 @@ class PartsInThreads {
             for (std::size_t p = 0; p < count(); ++p) {
                 from[p] = std::move(all_.message_[p][own()]);
                 all_there = all_there && !from[p].empty();
-                all_go_on = all_go_on && all_there && from[p].front() == std::byte{0};
+                all_go_on = all_go_on && all_there && from[p].back() == std::byte{0};
                 same = same && all_.content_[p] == content;
             }
             all_.barrier_.arrive_and_wait();
@@ -107,22 +107,22 @@ class PartsInThreads {
         /// Where these are places of images (ghosts.cpp): of 2 + Dim words, the second half of the second one 0.
         static void enter_last(Bytes& message) {
             for (const std::size_t size : {32U, 40U}) {
-                bool places = message.size() > 1 && (message.size() - 1) % size == 0;
+                bool places = message.size() > trailer && (message.size() - trailer) % size == 0;
                 const auto word = [&](std::size_t at) {
                     std::uint32_t value = 0;
                     std::memcpy(&value, message.data() + at, sizeof value);
                     return value;
                 };
-                for (std::size_t k = 1; places && k < message.size(); k += size)
+                for (std::size_t k = 0; places && k + trailer < message.size(); k += size)
                     places = word(k + 12) == 0 && word(k) < 10000 && word(k + 4) < 10000;
-                for (std::size_t k = 1; places && k < message.size(); k += size) {
+                for (std::size_t k = 0; places && k + trailer < message.size(); k += size) {
                     const std::uint32_t last = word(k + 4) + 10000;
                     std::memcpy(message.data() + k + 4, &last, sizeof last);
                 }
             }
         }
         static void round(Bytes& message) {
-            const Bytes sums(message.begin() + 1, message.end());
+            const Bytes sums(message.begin(), message.end() - std::ptrdiff_t{trailer});
             auto values = values_of<ExactSum>(sums);
             for (ExactSum& sum : values) {
                 const double rounded = sum;
@@ -130,7 +130,7 @@ class PartsInThreads {
                 sum += rounded;
             }
             const Bytes bytes = bytes_of(std::span<const ExactSum>(values));
-            std::copy(bytes.begin(), bytes.end(), message.begin() + 1);
+            std::copy(bytes.begin(), bytes.end(), message.begin());
         }
 
         PartsInThreads& all_;

@@ -17,7 +17,10 @@ namespace spam {
 
 /// Some part cannot go on (Parts::give_up): thrown in all others, with its reason.
 struct PartGaveUp : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    PartGaveUp(const std::string& reason, std::uint64_t of_turn)
+        : std::runtime_error(reason),
+          turn(of_turn) {}
+    std::uint64_t turn;  ///< as that part has said
 };
 
 /// Some part makes no more calls at all (Parts::leave): thrown in all others. Their runs end as well.
@@ -99,14 +102,35 @@ class Parts {
         double seconds = 0.0;
     };
     const Traffic& traffic() const { return traffic_; }
-    /// For this part alone: it makes no more of the calls that others are at, which end there with this reason.
-    void give_up(const std::string& reason);
+    /// For this part alone: it makes no more of the calls that others are at, which end there with this reason. `turn`
+    /// says at which of its calls, where the others may be at the next one already.
+    void give_up(const std::string& reason, std::uint64_t turn = 0);
     /// The same for good: its last call.
     void leave(const std::string& reason);
     /// Waits for the others, so that what has been found counts only where none has given up.
     void agree() {
         if (!alone()) exchange({});
     }
+    /// As long as it lives models' rates do not agree: whoever asks for them makes another exchange in any case, before
+    /// anything of theirs counts, gives up itself where they have a failure(), and takes PartGaveUp for another part's.
+    class AgreesLater {
+      public:
+        explicit AgreesLater(Parts& parts)
+            : parts_(parts),
+              before_(std::exchange(parts.later_, true)) {}
+        ~AgreesLater() { parts_.later_ = before_; }
+        AgreesLater(const AgreesLater&) = delete;
+        AgreesLater& operator=(const AgreesLater&) = delete;
+
+      private:
+        Parts& parts_;
+        bool before_;
+    };
+    bool agrees_later() const { return later_; }
+    /// A small number that goes with this part's messages from now on, and the largest that any part has sent so far:
+    /// in all parts the same, without an exchange for it (a signal).
+    void tell(unsigned char own) { tells_ = std::byte{own}; }
+    unsigned char told() const { return std::to_integer<unsigned char>(told_); }
 
     /// Whether it is so in any part.
     bool any(bool own) { return alone() ? own : most(own ? 1.0 : 0.0) > 0.0; }
@@ -166,9 +190,16 @@ class Parts {
         return own;
     }
 
+    /// So many bytes, to which exchange() adds its own without another copy.
+    static Bytes room_for(std::size_t size) {
+        Bytes bytes;
+        bytes.reserve(size + trailer);
+        bytes.resize(size);
+        return bytes;
+    }
     template <class Value>
     static Bytes bytes_of(std::span<const Value> values) {
-        Bytes bytes(values.size_bytes());
+        Bytes bytes = room_for(values.size_bytes());
         if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
         return bytes;
     }
@@ -181,15 +212,20 @@ class Parts {
 
   protected:
     Parts(std::size_t count, std::size_t own) : count_(count), own_(own) {}
+    /// Bytes behind what transport() brings: what the sender tells, and last whether it goes on (0).
+    static constexpr std::size_t trailer = 2;
 
   private:
-    void end(std::byte how, const std::string& reason);
+    void end(std::byte how, std::uint64_t turn, const std::string& reason);
+    std::vector<Bytes> send(std::vector<Bytes> to, std::byte how, Content content);
     /// exchange() of bytes as they are; never called where a part is alone.
     virtual std::vector<Bytes> transport(std::vector<Bytes> to, Content content) = 0;
 
     std::size_t count_, own_;
     std::vector<std::uint32_t> numbers_, elements_;
     std::size_t first_ = 0;  ///< Among
+    bool later_ = false;     ///< AgreesLater
+    std::byte tells_{0}, told_{0};
     Traffic traffic_;
     std::optional<std::string> left_;  ///< why there are no more calls
 };
