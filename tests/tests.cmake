@@ -194,9 +194,12 @@ if(NOT SPAM_LEVELS STREQUAL "generic" AND CMAKE_BUILD_TYPE STREQUAL "Release"
   set(objects "")
   foreach(level IN LISTS SPAM_LEVELS)
     list(APPEND objects $<TARGET_OBJECTS:spam_${level}>)
+    foreach(test pair_law friction column)
+      list(APPEND objects $<TARGET_OBJECTS:test.extend.${test}.lanes_${level}>)
+    endforeach()
   endforeach()
-  add_test(NAME core.lanes_symbols COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} "-DOBJECTS=${objects}"
-                                           -P ${CMAKE_CURRENT_SOURCE_DIR}/core/lanes_symbols.cmake)
+  add_test(NAME core.lanes_symbols COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} -DOBJDUMP=${CMAKE_OBJDUMP}
+                                           "-DOBJECTS=${objects}" -P ${CMAKE_CURRENT_SOURCE_DIR}/core/lanes_symbols.cmake)
   set_tests_properties(core.lanes_symbols PROPERTIES LABELS unit)
 
   find_program(VALGRIND NAMES valgrind)

@@ -12,15 +12,15 @@ namespace {
 /// Made by the first who asks: objects of other files are constructed in no certain order.
 template <int Dim>
 auto& registry() {
-    static std::map<std::pair<std::string, InstructionSet>, Sweeps<Dim>> sweeps;
+    static std::map<std::pair<std::string, InstructionSet>, typename RegisterSweeps<Dim>::Make>
+        sweeps;
     return sweeps;
 }
 
 }  // namespace
 
 template <int Dim>
-RegisterSweeps<Dim>::RegisterSweeps(const std::string& name, InstructionSet level,
-                                    const Sweeps<Dim>& sweeps) {
+RegisterSweeps<Dim>::RegisterSweeps(const char* name, InstructionSet level, Make sweeps) {
     registry<Dim>().insert_or_assign({name, level}, sweeps);
 }
 
@@ -32,7 +32,7 @@ Sweeps<Dim> registered_sweeps(const std::string& name) {
             "sweeps: no law '{}' in {} dimension{} for {}; a file of spam_add_sweeps() must hold a "
             "RegisterSweeps of this name",
             name, Dim, Dim == 1 ? "" : "s", to_string(instruction_set())));
-    return it->second;
+    return it->second();
 }
 
 template struct RegisterSweeps<1>;

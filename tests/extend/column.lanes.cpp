@@ -41,7 +41,7 @@ struct Charges {
 };
 const RegisterSweeps<2> charges("charges", InstructionSet::SPAM_LEVEL,
                                 pair_sweeps<InstructionSet::SPAM_LEVEL, GeneralSweep, 2, Charged,
-                                            Charges<false>, Charges<true>>());
+                                            Charges<false>, Charges<true>>);
 }  // namespace
 #else
 #include "own_law.hpp"

@@ -26,7 +26,7 @@ struct CentralFriction {
 };
 const RegisterSweeps<2> friction(
     "central friction", InstructionSet::SPAM_LEVEL,
-    pair_sweeps<InstructionSet::SPAM_LEVEL, GeneralSweep, 2, MotionRecord<2>, CentralFriction>());
+    pair_sweeps<InstructionSet::SPAM_LEVEL, GeneralSweep, 2, MotionRecord<2>, CentralFriction>);
 
 }  // namespace
 #else

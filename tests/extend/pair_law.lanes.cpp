@@ -51,7 +51,7 @@ struct Energy : Bump {
 };
 const RegisterSweeps<2> bump(
     "bump", InstructionSet::SPAM_LEVEL,
-    pair_sweeps<InstructionSet::SPAM_LEVEL, GeneralSweep, 2, PointRecord<2>, Force, Energy>());
+    pair_sweeps<InstructionSet::SPAM_LEVEL, GeneralSweep, 2, PointRecord<2>, Force, Energy>);
 }  // namespace
 #else
 #include "own_law.hpp"  // the test: its force is the gradient of its energy

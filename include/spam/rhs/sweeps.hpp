@@ -115,10 +115,12 @@ struct Sweeps {
 };
 
 /// Sweeps of a law outside the library, by name: an object of this type in a file of spam_add_sweeps()
-/// (CMake) makes those of one instruction set known before main() begins.
+/// (CMake) makes those of one instruction set known before main() begins. `sweeps` is a function of that file and has
+/// its instructions: it is called only on a processor that has them, where these sweeps are asked for.
 template <int Dim>
 struct RegisterSweeps {
-    RegisterSweeps(const std::string& name, InstructionSet level, const Sweeps<Dim>& sweeps);
+    using Make = Sweeps<Dim> (*)();
+    RegisterSweeps(const char* name, InstructionSet level, Make sweeps);
 };
 
 /// Those for this processor. Throws InputError where the name is unknown.
