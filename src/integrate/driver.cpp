@@ -86,7 +86,8 @@ int drive(const std::function<Integrator&()>& integrator, const Schedule& schedu
     }
     InterruptWatch::complete_results();
     try {
-        while (integrator().t() < schedule.t_end && InterruptWatch::told() == 0) {
+        // Parts meet here, so that one that ends between steps (an observer throws) ends no step of others half-way.
+        while (integrator().t() < schedule.t_end && InterruptWatch::agreed() == 0) {
             // Where this step would end if the run had a later end: only such states are checkpoints,
             // because a run with that end must pass through them.
             const double due = stops.due();

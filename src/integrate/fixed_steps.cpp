@@ -73,7 +73,8 @@ double FixedSteps::take_step(double t_stop) {
         const Parts::AgreesLater later(Parts::here());
         take_pieces(next.length, next.to);
     } catch (const PartGaveUp& other) {
-        if (other.turn > 0) statistics_.rhs_evaluations = other.turn;
+        if (other.turn == 0) throw;  // for another reason than a stage of ours
+        statistics_.rhs_evaluations = other.turn;
         throw GuardStop(other.what());
     }
     if (t_ < next.to) return t_;  // interrupted
