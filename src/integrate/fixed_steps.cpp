@@ -69,7 +69,7 @@ double FixedSteps::take_step(double t_stop) {
     whole_step_ = false;
     try {
         // Where the rates of a stage have no meaning in one part, the others hear of it in the exchange of images of
-        // the next stage, or in that of the guard: to ask all at each stage would take as long as to give images.
+        // the next stage, or in that of the guard: to ask all at each stage would be as many exchanges again.
         const Parts::AgreesLater later(Parts::here());
         take_pieces(next.length, next.to);
     } catch (const PartGaveUp& other) {

@@ -52,7 +52,7 @@ class InterruptWatch {
     static int received();
     /// Throws Interrupted if there is one; not where other parts of the run would wait for this one.
     static void check();
-    /// That of any part of a run (core/parts.hpp) which all know of: without an exchange, and so one step later.
+    /// That of any part of a run (core/parts.hpp) which all know of by the exchanges so far: for use within a step.
     static int told();
     /// That of any part, asked for, which is then noted here as well.
     static int agreed();
