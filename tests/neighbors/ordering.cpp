@@ -145,6 +145,10 @@ BOOST_AUTO_TEST_CASE(bodies_of_random_particles_by_all_pairs) {
         compare(drawn_in(Points<2>(2, 6), 30.0), Box<2>({2.5, 1.5}));  // of two cells, of one
         compare(drawn_in(Points<3>(3, 200), 7.0), Box<3>());
         compare(drawn_in(Points<3>(3, 200), 9.0), Box<3>({7.0, 7.0, 7.0}));
+        Points<2> crowds =
+            drawn_in(Points<2>(2, 200), 0.8);  // each nearly all one another's neighbours
+        crowds.rightCols(100).row(0).array() += 1.85;
+        compare(crowds, Box<2>());
         Points<2> flung = drawn_in(Points<2>(2, 100), 8.0);
         flung.leftCols(3).array() *= 1e18;
         compare(flung, Box<2>());
