@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(layers_of_particles_bend_more_easily) {
 }
 
 BOOST_AUTO_TEST_CASE(ten_layers) {
-    if (!effort(true, false)) return;  // the same law once more
+    if (!long_runs()) return;  // twice as many as below
     const Results found("cantilever", quick(10), "period");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(near(found.value.at("period"), 0.267, 0.002));  // SPHinXsys: 0.2747
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(other_plates) {
                          "1.5e-5", "--speed", "0.001"},
                         "period");
     BOOST_TEST(near(stiff.value.at("period"), 0.5 * 0.29734, 1e-3));
-    if (!effort(true, false)) return;  // the same law once more
+    if (!long_runs()) return;  // the same law once more
     const Results heavy("cantilever", quick(5, {"--gravity", "2", "--speed", "0.001"}), "period");
     BOOST_TEST(near(heavy.value.at("period"), 0.297, 0.01));
     const Results updated("cantilever", {"--layers", "5", "--formulation", "updated"}, "period");

@@ -145,6 +145,6 @@ if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
   set_tests_properties(view.browser PROPERTIES LABELS problem TIMEOUT ${timeout}
     SKIP_RETURN_CODE 77)
 endif()
-spam_long(problem/ball_plate problem/column_of_elements problem/every_problem problem/flows problem/idle_options
-          problem/ranks_bytes problem/restart problem/restart_table problem/stirred_flows problem/tension_test
-          problem/water_column)
+spam_long(problem/ball_plate problem/cantilever problem/column_of_elements problem/element_twins problem/every_problem
+          problem/flows problem/idle_options problem/ranks_bytes problem/restart_table problem/stirred_flows
+          problem/tension_test problem/wall_flows problem/water_column)
