@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_search.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/instruction_set.hpp>
 #include <spam/core/look_ahead.hpp>
 #include <spam/core/parallel.hpp>
 #include <spam/core/parts.hpp>

@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(masses_that_differ) {
 BOOST_AUTO_TEST_CASE(spacings_that_differ) {
     for (const double spacing : {0.8, 0.5, 0.34}) {
         auto model = of(two_spacings(spacing), 1.0);
-        check(turned(model, "spacings", effort(spacing < 0.8 ? 1.0 : 5.0, 0.2), 0.2 * spacing));
+        check(turned(model, "spacings", effort(spacing < 0.5 ? 1.0 : 5.0, 0.2), 0.2 * spacing));
     }
 }
 

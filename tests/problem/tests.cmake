@@ -146,5 +146,5 @@ if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
     SKIP_RETURN_CODE 77)
 endif()
 spam_long(problem/ball_plate problem/cantilever problem/column_of_elements problem/element_twins problem/every_problem
-          problem/flows problem/idle_options problem/ranks_bytes problem/restart_table problem/stirred_flows
-          problem/tension_test problem/wall_flows problem/water_column)
+          problem/flows problem/idle_options problem/ranks_bytes problem/restart problem/restart_table
+          problem/stirred_flows problem/tension_test problem/wall_flows problem/water_column)

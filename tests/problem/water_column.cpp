@@ -19,7 +19,7 @@ BOOST_AUTO_TEST_CASE(the_column_of_the_lecture) {
 }
 
 BOOST_AUTO_TEST_CASE(a_dam_of_water_is_as_fast_in_the_end) {
-    if (!long_runs()) return;  // the lecture's column above, twice as high
+    if (!long_runs()) return;  // the fluid of the case above from another height
     const Results found("water_column", {"--aspect", "2"}, "difference_from_water");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(std::abs(found.value.at("difference_from_water")) < 0.06);
