@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reach_in.hpp"
 #include <spam/core/error.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/problem/remake.hpp>
@@ -32,7 +33,7 @@ class Candidates {
           model_(model),
           y_(y),
           x_(ConstState<Dim>(model.layout(), y).position()),
-          range_(rezoning.range > 0.0 ? rezoning.range : model.reach()),
+          range_(reach_in(rezoning, model, y)),
           near_(x_, range_, model.box()),
           rho_(model.density(y)),
           taken_(near_.size(), false) {

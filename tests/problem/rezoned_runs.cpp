@@ -2,7 +2,8 @@
 // A run whose number of particles changes on the way: stopped before or behind a change and restarted, with other
 // methods and threads, or killed at any moment, it leaves the same bytes. Its snapshots have other ids from one to the
 // next.
-#include "problem/twins.hpp"
+#include "problem/ranks.hpp"
+#include "problem/short_runs.hpp"
 #include "support/effort.hpp"
 
 #include <random>
@@ -88,6 +89,23 @@ BOOST_AUTO_TEST_CASE(killed_ten_times_around_changes) {
     if (fs::exists(folder / "killed")) require_ran(run_in(folder, "gas_cloud", command));
     check_same(left_by(folder / "whole"), left_by(folder / "killed"));
     BOOST_TEST(kills == 10);
+}
+
+/// How far ranges of their own reach is found from the state, which no process asks the model of the whole for.
+BOOST_AUTO_TEST_CASE(ranges_of_their_own_are_rezoned_alike_on_any_number_of_ranks) {
+    if (no_ranks()) return;
+    for (const char* ranges : {"density", "ellipses"}) BOOST_TEST_CONTEXT(ranges) {
+            const Scratch folder;
+            const Words common{"--dimension", "2",       "--size",    "6",   "--rezone",
+                               "--ranges",    ranges,    "--t-end",   "1.5", "--largest-volume",
+                               "1.5",         "--quiet", "--no-plots"};
+            require_ran(run_in(folder, "gas_cloud", with(common, {"--out", "whole"})));
+            BOOST_TEST(contents_of(folder / "whole/events.csv").find("merged") !=
+                       std::string::npos);
+            require_ran(
+                run_in(folder, "gas_cloud", with(common, {"--ranks", "2", "--out", "parted"})));
+            check_same(files_of(folder / "whole", true), files_of(folder / "parted", true));
+        }
 }
 
 /// Ids are never used again, so that no reader takes one particle for another.
