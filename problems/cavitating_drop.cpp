@@ -264,7 +264,7 @@ int main(int argc, char** argv) {
                 "neighbour); 4 "
                 "spacings are usual",
                 p.range, p.spacing());
-        session.prefer_step(step_of(p.rate));
+        session.prefer_step(step_of(p.rate) * step_of_short_range(p.range, Parameters{}.range));
         compute(session, p);
     });
 }

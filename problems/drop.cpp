@@ -155,6 +155,7 @@ int main(int argc, char** argv) {
         // Waves of the surface are faster with the root of its tension; up to 1 the usual step serves.
         session.prefer_step(
             0.1 * std::min(1.0, std::sqrt(1.0 / p.surface_tension.value_or(1.0))) *
+            step_of_short_range(p.range, Parameters{}.range) *
             relative_step({p.core, p.core_range}, {usual_core, Parameters{}.core_range}));
         auto drops = one_or_both(p.surface_tension, tension_of_figure, "tension",
                                  [&](double tension) { return make_drop(p, tension); });

@@ -21,7 +21,8 @@
 #include "lattice_stability/motion.hpp"
 #include "lattice_stability/strength.hpp"
 #include <spam/kernel/kernel.hpp>
-#include <spam/kernel/weight_integrals.hpp>
+
+#include <cmath>
 
 namespace {
 
@@ -29,19 +30,15 @@ using namespace lattice_stability;
 
 // rk4 takes omega t (omega dt)^5/72 of the energy of a vibration: with the fastest, omega = 1.42 of both
 // potentials, 2e-6 until t = 600, and less than 1e-6 of all of it. dt = 0.05 would be too long.
-constexpr double step = 0.03;
+constexpr double step = 0.03, step_by_period = 0.043;
 constexpr double range_of_dynamics = 3.25, range_of_one_case = 2.5;
 
-/// Steeper weights and stronger potentials make faster vibrations, whose frequency goes with k^2 w(k).
-double step_of(const Parameters& p) {
-    const Parameters standard;
-    const auto fastest = [](Kernel kernel, double range) {
-        return fastest_diffusion<2>(weight_function<2>(to_string(kernel), range));
-    };
-    const double slower = fastest(standard.kernel, range_of_dynamics) / fastest(p.kernel, *p.range);
-    const double stronger = std::max(
-        {1.0, p.strength / standard.strength, p.surface_tension / standard.surface_tension});
-    return step * std::min(1.0, slower / std::sqrt(stronger));
+/// Steeper weights, shorter ranges and stronger potentials make faster vibrations. Those of a sample just wide
+/// enough for the range are as fast as those of the crystal.
+double step_of(Parameters p) {
+    p.cells = std::min(p.cells, 2 * static_cast<int>(std::ceil(1.2 * *p.range)) + 2);
+    const auto all = analyse(p, p.lattice, Acting::both, *p.range).spectrum.eigenvalue;
+    return std::min(step, step_by_period / std::sqrt(all.back()));
 }
 
 /// With --potential one lattice is analysed: nothing moves, and potentials that do not act have no

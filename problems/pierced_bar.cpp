@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
         const Parameters usual;
         const double contact = p.repulsion() ? relative_step(*p.repulsion(), usual.contact) : 1.0;
         session.prefer_step(0.025 * contact *
+                            step_of_short_range(p.matter.range, usual.matter.range) *
                             relative_step({p.matter.core, p.matter.core_range},
                                           {usual.matter.core, usual.matter.core_range}));
         const double row_interval = session.common().output_every.value_or(0.5);

@@ -178,7 +178,8 @@ double step_of(const Parameters& p) {
     const double cores =
         core > 0.0 ? p.core_range / standard.core_range * std::sqrt(core_energy / core) : 1.0;
     // Sound at the density of the particles: c^2 = e''(rho) rho^2 = 1/rho0^3.
-    return 0.1 * std::min({1.0, waves, cores, std::pow(p.rho0, 1.5)});
+    return 0.1 * std::min({1.0, waves, cores, std::pow(p.rho0, 1.5)}) *
+           step_of_short_range(p.range, standard.range);
 }
 
 }  // namespace

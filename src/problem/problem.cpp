@@ -98,8 +98,10 @@ void Problem::settle_ranks() {
     if (wanted > 1 && !why_one_process().empty()) throw InputError("ranks: " + why_one_process());
     if (common_.ranks && wanted != processes().count())
         throw InputError(fmt::format(
-            "ranks: {} processes have been started, not {}; leave --ranks out, or mpirun",
-            processes().count(), wanted));
+            "ranks: {} for a run on {}; give --ranks on the command line, which starts them (a file of options "
+            "cannot), or leave it out",
+            wanted,
+            processes().count() == 1 ? "one process" : "as many processes as mpirun has started"));
     if (!muted()) return;
     common_.out = scratch_folder();
     common_.force = false;
@@ -149,15 +151,25 @@ const std::vector<std::string>& Problem::scheme_option_names() {
     return names;
 }
 
+double step_of_short_range(double range, double usual) {
+    // No shorter than a quarter: ranges below the spacing are refused elsewhere, by name.
+    const double part = std::clamp(1.5 * range / usual, 0.5, 1.0);
+    return part * part;
+}
+
 void Problem::use_scheme(const Scheme& standard) {
     scheme_ = standard;
     standard_kernel_ = standard.kernel;
+    standard_range_ = standard.range;
     options_.group("Weight function");
     options_.choice<Kernel>("kernel", scheme_.kernel, all_kernels(),
                             "weight function; where it is steeper than the default, so is the "
                             "default step shorter");
-    options_.number("range", scheme_.range, "distance at which the weight function vanishes",
-                    positive());
+    options_.number(
+        "range", scheme_.range,
+        "distance at which the weight function vanishes; below two thirds of the default, "
+        "the default step is shorter",
+        positive());
     options_.group("Scheme");
     options_.choice<Density>("density", scheme_.density,
                              {Density::continuity, Density::summed, Density::chain_rule},
@@ -240,11 +252,12 @@ int Problem::run(int argc, char** argv, const std::function<void(Session&)>& bod
         settle_restart();
         instruction_set();  // a wrong SPAM_ISA or SPAM_AHEAD is refused like a wrong option
         options_.settle();
+        relative_step_ = step_of_short_range(scheme_.range, standard_range_);
         if (scheme_.kernel != standard_kernel_) {
             const auto weight = [](Kernel k) { return weight_function<2>(to_string(k), 1.0); };
-            relative_step_ = relative_step<2>(weight(scheme_.kernel), weight(standard_kernel_));
-            integrator_.shorten_default(relative_step_);
+            relative_step_ *= relative_step<2>(weight(scheme_.kernel), weight(standard_kernel_));
         }
+        if (relative_step_ < 1.0) integrator_.shorten_default(relative_step_);
         IntegratorOptions integrator;
         std::exception_ptr refused;  // of no account where nothing is integrated
         try {

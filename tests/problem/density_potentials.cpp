@@ -53,6 +53,14 @@ BOOST_AUTO_TEST_CASE(a_drop_that_explodes_fails) {
     }
 }
 
+/// Few neighbours within a short range vibrate faster than an integral over them would.
+BOOST_AUTO_TEST_CASE(the_step_follows_the_fastest_vibration) {
+    const Results found("lattice_stability",
+                        {"--smoke", "--range", "1.5", "--cells", "6", "--block", "4"}, "");
+    BOOST_TEST(found.value.at("both_fastest_vibration") > 12.0);
+    BOOST_TEST(found.value.at("both_energy_drift") < 5e-7);
+}
+
 /// A friction that takes less than the steps err by: what energy then rises is not its doing.
 BOOST_AUTO_TEST_CASE(next_to_no_friction_claims_nothing_of_the_energy) {
     const Results drop("drop", {"--smoke", "--damping", "1e-6", "--surface-tension", "0.1"},

@@ -40,6 +40,11 @@ struct CommonOptions {
     DriftLimits guard{DriftAction::warn, {}, {}, {}};
 };
 
+/// By what a step that serves the usual range of a weight function must be multiplied for `range`: 1 down to two
+/// thirds of it (2 spacings where 3 are usual), and the square of what is left of these below. There a sum over a few
+/// neighbours is stiffer than an integral would be; measured, tests/problem/short_ranges.cpp.
+double step_of_short_range(double range, double usual);
+
 /// A problem executable: its options, and the exit status contract around its body.
 ///     0 done, checks hold    1 a check fails       2 bad input       3 numerical guard
 ///     4 output failed        128 + signal (130, 143) interrupted
@@ -60,7 +65,7 @@ class Problem {
 
     /// Adds the scheme and kernel options; `standard` holds their defaults. Steps that are not given
     /// (default_dt, Session::prefer_step, Plan::step) are meant for its weight function, and shorter with a
-    /// steeper one.
+    /// steeper one and with a short range (step_of_short_range).
     void use_scheme(const Scheme& standard = {});
     /// Of the options that use_scheme() adds.
     static const std::vector<std::string>& scheme_option_names();
@@ -83,6 +88,7 @@ class Problem {
     CommonOptions common_;
     Scheme scheme_;
     Kernel standard_kernel_ = scheme_.kernel;
+    double standard_range_ = scheme_.range;
     int run(int argc, char** argv, const std::function<void(Session&)>& body);
     int refusal() const;
     void settle_ranks();
@@ -93,7 +99,7 @@ class Problem {
     bool muted() const { return processes().own() > 0; }
 
     std::unique_ptr<Parts> processes_;
-    double relative_step_ = 1.0;              ///< of the weight function chosen
+    double relative_step_ = 1.0;              ///< of the weight function chosen, with its range
     std::unique_ptr<SessionMemory> earlier_;  ///< of --restart
     std::string restart_file_;
     /// The result folder of the checkpoint, where it is in one.
