@@ -15,7 +15,7 @@ using gnuplot::escaped;
 
 constexpr gnuplot::Size frame_size{505.0, 318.6};
 /// Above it titles, below it numbers, their name and the key.
-constexpr gnuplot::Room axes{.left = 95.0, .right = 20.0, .bottom = 129.6, .top = 91.8};
+constexpr gnuplot::Room axes{.left = 115.0, .right = 20.0, .bottom = 129.6, .top = 91.8};
 
 constexpr double key_below = 94.0;  ///< a frame
 
@@ -122,12 +122,11 @@ std::string ranges(const CurvePanel& panel) {
 
 /// Labels and scale of a frame.
 std::string labels(const CurvePanel& panel) {
-    return fmt::format(
-        "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset -1.5,0\n{}{}{}",
-        escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label), ranges(panel),
-        x_axis(panel),
-        panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
-                    : "unset logscale y\nset format y '%g'\n");
+    return fmt::format("set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\" offset -1,0\n{}{}{}",
+                       escaped(panel.title), escaped(panel.x_label), escaped(panel.y_label),
+                       ranges(panel), x_axis(panel),
+                       panel.log_y ? "set logscale y\nset format y '10^{%L}'\n"
+                                   : "unset logscale y\nset format y '%g'\n");
 }
 
 }  // namespace
@@ -146,8 +145,9 @@ bool draw_curves(const RunFolder& folder, std::string_view name, std::string_vie
                  const std::vector<CurvePanel>& panels, std::size_t columns) {
     // One key for all frames where they show the same curves: under the middle of the picture.
     const bool shared = same_titles(panels);
-    const gnuplot::PanelGrid grid(panels.size(), columns > 0 ? columns : panels.size(), frame_size,
-                                  {axes});
+    gnuplot::PanelGrid grid(panels.size(), columns > 0 ? columns : panels.size(), frame_size,
+                            {axes});
+    grid.grow_to(title, axes.right);
     std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += gnuplot::line_styles;
     script += fmt::format("set multiplot title \"{}\" font ',15'\n", escaped(title));

@@ -36,7 +36,7 @@ struct Geometry {
     double left = 20.0, top, width, height;
     std::size_t rows, columns;
 
-    explicit Geometry(const HeatMap& map)
+    Geometry(const HeatMap& map, std::string_view title)
         : top(78.0 + line * static_cast<double>(map.columns.size())),
           rows(combinations(map.rows)),
           columns(combinations(map.columns)) {
@@ -44,7 +44,8 @@ struct Geometry {
         double right = bar;  // the colour bar, and above it the names of the column axes
         for (const auto& axis : map.columns)
             right = std::max(right, letter * static_cast<double>(axis.name.size()) + 20.0);
-        width = left + cell_width * static_cast<double>(columns) + right;
+        width = std::max(left + cell_width * static_cast<double>(columns) + right,
+                         letter * static_cast<double>(title.size()) + 40.0);
         height = top + cell_height * static_cast<double>(rows) + 24.0;
     }
     gnuplot::Frame table() const {
@@ -152,7 +153,7 @@ std::string cell_texts(const HeatMap& map, const Geometry& g, double low, double
 
 bool draw_heat_map(const RunFolder& folder, std::string_view name, std::string_view title,
                    const HeatMap& map) {
-    const Geometry g(map);
+    const Geometry g(map, title);
     assert(map.value.size() == g.rows * g.columns);
     assert(map.text.empty() || map.text.size() == map.value.size());
     const auto [low, high] = range_of(map);

@@ -16,7 +16,7 @@ namespace {
 using gnuplot::escaped;
 
 constexpr gnuplot::Size frame_size{485.0, 325.0};
-constexpr gnuplot::Room axes{.left = 95.0, .right = 20.0, .bottom = 75.0, .top = 30.0};
+constexpr gnuplot::Room axes{.left = 115.0, .right = 20.0, .bottom = 75.0, .top = 30.0};
 constexpr double top = 56.0, key_line = 26.0;
 
 /// Distinct without colour vision, together with the marks (gnuplot's open ones; filled: one more).
@@ -144,8 +144,9 @@ bool draw_log_log(const RunFolder& folder, std::string_view name, const LogLogPi
         key_line * (static_cast<double>((keys_drawn(picture).size() + per_row - 1) / per_row) +
                     (picture.note.empty() ? 0.0 : 1.0)) +
         10.0;
-    const gnuplot::PanelGrid grid(picture.panels.size(), picture.columns, frame_size, {axes},
-                                  {.bottom = bottom, .top = top});
+    gnuplot::PanelGrid grid(picture.panels.size(), picture.columns, frame_size, {axes},
+                            {.bottom = bottom, .top = top});
+    grid.grow_to(picture.title, axes.right);
     std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += fmt::format(
         "set multiplot title \"{}\" font ',15'\nset logscale xy\nset border 3\nset tics nomirror\n"

@@ -55,7 +55,7 @@ PanelGrid::PanelGrid(std::size_t panels, std::size_t most_columns, Size frame,
 
 void PanelGrid::grow_to(std::string_view title, double margin) {
     const double width =
-        9.5 * static_cast<double>(title.size()) + 2.0 * margin;  // of a letter: 9.5
+        10.6 * static_cast<double>(title.size()) + 2.0 * margin;  // of a letter: 10.6
     outside_.left += 0.5 * std::max(0.0, width - size_.width);
     size_.width = std::max(size_.width, width);
 }
