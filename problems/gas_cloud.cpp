@@ -189,6 +189,13 @@ void compute(Session& session, const Parameters& p) {
     if (p.rezone && p.returns) session.prefer_step(0.05);
     std::vector<Cloud<Dim>> clouds{make_cloud<Dim>(p, size)};
     Cloud<Dim>& cloud = clouds.front();
+    if (p.gradient_axes > 0.0) {
+        std::vector<double> rates(cloud.y0.size());
+        cloud.model->rates(0.0, cloud.y0, rates);
+        if (const auto& why = cloud.model->failure(); !why.empty())
+            refuse("gradient-axes: {:g} makes ellipses too narrow at the start ({}); give less",
+                   p.gradient_axes, why);
+    }
     const double t_end = session.common().t_end.value_or((p.returns ? 2.0 : 1.0) * time * size);
     cloud.half_time = p.returns ? 0.5 * t_end : std::numeric_limits<double>::infinity();
     Plan<Dim> plan;
@@ -203,16 +210,25 @@ void compute(Session& session, const Parameters& p) {
                            : states_at<Dim>({0.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0}, t_end);
     plan.snapshot_every = t_end / 16.0;
     plan.observe(keep_nearest<Dim>(cloud.drawn));
-    bool reversed = false;
+    double reversed_at = 0.0;  // 0 before
     if (p.returns)
-        plan.observe({.revise =
-                          [&](double t, Model<Dim>& model, std::span<double> y) {
-                              if (reversed || t < cloud.half_time * (1.0 - 1e-12)) return false;
-                              reversed = true;
-                              State<Dim>(model.layout(), y).velocity() *= -1.0;
-                              return true;
-                          },
-                      .memory = [&](Archive& archive) { archive(reversed); }});
+        plan.observe(
+            {.revise =
+                 [&](double t, Model<Dim>& model, std::span<double> y) {
+                     if (reversed_at > 0.0 || t < cloud.half_time * (1.0 - 1e-12)) return false;
+                     reversed_at = cloud.half_time;
+                     State<Dim>(model.layout(), y).velocity() *= -1.0;
+                     return true;
+                 },
+             .memory =
+                 [&](Archive& archive) {
+                     archive(reversed_at);
+                     if (reversed_at > 0.0 && reversed_at != cloud.half_time)
+                         throw InputError(fmt::format(
+                             "t-end: {:g}, but velocities have been reversed at t = {:g}, halfway "
+                             "to an earlier end; leave --t-end out, or begin anew",
+                             t_end, reversed_at));
+                 }});
     const RunRecord run = session.run(*cloud.model, cloud.y0, std::move(plan));
     const Findings findings(session);
     const History& h = run.history;

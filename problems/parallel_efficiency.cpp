@@ -24,6 +24,7 @@
 #include "common.hpp"
 #include "parallel_efficiency/times.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace parallel_efficiency {
@@ -50,6 +51,8 @@ std::vector<int> sizes_of(const Parameters& p) {
                 "sizes: '{}' is no whole number between 100 and 20000000; give numbers of particles as "
                 "in --sizes 20000,200000",
                 std::string(first, last));
+        if (std::ranges::find(sizes, size) != sizes.end())
+            refuse("sizes: {} is given twice; leave one out", size);
         sizes.push_back(size);
         at = end + 1;
     }

@@ -21,6 +21,8 @@
 #include <spam/external/friction.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 
+#include <filesystem>
+
 namespace {
 
 using namespace relaxation;
@@ -187,6 +189,8 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         session.smoke_default("particles", p.particles, 80);
+        // case.toml must find it from any other folder.
+        if (!p.outline.empty()) p.outline = std::filesystem::absolute(p.outline).string();
         session.prefer_step(step_of(p));
         // shape and places
         const Region region = region_of(p);

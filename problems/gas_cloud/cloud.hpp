@@ -34,7 +34,7 @@ struct Parameters {
 inline std::vector<double> numbers_of(const Parameters& p) {
     std::vector<double> axes;
     std::string words = p.axes.empty() ? (p.dimension == 3 ? "4,2,1" : "2,1") : p.axes;
-    while (!words.empty()) {
+    for (bool more = true; more;) {
         const auto comma = words.find(',');
         const std::string word = words.substr(0, comma);
         double value = 0.0;
@@ -44,7 +44,8 @@ inline std::vector<double> numbers_of(const Parameters& p) {
             refuse("axes: '{}' is no number between 0.1 and 10; give the semi-axes as in --axes {}",
                    word, p.dimension == 3 ? "4,2,1" : "2,1");
         axes.push_back(value);
-        words = comma == std::string::npos ? "" : words.substr(comma + 1);
+        more = comma != std::string::npos;
+        if (more) words = words.substr(comma + 1);
     }
     if (static_cast<int>(axes.size()) != p.dimension)
         refuse("axes: {} numbers for {} dimensions; give one for each", axes.size(), p.dimension);

@@ -28,6 +28,7 @@ std::string text_file(const std::string& path, const std::string& option,
     if (in.bad())
         throw InputError(
             fmt::format("{}: '{}' cannot be read to its end; give {}", option, path, expected));
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // spreadsheets begin UTF-8 so
     return text;
 }
 

@@ -91,6 +91,7 @@ class Reader {
         const char* const example =
             Dim == 3 ? "as in moving:0.1 or moving:0.1,0.2" : "as in moving:0.1";
         std::string words = kind_.substr(7);
+        if (words.empty()) number(words, "velocity", -fastest, fastest, example);
         for (int a = 0; a < Dim; ++a) {
             if (a == axis_ || words.empty()) continue;
             const auto comma = Dim == 3 ? words.find(',') : std::string::npos;

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <charconv>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -112,8 +113,12 @@ int start_processes(std::size_t count, char** argv) {
     std::error_code ignored;
     std::filesystem::remove(name, ignored);
     if (status >= 0) return status;
-    // It has not come to its end: a signal at once, or a process that was killed, of which mpirun has said more.
+    // It has not come to its end: a signal at once, or a process that was killed, of which mpirun -q says nothing.
     if (passed_on != 0) return 128 + passed_on;
+    std::fputs(
+        "ranks: a process ended without a word; it was killed, perhaps for want of memory. Where the folder has a "
+        "checkpoint --restart goes on from it\n",
+        stderr);
     return WIFEXITED(ended) && WEXITSTATUS(ended) != 0 ? WEXITSTATUS(ended) : 4;
 }
 

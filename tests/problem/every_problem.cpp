@@ -136,6 +136,14 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused_in_one_line) {
 BOOST_AUTO_TEST_CASE(options_of_their_own_are_refused_where_they_make_no_sense) {
     const std::vector<RefusedCall> all{
         {"gas_cloud", {"--axes", "4,2"}, {"axes", "3 dimensions", "one for each"}},
+        {"gas_cloud", {"--axes", "4,2,1,"}, {"axes", "''", "--axes 4,2,1"}},
+        {"gas_cloud",
+         {"--ranges", "ellipses", "--gradient-axes", "2"},
+         {"gradient-axes", "too narrow", "give less"}},
+        {"free_expansion",
+         {"--front", "moving:", "--back", "mirror", "--dimension", "3"},
+         {"front"}},
+        {"parallel_efficiency", {"--sizes", "500,500"}, {"sizes", "500", "twice"}},
         {"gas_cloud", {"--axes", "1,2,x"}, {"axes", "'x'", "--axes 4,2,1"}},
         {"gas_cloud", {"--dimension", "2", "--axes", ",1"}, {"axes", "''", "--axes 2,1"}},
         {"stability", {"--lattice", "bcc"}, {"lattice", "--dimension 3"}},

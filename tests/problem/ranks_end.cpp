@@ -105,6 +105,7 @@ BOOST_AUTO_TEST_CASE(a_rank_that_is_killed_ends_all) {
     const Outcome outcome = child.finish(Child::Seconds(30));
     BOOST_TEST(outcome.status != 0);
     BOOST_TEST(outcome.status != -1);
+    BOOST_TEST(outcome.err.find("was killed") != std::string::npos, outcome.err);
     for (int tenths = 0; tenths < 50 && !processes_with(marked).empty(); ++tenths)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     BOOST_TEST(processes_with(marked).empty());
@@ -126,7 +127,7 @@ BOOST_AUTO_TEST_CASE(an_exception_between_any_two_exchanges_ends_all) {
             .finish(Child::Seconds(30));
     };
     for (std::size_t at = 1; at <= 200; at += long_runs() ? 1 : 50)
-        for (const std::size_t in : {0, 1}) BOOST_TEST_CONTEXT(at << " in " << in) {
+        for (const std::size_t in : {0U, 1U}) BOOST_TEST_CONTEXT(at << " in " << in) {
                 const Outcome outcome = run_failing(in, at);
                 BOOST_TEST(outcome.status > 0, "it did not end by itself within 30 s");
                 BOOST_TEST(outcome.err.find("thrown by a test") != std::string::npos, outcome.err);

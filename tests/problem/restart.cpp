@@ -296,3 +296,28 @@ BOOST_AUTO_TEST_CASE(a_restart_may_change_where_the_run_ends) {
     run({"--restart", newest_checkpoint(folder / "short")->string(), "--no-plots"});
     BOOST_TEST(contents_of(folder / "short/invariants.csv") == rows);
 }
+
+BOOST_AUTO_TEST_CASE(velocities_that_were_reversed_halfway_have_no_later_end) {
+    const Scratch folder;
+    require_ran(run_in(folder, "gas_cloud",
+                       {"--smoke", "--dimension", "2", "--return", "--t-end", "2", "--no-plots",
+                        "--quiet", "--out", "out"}));
+    const auto rows = contents_of(folder / "out/invariants.csv");
+    const Outcome outcome = run_in(folder, "gas_cloud", {"--restart", "out", "--t-end", "4"});
+    BOOST_TEST(outcome.status == 3);  // as whatever fails once results exist
+    BOOST_TEST(outcome.err.find("reversed at t = 1") != std::string::npos, outcome.err);
+    BOOST_TEST(contents_of(folder / "out/invariants.csv") == rows);
+}
+
+/// case.toml names it so.
+BOOST_AUTO_TEST_CASE(a_file_of_corners_is_found_from_any_folder) {
+    const Scratch folder;
+    folder.write("shape.csv", "0,0\n4,0\n4,3\n0,3\n");
+    fs::create_directory(folder / "elsewhere");
+    require_ran(run_in(folder, "relaxation",
+                       {"--smoke", "--no-plots", "--quiet", "--particles", "60", "--outline",
+                        "shape.csv", "--t-end", "2", "--out", "out"}));
+    require_ran(Child(problem("relaxation", {"--restart", "../out", "--t-end", "4", "--no-plots"}),
+                      {folder / "elsewhere"})
+                    .finish(Child::Seconds(240)));
+}

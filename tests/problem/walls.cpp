@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(outlines_that_are_none_are_refused) {
     refused("0,0\n1000,1000\n1000,1000.0001\n", "too thin");
     refused("0,0\n1e8,0\n1e8,1e-8\n0,1e-8\n", "too thin");
     refused("0,0\n1,inf\n1,0\n", "line 2");
-    folder.write("outline.csv", "x,y\n# a square, closed\n0,0\n2 0\n2,2\n0,2\n0,0\n");
+    folder.write("outline.csv", "\xEF\xBB\xBFx,y\n# a square, closed\n0,0\n2 0\n2,2\n0,2\n0,0\n");
     const Region square = region_from_file(folder / "outline.csv");
     BOOST_TEST(square.area() == 4.0);
     BOOST_TEST(square.polygon().cols() == 4);
