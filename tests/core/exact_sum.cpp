@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(scaled_by_a_power_of_two_the_bits_stay) {
 
 /// More terms than a digit holds without carrying.
 BOOST_AUTO_TEST_CASE(very_many_terms) {
-    ExactSum sum, blocks;
+    ExactSum sum;
     const double term = 0x1.fffffffffffffp+0;
     const std::size_t n = 9'000'000;
     for (std::size_t i = 0; i < n; ++i) sum += term;

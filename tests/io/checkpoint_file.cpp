@@ -2,6 +2,7 @@
 // What is written to a checkpoint comes back bit for bit; what is no checkpoint is refused in one
 // line; what cannot be written leaves the earlier file as it was.
 #include "support/checkpoint.hpp"
+#include "support/refusal.hpp"
 #include <spam/core/error.hpp>
 
 #include <boost/test/unit_test.hpp>
@@ -17,18 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The one line by which a file is refused; empty when it is not.
-std::string refusal(const fs::path& path) {
-    try {
-        const CheckpointReader reader(path);
-        return "";
-    } catch (const InputError& error) {
-        return error.what();
-    }
-}
-
 void expect_refusal(const fs::path& path, const std::string& reason) {
-    const std::string line = refusal(path);
+    const std::string line = refusal([&] { CheckpointReader{path}; });
     BOOST_TEST(line.find(reason) != std::string::npos, "for '" << reason << "': " << line);
     BOOST_TEST(line.find(path.string()) != std::string::npos, line);
     BOOST_TEST(line.find('\n') == std::string::npos, line);

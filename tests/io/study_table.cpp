@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables that are computed row by row and survive being stopped.
 #include "support/process.hpp"
+#include "support/refusal.hpp"
 #include <spam/core/error.hpp>
 #include <spam/io/csv.hpp>
 #include <spam/io/study_table.hpp>
@@ -45,14 +46,9 @@ void begin(const Folder& f, int rows) {
     StudyTable(f.folder, "study", columns).run(squares(rows + 1, computed, rows), 1, ignore);
 }
 
-/// What the table says when it is read; empty where it takes the file.
+/// What the table says when it is read.
 std::string refusal(const Folder& f) {
-    try {
-        const StudyTable table(f.folder, "study", columns);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
+    return test::refusal([&] { StudyTable(f.folder, "study", columns); });
 }
 
 }  // namespace

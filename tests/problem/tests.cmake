@@ -55,6 +55,7 @@ spam_problem_test(problem/every_problem nlohmann_json::nlohmann_json)
 spam_problem_test(readme/documents nlohmann_json::nlohmann_json)
 spam_problem_test(problem/figures nlohmann_json::nlohmann_json)
 spam_problem_test(problem/waves nlohmann_json::nlohmann_json)
+spam_problem_test(problem/short_ranges nlohmann_json::nlohmann_json)
 spam_test(problem/lattice_sums property)  # a part of the problem kernels
 target_include_directories(test.problem.lattice_sums PRIVATE ${PROJECT_SOURCE_DIR}/problems)
 spam_problem_test(problem/density_potentials nlohmann_json::nlohmann_json)
@@ -147,4 +148,5 @@ if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
 endif()
 spam_long(problem/ball_plate problem/cantilever problem/column_of_elements problem/element_twins problem/every_problem
           problem/flows problem/idle_options problem/ranks_bytes problem/restart problem/restart_table
-          problem/stirred_flows problem/tension_test problem/wall_flows problem/water_column)
+          problem/short_ranges problem/space problem/stirred_flows problem/tension_test problem/wall_flows
+          problem/water_column)

@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> rooms{
-    "core",     "processes", "kernel",    "material",    "neighbors", "boundary", "physics",
-    "external", "rhs",       "integrate", "diagnostics", "setup",     "analysis", "io",
-    "picture",  "problem",   "study",     "view",        "python"};
+const std::vector<std::string> rooms{"core",    "processes", "kernel", "material",  "neighbors",
+                                     "physics", "external",  "rhs",    "integrate", "diagnostics",
+                                     "setup",   "analysis",  "io",     "picture",   "problem",
+                                     "study",   "view",      "python"};
 
 /// kernel and material are neighbours on one floor: both include only core.
 /// integrate knows vectors and callables, not particles: core, and processes for the signals of a run on several.
@@ -246,4 +246,21 @@ BOOST_AUTO_TEST_CASE(files_stay_readable) {
         BOOST_TEST(lines_of(path).size() <= 350U, path << " is longer than 350 lines");
     const auto front = lines_of(fs::path(SPAM_SOURCE) / "README.md").size();
     BOOST_TEST(front <= 150U, "README.md has " << front << " lines: more than five minutes");
+}
+
+/// One that no list names is never built, and nothing fails.
+BOOST_AUTO_TEST_CASE(every_test_is_in_a_list) {
+    std::string lists;
+    for (const char* file : {"tests/tests.cmake", "tests/problem/tests.cmake"})
+        for (const auto& line : lines_of(fs::path(SPAM_SOURCE) / file)) lists += line + "\n";
+    for (const auto& path : sources({"tests"})) {
+        const auto lines = lines_of(path);
+        if (path.extension() != ".cpp" || std::ranges::none_of(lines, [](const auto& line) {
+                return line.starts_with("BOOST_AUTO_TEST_CASE");
+            }))
+            continue;
+        const std::string room = path.parent_path().filename(), name = path.stem();
+        const std::regex listed("(" + room + "/|foreach\\(test [^)]*)" + name + "[^a-z0-9_]");
+        BOOST_TEST(std::regex_search(lists, listed), room << "/" << name << " is in no list");
+    }
 }
