@@ -128,7 +128,7 @@ void compute(Session& session, Parameters& p) {
                          column.prefix + "collapse",
                          rest});
         if (p.model == ColumnOf::both && column.of_elements())
-            for (const std::size_t k : {1, 2}) (cases.end() - k)->plan.step = step_of(column);
+            for (const int k : {1, 2}) (cases.end() - k)->plan.step = step_of(column);
     }
     const auto runs = session.run_all(std::move(cases));  // fewer where they were stopped
     std::vector<Computed> computed;

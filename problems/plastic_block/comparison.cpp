@@ -261,11 +261,11 @@ void compare(Session& session, const Parameters& p) {
                 largest_distance(references.of(form, false), references.of(form, true)),
                 "limits of the two, largest distance of a particle");
     for (const char* name : {"tl", "ul"}) {
-        const auto& after = fixed.at(std::string(name) + "_after");
-        const auto& stages = fixed.at(std::string(name) + "_return");
+        const auto& late = fixed.at(std::string(name) + "_after");
+        const auto& returned = fixed.at(std::string(name) + "_return");
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 1; k < steps.size(); ++k)
-            least = std::min(least, after[k].error / stages[k].error);
+            least = std::min(least, late[k].error / returned[k].error);
         findings.claim(std::string(name) + "_return_by_after", 1.0 / least, 0.0, 0.1,
                        "a tenth of the error, at every step", standard);
     }

@@ -60,7 +60,7 @@ InstructionSet chosen() {
 std::size_t chosen_ahead() {
     const char* const wish = std::getenv("SPAM_AHEAD");
     if (wish == nullptr || *wish == '\0') return most_neighbours_ahead;
-    for (const std::size_t ahead : {1, 2, 4})
+    for (const std::size_t ahead : {1U, 2U, 4U})
         if (wish == std::to_string(ahead)) return ahead;
     throw InputError(fmt::format(
         "SPAM_AHEAD: sweeps look 1, 2 or 4 neighbours ahead, not '{}'; unset it for 4", wish));

@@ -125,7 +125,7 @@ void check_returns(const Surface& surface, const Projection& projection) {
 }
 
 const PlaneVonMises plane{lambda, eta};
-const PlaneStrainVonMises strain{lambda, eta};
+const PlaneStrainVonMises plane_strain{lambda, eta};
 const PlaneStressVonMises stress{lambda, eta};
 const SpaceVonMises space{lambda, eta};
 
@@ -134,7 +134,7 @@ const SpaceVonMises space{lambda, eta};
 BOOST_AUTO_TEST_CASE(returns_are_closest_points) {
     for (const double H : {0.0, 0.3}) {
         check_returns(plane, {{0, 1, 3}, 2, H});
-        check_returns(strain, {{0, 1, 2, 3}, 3, H});
+        check_returns(plane_strain, {{0, 1, 2, 3}, 3, H});
         check_returns(stress, {{0, 1, 3}, 3, H});
         check_returns(space, {{0, 1, 2, 3, 4, 5}, 3, H});
     }

@@ -206,6 +206,7 @@ inline const std::map<std::pair<std::string, std::string>, std::string> own_valu
     {{"tension_test", "rows"}, "8"},
     {{"crushed_sheet", "rows"}, "3"},
     {{"algorithm_sweep", "size"}, "2"},
+    {{"collapse", "radius"}, "4"},
     {{"material_vectors_study", "rows"}, "8"},
     {{"plane_wave", "closest-approach"}, "0.9"},
     {{"md_fields", "cells"}, "16"},

@@ -75,7 +75,7 @@ void any_list_does(const Build<Dim>& build, const Particles<Dim>& particles, con
     rates_of(*used, stirred(*used, y, 0.02, 10));
     const std::size_t builds = used->list_builds();
     const std::size_t usual = neighbours_ahead();
-    for (const std::size_t ahead : {1, 2, 4}) {
+    for (const std::size_t ahead : {1U, 2U, 4U}) {
         set_neighbours_ahead(ahead);
         BOOST_TEST((rates_of(*used, y) == expected), what << ", " << ahead << " ahead");
     }

@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(a_smaller_budget_thins_in_the_order_that_the_page_names) {
     BOOST_TEST(has(words(most(2, 1, 4)), "every 4. snapshot"));
     BOOST_CHECK_THROW(words(most(2, 1, 9) - 1), InputError);
     // What was promised is kept, and the last snapshot is always there.
-    for (const std::size_t every : {1, 2, 4}) {
+    for (const std::size_t every : {1U, 2U, 4U}) {
         const auto payload = view::make_payload(results, {2, 1, every});
         std::size_t size = payload.description.dump().size();
         for (const auto& block : payload.blocks) size += block.size();
