@@ -5,6 +5,7 @@
 #include <spam/diagnostics/shape.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/problem/motion.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -37,16 +38,9 @@ Outcome run(const Scheme& scheme, const IntegratorOptions& options, double t_end
     Vector y(y0.size(), context);
     std::copy(y0.begin(), y0.end(), y.span().begin());
     Outcome out;
-    Ode ode;
-    ode.rates = [&](double t, std::span<const double> z, std::span<double> z_dot) {
-        model.rates(t, z, z_dot);
-    };
-    ode.failure = [&] { return model.failure(); };
-    ode.entry_name = [](std::size_t k) { return std::to_string(k); };
-    for (const auto& block : model.layout().blocks())
-        ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), block.size,
-                                      options.atol * block.scale);
-    Event event = model.events().front();
+    std::size_t pairs = 0;
+    Ode ode = as_ode(model, options, pairs);
+    Event& event = ode.events.front();
     event.apply = [&, apply = event.apply](double t, std::span<double> z) {
         const auto before = measure_invariants<2>(model, z);
         const std::size_t n = apply(t, z);
@@ -57,7 +51,6 @@ Outcome run(const Scheme& scheme, const IntegratorOptions& options, double t_end
             std::max(out.L_jump, std::abs(after.angular_momentum[0] - before.angular_momentum[0]));
         return n;
     };
-    ode.events.push_back(event);
     const auto integrator = make_integrator(options, ode, y, 0.0, context);
     Observers observers;
     observers.step = [&](double) {
@@ -76,11 +69,7 @@ Outcome run(const Scheme& scheme, const IntegratorOptions& options, double t_end
     return out;
 }
 
-IntegratorOptions rk4() {
-    IntegratorOptions options;
-    options.dt = 0.1;
-    return options;
-}
+const IntegratorOptions rk4{.dt = 0.1};
 
 Scheme with(double R, Transport transport = Transport::plain) {
     return {.transport = transport, .closest_approach = R};
@@ -106,7 +95,7 @@ void check_invariants(const Outcome& out) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(plain_velocity_no_longer_clumps) {
-    const auto out = run(with(0.7), rk4(), turn / 2);
+    const auto out = run(with(0.7), rk4, turn / 2);
     report("R = 0.7, half a turn", out);
     BOOST_TEST(out.events > 500U);
     BOOST_TEST(out.closest > 0.7 * (1.0 - 1e-12));
@@ -114,7 +103,7 @@ BOOST_AUTO_TEST_CASE(plain_velocity_no_longer_clumps) {
 }
 
 BOOST_AUTO_TEST_CASE(near_the_spacing_it_keeps_the_shape) {
-    const auto out = run(with(0.9), rk4(), turn / 3);
+    const auto out = run(with(0.9), rk4, turn / 3);
     report("R = 0.9, a third of a turn", out);
     BOOST_TEST(out.closest > 0.9 * (1.0 - 1e-12));
     BOOST_TEST(out.shape < 0.7);  // 0.95 without
@@ -132,7 +121,7 @@ BOOST_AUTO_TEST_CASE(adaptive_steps_keep_the_distance_as_well) {
 }
 
 BOOST_AUTO_TEST_CASE(averaged_velocities_let_reflected_pairs_pass) {
-    const auto out = run(with(0.9, Transport::monaghan), rk4(), turn / 2);
+    const auto out = run(with(0.9, Transport::monaghan), rk4, turn / 2);
     report("R = 0.9, Monaghan, half a turn", out);
     BOOST_TEST(out.events > 10U);
     BOOST_TEST(out.closest < 0.9 * (1.0 - 1e-6));  // 0.8994; 0.55 after a whole turn

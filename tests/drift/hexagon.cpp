@@ -8,6 +8,7 @@
 #include <spam/diagnostics/shape.hpp>
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
+#include <spam/problem/motion.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
 #include <spam/setup/initial_state.hpp>
@@ -38,39 +39,24 @@ struct Outcome {
 Outcome run(Model<2>& model, const IntegratorOptions& options, double t_end, double every) {
     const auto y0 =
         initial_state<2>(model, std::sqrt(4.0 / 3.0), solid.eta, rigid_rotation(0.1 / 8));
-    const SundialsContext context;
-    Vector y(y0.size(), context);
-    std::copy(y0.begin(), y0.end(), y.span().begin());
-    Ode ode;
-    ode.rates = [&](double t, std::span<const double> z, std::span<double> z_dot) {
-        model.rates(t, z, z_dot);
-    };
-    ode.failure = [&] { return model.failure(); };
-    ode.entry_name = [](std::size_t k) { return std::to_string(k); };
-    for (const auto& block : model.layout().blocks())
-        ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), block.size,
-                                      options.atol * block.scale);
-    const auto integrator = make_integrator(options, ode, y, 0.0, context);
+    Motion<2> motion(model, y0, options);
     Outcome out;
     Observers observers;
     observers.output = [&](double t) {
-        const auto now = measure_invariants(model, y.span());
-        const Points<2> x = ConstState<2>(model.layout(), y.span()).position();
+        const auto now = measure_invariants(model, motion.y());
+        const Points<2> x = motion.state().position();
         out.history.add({t, now.angular_momentum[0], now.energy, now.momentum.norm(),
                          shape_error<2>(model.particles().reference_position, x, 1.0),
                          closest_pair<2>(x, 1.0, {})});
     };
-    drive(*integrator, {t_end, every, t_end}, observers);
-    out.y.assign(y.span().begin(), y.span().end());
-    out.statistics = integrator->statistics();
+    drive(motion.integrator(), {t_end, every, t_end}, observers);
+    out.y.assign(motion.y().begin(), motion.y().end());
+    out.statistics = motion.statistics();
     return out;
 }
 
 IntegratorOptions fixed(const std::string& method, double dt) {
-    IntegratorOptions options;
-    options.method = method;
-    options.dt = dt;
-    return options;
+    return {.method = method, .dt = dt};
 }
 
 Outcome run(const Scheme& scheme, double dt, double t_end, double every = 10.0) {

@@ -2,16 +2,11 @@
 // What a total-Lagrangian solid keeps while it turns: the standard hexagon (217 particles, speed 0.1
 // at the corners, RK4) and a ball in space. Without its penalty the hexagon drifts off into modes
 // without energy.
+#include "drift/turning_run.hpp"
 #include "support/effort.hpp"
-#include <spam/core/nvector.hpp>
 #include <spam/diagnostics/fits.hpp>
-#include <spam/diagnostics/history.hpp>
-#include <spam/diagnostics/invariants.hpp>
-#include <spam/diagnostics/shape.hpp>
-#include <spam/integrate/driver.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
-#include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
 #include <Eigen/Geometry>
@@ -23,47 +18,11 @@
 
 using namespace spam;
 using spam::test::effort;
+using spam::test::run;
 
 namespace {
 
 constexpr double turn = 160.0 * std::numbers::pi;
-
-/// Columns t, shape_error, closest_pair, and the largest changes relative to the first row: p (by
-/// mass), L and energy.
-template <int Dim>
-History run(Model<Dim>& model, const VelocityField<Dim>& velocity, double dt, double t_end) {
-    const auto y0 = initial_state<Dim>(model, 1.0, 1.0, velocity);
-    const SundialsContext context;
-    Vector y(y0.size(), context);
-    std::copy(y0.begin(), y0.end(), y.span().begin());
-    Ode ode;
-    ode.rates = [&](double t, std::span<const double> z, std::span<double> z_dot) {
-        model.rates(t, z, z_dot);
-    };
-    ode.failure = [&] { return model.failure(); };
-    ode.entry_name = [](std::size_t k) { return std::to_string(k); };
-    IntegratorOptions options;
-    options.dt = dt;
-    const auto integrator = make_integrator(options, ode, y, 0.0, context);
-    const auto start = measure_invariants(model, y.span());
-    History history({"t", "shape_error", "closest_pair", "p", "L", "energy"});
-    Observers observers;
-    observers.output = [&](double t) {
-        const auto now = measure_invariants(model, y.span());
-        const Points<Dim> x = ConstState<Dim>(model.layout(), y.span()).position();
-        double L = 0.0, L0 = 0.0;
-        for (Eigen::Index k = 0; k < start.angular_momentum.size(); ++k) {
-            L += std::pow(now.angular_momentum[k] - start.angular_momentum[k], 2);
-            L0 += std::pow(start.angular_momentum[k], 2);
-        }
-        history.add({t, shape_error<Dim>(model.particles().reference_position, x, 1.0),
-                     closest_pair<Dim>(x, 1.0, {}),
-                     (now.momentum - start.momentum).norm() / now.mass, std::sqrt(L / L0),
-                     std::abs(now.energy / start.energy - 1.0)});
-    };
-    drive(*integrator, {t_end, 10.0, t_end}, observers);
-    return history;
-}
 
 TotalLagrangianModel<2> hexagon(double penalty) {
     return {make_particles<2>(triangular_hexagon(8), 1.0),
@@ -84,7 +43,7 @@ double closest_of_shaken(const Law& law, double t_end) {
     std::mt19937_64 random(11);
     std::normal_distribution<double> g(0.0, 0.02 / std::numbers::sqrt2);
     const auto shaken = [&](const Point<2>&) { return Point<2>(g(random), g(random)); };
-    return run<2>(model, shaken, 0.25, t_end).smallest("closest_pair");
+    return run<2>(model, shaken, {.dt = 0.25}, t_end, 10.0).smallest("closest_pair");
 }
 
 /// Simple cubic, those within `radius` of the middle.
@@ -105,7 +64,7 @@ Points<3> ball(int radius) {
 BOOST_AUTO_TEST_CASE(the_hexagon_turns_four_times_and_nothing_changes) {
     auto model = hexagon(0.1);
     const double end = effort(4.0, 1.0) * turn;
-    const History h = run<2>(model, rigid_rotation(0.1 / 8), 0.1, end);
+    const History h = run<2>(model, rigid_rotation(0.1 / 8), {.dt = 0.1}, end, 10.0);
     BOOST_TEST(h.largest("shape_error") < 0.03);
     BOOST_TEST(h.smallest("closest_pair") > 0.97);
     BOOST_TEST(h.largest("p") < 1e-12);
@@ -116,7 +75,8 @@ BOOST_AUTO_TEST_CASE(the_hexagon_turns_four_times_and_nothing_changes) {
 
 BOOST_AUTO_TEST_CASE(without_the_penalty_its_shape_is_lost) {
     auto model = hexagon(0.0);
-    const History h = run<2>(model, rigid_rotation(0.1 / 8), effort(0.2, 0.4), 9.0 * turn);
+    const History h =
+        run<2>(model, rigid_rotation(0.1 / 8), {.dt = effort(0.2, 0.4)}, 9.0 * turn, 10.0);
     BOOST_TEST(h.largest("shape_error") > 0.5);
     BOOST_TEST(h.largest("p") < 1e-12);  // what does not depend on it is kept all the same
     BOOST_TEST(h.largest("L") < 1e-8);
@@ -126,7 +86,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_kept_is_the_integrators) {
     std::vector<double> steps{0.8, 0.4, 0.2}, L, E;
     for (const double dt : steps) {
         auto model = hexagon(0.1);
-        const History h = run<2>(model, rigid_rotation(0.1 / 8), dt, 0.5 * turn);
+        const History h = run<2>(model, rigid_rotation(0.1 / 8), {.dt = dt}, 0.5 * turn, 10.0);
         L.push_back(h.last("L"));
         E.push_back(h.last("energy"));
     }
@@ -141,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_ball_in_space_that_turns_and_rings) {
     const auto velocity = [&](const Point<3>& x) -> Point<3> {
         return omega.cross(x) + Point<3>(0.02 * x[0], -0.01 * x[1], 0.0) + Point<3>(0.1, 0.2, 0.0);
     };
-    const History h = run<3>(model, velocity, 0.05, effort(250.0, 50.0));
+    const History h = run<3>(model, velocity, {.dt = 0.05}, effort(250.0, 50.0), 10.0);
     BOOST_TEST(h.largest("shape_error") < 0.1);
     BOOST_TEST(h.largest("p") < 1e-12);
     BOOST_TEST(h.largest("L") < 1e-9);

@@ -41,10 +41,7 @@ Ode ball() {
 }
 
 IntegratorOptions with(const std::string& method, std::optional<double> dt) {
-    IntegratorOptions options;
-    options.method = method;
-    options.dt = dt;
-    return options;
+    return {.method = method, .dt = dt};
 }
 
 /// Fixed and adaptive, and a table that goes through ARKStep.

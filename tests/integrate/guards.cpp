@@ -19,10 +19,7 @@ namespace {
 using Rates = std::function<void(double, std::span<const double>, std::span<double>)>;
 
 IntegratorOptions with(const std::string& method, std::optional<double> dt) {
-    IntegratorOptions options;
-    options.method = method;
-    options.dt = dt;
-    return options;
+    return {.method = method, .dt = dt};
 }
 const IntegratorOptions rk4 = with("rk4", 0.1);
 const IntegratorOptions fixed = with("arkode:ZONNEVELD_5_3_4", 0.1);

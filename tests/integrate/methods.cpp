@@ -29,6 +29,16 @@ Ode cosine() {
     return ode;
 }
 
+/// Its rates are not numbers after t = 0.45.
+Ode spoilt_cosine() {
+    Ode ode = cosine();
+    ode.rates = [good = ode.rates](double t, std::span<const double> y, std::span<double> y_dot) {
+        good(t, y, y_dot);
+        if (t > 0.45) y_dot[1] = std::numeric_limits<double>::quiet_NaN();
+    };
+    return ode;
+}
+
 /// y0 = exp(sin t), y1 = 1/(1 + t): another one, with error terms of every kind.
 Ode growth() {
     Ode ode = cosine();
@@ -39,32 +49,40 @@ Ode growth() {
     return ode;
 }
 
+/// On its way from y = (1, y1).
+struct Solution {
+    const SundialsContext context;
+    const Ode ode;
+    Vector y{2, context};
+    std::unique_ptr<Integrator> integrator;
+
+    explicit Solution(const IntegratorOptions& options, Ode of = cosine(), double y1 = 0.0)
+        : ode(std::move(of)) {
+        y.span()[0] = 1.0;
+        y.span()[1] = y1;
+        integrator = make_integrator(options, ode, y, 0.0, context);
+    }
+};
+
 struct Run {
     double error;
     Integrator::Statistics statistics;
 };
 
 Run run(const IntegratorOptions& options, double t_end) {
-    const SundialsContext context;
-    const Ode ode = cosine();
-    Vector y(2, context);
-    y.span()[0] = 1.0;
-    y.span()[1] = 0.0;
-    const auto integrator = make_integrator(options, ode, y, 0.0, context);
+    Solution of(options);
     double error = 0.0;  // the largest on the way: at one time alone it may cross zero
     Observers observers;
     observers.output = [&](double t) {
-        error = std::max(error, std::hypot(y.span()[0] - std::cos(t), y.span()[1] + std::sin(t)));
+        const auto y = of.y.span();
+        error = std::max(error, std::hypot(y[0] - std::cos(t), y[1] + std::sin(t)));
     };
-    drive(*integrator, {t_end, 0.8, t_end}, observers);
-    return {error, integrator->statistics()};
+    drive(*of.integrator, {t_end, 0.8, t_end}, observers);
+    return {error, of.integrator->statistics()};
 }
 
 IntegratorOptions fixed(const std::string& method, double dt) {
-    IntegratorOptions options;
-    options.method = method;
-    options.dt = dt;
-    return options;
+    return {.method = method, .dt = dt};
 }
 
 IntegratorOptions adaptive(const std::string& method, double rtol = 1e-8, double atol = 1e-10) {
@@ -78,15 +96,11 @@ IntegratorOptions adaptive(const std::string& method, double rtol = 1e-8, double
 double order_of(const std::string& method, double largest_step) {
     std::vector<double> steps, errors;
     for (int k = 0; k < 4; ++k) {
-        const SundialsContext context;
-        const Ode ode = growth();
-        Vector y(2, context);
-        y.span()[0] = y.span()[1] = 1.0;
         steps.push_back(largest_step * std::pow(0.5, k));
-        const auto integrator = make_integrator(fixed(method, steps.back()), ode, y, 0.0, context);
-        drive(*integrator, {3.2, 3.2, 3.2}, {});
-        errors.push_back(
-            std::hypot(y.span()[0] - std::exp(std::sin(3.2)), y.span()[1] - 1.0 / 4.2));
+        Solution of(fixed(method, steps.back()), growth(), 1.0);
+        drive(*of.integrator, {3.2, 3.2, 3.2}, {});
+        const auto y = of.y.span();
+        errors.push_back(std::hypot(y[0] - std::exp(std::sin(3.2)), y[1] - 1.0 / 4.2));
     }
     return observed_order(steps, errors);
 }
@@ -128,20 +142,16 @@ BOOST_AUTO_TEST_CASE(tolerances_steer_the_error) {
 
 BOOST_AUTO_TEST_CASE(fixed_steps_stay_on_their_grid_and_reach_the_end) {
     for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4"}) {
-        const SundialsContext context;
-        const Ode ode = cosine();
-        Vector y(2, context);
-        y.span()[0] = 1.0;
-        const auto integrator = make_integrator(fixed(method, 0.1), ode, y, 0.0, context);
+        Solution of(fixed(method, 0.1));
         std::vector<double> outputs, steps;
         Observers observers;
         observers.output = [&](double t) { outputs.push_back(t); };
         observers.step = [&](double t) { steps.push_back(t); };
-        drive(*integrator, {1.03, 0.25, 10.0}, observers);
+        drive(*of.integrator, {1.03, 0.25, 10.0}, observers);
         for (std::size_t n = 0; n + 1 < steps.size(); ++n)
             BOOST_TEST(steps[n] == static_cast<double>(n + 1) * 0.1);  // not accumulated
         BOOST_TEST(steps.back() == 1.03);
-        BOOST_TEST(std::abs(y.span()[0] - std::cos(1.03)) < 2e-6);
+        BOOST_TEST(std::abs(of.y.span()[0] - std::cos(1.03)) < 2e-6);
         const std::vector<double> expected{0.0, 3 * 0.1, 5 * 0.1, 8 * 0.1, 10 * 0.1, 1.03};
         BOOST_TEST(outputs == expected, boost::test_tools::per_element());
     }
@@ -150,15 +160,11 @@ BOOST_AUTO_TEST_CASE(fixed_steps_stay_on_their_grid_and_reach_the_end) {
 BOOST_AUTO_TEST_CASE(adaptive_steps_land_on_output_times) {
     for (const char* method :
          {"arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "cvode:bdf", "gsl:rkf45", "gsl:msadams"}) {
-        const SundialsContext context;
-        const Ode ode = cosine();
-        Vector y(2, context);
-        y.span()[0] = 1.0;
-        const auto integrator = make_integrator(adaptive(method), ode, y, 0.0, context);
+        Solution of(adaptive(method));
         std::vector<double> outputs;
         Observers observers;
         observers.output = [&](double t) { outputs.push_back(t); };
-        drive(*integrator, {1.0, 0.25, 0.4}, observers);
+        drive(*of.integrator, {1.0, 0.25, 0.4}, observers);
         const std::vector<double> expected{0.0, 0.25, 0.5, 0.75, 1.0};
         BOOST_TEST(outputs == expected, boost::test_tools::per_element());
     }
@@ -166,47 +172,29 @@ BOOST_AUTO_TEST_CASE(adaptive_steps_land_on_output_times) {
 
 BOOST_AUTO_TEST_CASE(a_bad_rate_stops_a_fixed_step_with_the_last_good_state) {
     for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4", "gsl:rk4", "gsl:rk8pd"}) {
-        const SundialsContext context;
-        Ode ode = cosine();
-        const auto good = ode.rates;
-        ode.rates = [good](double t, std::span<const double> y, std::span<double> y_dot) {
-            good(t, y, y_dot);
-            if (t > 0.45) y_dot[1] = std::numeric_limits<double>::quiet_NaN();
-        };
-        Vector y(2, context);
-        y.span()[0] = 1.0;
-        const auto integrator = make_integrator(fixed(method, 0.1), ode, y, 0.0, context);
+        Solution of(fixed(method, 0.1), spoilt_cosine());
         std::string reason;
         try {
-            drive(*integrator, {1.0, 1.0, 1.0}, {});
+            drive(*of.integrator, {1.0, 1.0, 1.0}, {});
         } catch (const GuardStop& stop) {
             reason = stop.what();
         }
         BOOST_TEST((reason.find("became nan at t = 0.5") != std::string::npos), reason);
-        BOOST_TEST(integrator->t() == 0.4);
-        BOOST_TEST(std::abs(y.span()[0] - std::cos(0.4)) < 1e-6);
+        BOOST_TEST(of.integrator->t() == 0.4);
+        BOOST_TEST(std::abs(of.y.span()[0] - std::cos(0.4)) < 1e-6);
     }
 }
 
 BOOST_AUTO_TEST_CASE(an_adaptive_step_that_cannot_succeed_stops) {
     for (const char* method :
          {"arkode:DORMAND_PRINCE_7_4_5", "cvode:adams", "cvode:bdf", "gsl:rk8pd", "gsl:msadams"}) {
-        const SundialsContext context;
-        Ode ode = cosine();
-        const auto good = ode.rates;
-        ode.rates = [good](double t, std::span<const double> y, std::span<double> y_dot) {
-            good(t, y, y_dot);
-            if (t > 0.45) y_dot[1] = std::numeric_limits<double>::quiet_NaN();
-        };
-        Vector y(2, context);
-        y.span()[0] = 1.0;
         IntegratorOptions options = adaptive(method);
         options.min_step = 1e-6;
-        const auto integrator = make_integrator(options, ode, y, 0.0, context);
-        BOOST_CHECK_THROW(drive(*integrator, {1.0, 1.0, 1.0}, {}), GuardStop);
-        BOOST_TEST(integrator->t() <= 0.45);
-        BOOST_TEST(integrator->t() > 0.3);
-        BOOST_TEST(std::abs(y.span()[0] - std::cos(integrator->t())) < 1e-6);
+        Solution of(options, spoilt_cosine());
+        BOOST_CHECK_THROW(drive(*of.integrator, {1.0, 1.0, 1.0}, {}), GuardStop);
+        BOOST_TEST(of.integrator->t() <= 0.45);
+        BOOST_TEST(of.integrator->t() > 0.3);
+        BOOST_TEST(std::abs(of.y.span()[0] - std::cos(of.integrator->t())) < 1e-6);
     }
 }
 
@@ -215,17 +203,13 @@ BOOST_AUTO_TEST_CASE(a_state_changed_from_outside_needs_a_reset) {
          {fixed("rk4", 0.01), fixed("arkode:ZONNEVELD_5_3_4", 0.01),
           adaptive("arkode:DORMAND_PRINCE_7_4_5"), adaptive("cvode:adams"), adaptive("cvode:bdf"),
           adaptive("gsl:rk8pd"), fixed("gsl:rkck", 0.01), adaptive("gsl:msadams")}) {
-        const SundialsContext context;
-        const Ode ode = cosine();
-        Vector y(2, context);
-        y.span()[0] = 1.0;
-        const auto integrator = make_integrator(options, ode, y, 0.0, context);
-        drive(*integrator, {0.5, 1.0, 1.0}, {});
-        y.span()[0] = 1.0;  // back to the start
-        y.span()[1] = 0.0;
-        integrator->reset(0.0);
-        drive(*integrator, {0.5, 1.0, 1.0}, {});
-        BOOST_TEST(std::abs(y.span()[0] - std::cos(0.5)) < 1e-6);
+        Solution of(options);
+        drive(*of.integrator, {0.5, 1.0, 1.0}, {});
+        of.y.span()[0] = 1.0;  // back to the start
+        of.y.span()[1] = 0.0;
+        of.integrator->reset(0.0);
+        drive(*of.integrator, {0.5, 1.0, 1.0}, {});
+        BOOST_TEST(std::abs(of.y.span()[0] - std::cos(0.5)) < 1e-6);
     }
 }
 

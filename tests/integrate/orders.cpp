@@ -35,10 +35,7 @@ std::vector<double> state_at_end(const System& system, double dt, const Make& ma
 
 Make by_name(const std::string& method) {
     return [method](const System& system, Vector& y, double dt, const SundialsContext& context) {
-        IntegratorOptions options;
-        options.method = method;
-        options.dt = dt;
-        return make_integrator(options, system.ode, y, 0.0, context);
+        return make_integrator({.method = method, .dt = dt}, system.ode, y, 0.0, context);
     };
 }
 

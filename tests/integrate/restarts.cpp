@@ -79,7 +79,7 @@ std::vector<IntegratorOptions> ways_of(const IntegrationMethod& method) {
     options.rtol = 1e-7;
     if (method.adaptive) ways.push_back(options);
     options.relaxation = true;
-    if (why_refused(options).empty()) ways.push_back(options);
+    if (refusal([&] { options.validate(); }) == "accepted") ways.push_back(options);
     options.relaxation = false;
     options.dt = 0.1;
     if (method.fixed) ways.push_back(options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What users may say about adaptive steps, and what they are told: limits of steps, the field that keeps
 // them short, why a run was stopped.
-#include <spam/core/error.hpp>
+#include "support/refusal.hpp"
 #include <spam/integrate/driver.hpp>
 #include <spam/integrate/methods.hpp>
 
@@ -225,13 +225,8 @@ BOOST_AUTO_TEST_CASE(a_reason_of_the_model_is_what_users_are_told) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
     const Ode ode = oscillators();
-    const auto reason = [&](const IntegratorOptions& options, const Ode& of) -> std::string {
-        try {
-            Run(options, of);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "none";
+    const auto reason = [&](const IntegratorOptions& options, const Ode& of) {
+        return test::refusal([&] { Run(options, of); });
     };
     IntegratorOptions o;
     o.method = "leapfrog";

@@ -9,6 +9,7 @@
 #include <spam/integrate/driver.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/physics/closest_approach.hpp>
+#include <spam/problem/motion.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
@@ -45,6 +46,7 @@ const Scheme touching{.density = Density::summed, .closest_approach = 0.5, .rang
 struct Collisions {
     const SundialsContext context;
     Model<2>& model;
+    std::size_t pairs = 0;
     Ode ode;
     Vector y;
     std::unique_ptr<Integrator> integrator;
@@ -56,13 +58,8 @@ struct Collisions {
         : model(m),
           y(y0.size(), context) {
         std::copy(y0.begin(), y0.end(), y.span().begin());
-        ode.rates = [&](double t, std::span<const double> z, std::span<double> z_dot) {
-            model.rates(t, z, z_dot);
-        };
-        ode.failure = [&] { return model.failure(); };
-        ode.entry_name = [](std::size_t k) { return std::to_string(k); };
-        ode.absolute_tolerance.assign(y0.size(), options.atol);
-        for (Event& event : model.events()) ode.events.push_back(observed(std::move(event)));
+        ode = as_ode(model, options, pairs);
+        for (Event& event : ode.events) event = observed(std::move(event));
         integrator = make_integrator(options, ode, y, 0.0, context);
     }
 

@@ -121,13 +121,6 @@ void every_pair(const ContactScheme& scheme, int cells, const Box<Dim>& box = {}
     BOOST_TEST(std::abs(change + power) < 1e-7 * size);
 }
 
-template <int Dim>
-Box<Dim> periodic(double length) {
-    std::array<double, Dim> lengths;
-    lengths.fill(length);
-    return Box<Dim>(lengths);
-}
-
 /// Two particles of unit mass, `reference` apart in the reference configuration.
 Particles<2> two(double reference, bool of_one_body) {
     Particles<2> p;

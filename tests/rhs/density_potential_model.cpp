@@ -4,6 +4,7 @@
 // keeps; threads; states and cases without meaning.
 #include "support/model_ode.hpp"
 #include "support/random_state.hpp"
+#include "support/refusal.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/kernel/any_weight.hpp>
 #include <spam/material/embedded_atom.hpp>
@@ -133,13 +134,6 @@ void check(const DensityPotentials& p, int cells, const Box<Dim>& box) {
     }
 }
 
-template <int Dim>
-Box<Dim> periodic(double length) {
-    std::array<double, Dim> lengths;
-    lengths.fill(length);
-    return Box<Dim>(lengths);
-}
-
 // ---- with one thing wrong ----
 
 /// Forgets that a gradient changes sign with the direction.
@@ -160,15 +154,9 @@ struct NarrowLaw : EmbeddedAtom {
     }
 };
 
-/// What is said when it is refused.
 template <int Dim>
-std::string refusal(const DensityPotentials& p, const Box<Dim>& box = {}) {
-    try {
-        DensityPotentialModel<Dim>(jittered_particles<Dim>(7, 83), p, box);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
+std::string why_refused(const DensityPotentials& p, const Box<Dim>& box = {}) {
+    return refusal([&] { DensityPotentialModel<Dim>(jittered_particles<Dim>(7, 83), p, box); });
 }
 bool says(const std::string& text, const char* words) {
     return text.find(words) != std::string::npos;
@@ -256,9 +244,7 @@ BOOST_AUTO_TEST_CASE(energy_is_kept_to_fourth_order_and_momenta_to_round_off) {
         System system(std::move(model), start);
         const SundialsContext context;
         Vector y = start_of(system, context);
-        IntegratorOptions options;
-        options.dt = dt;
-        const auto rk4 = make_integrator(options, system.ode, y, 0.0, context);
+        const auto rk4 = make_integrator({.dt = dt}, system.ode, y, 0.0, context);
         while (rk4->t() < 2.0) rk4->step(2.0);
         drifts.push_back(std::abs(total_energy(*system.model, y.span()) -
                                   total_energy(*system.model, system.y0)));
@@ -320,9 +306,9 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto with = [](const auto& change) {
         DensityPotentials p = everything<2>();
         change(p);
-        return refusal<2>(p);
+        return why_refused<2>(p);
     };
-    BOOST_TEST(says(refusal<2>({}), "potentials: none acts"));
+    BOOST_TEST(says(why_refused<2>({}), "potentials: none acts"));
     BOOST_TEST(says(with([](auto& p) { p.state = IdealGas{}; }), "use a cold law"));
     BOOST_TEST(says(with([](auto& p) { p.kernel = Kernel::lucy; }), "use w4 or smoother"));
     BOOST_TEST(says(with([](auto& p) { p.kernel = Kernel::w2; }), "a gradient potential needs"));
@@ -331,10 +317,10 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     BOOST_TEST(says(with([](auto& p) { p.core.e_c = -0.1; }), "core: -0.1"));
     BOOST_TEST(says(with([](auto& p) { p.surface_tension = NAN; }), "surface-tension: nan"));
     BOOST_TEST(says(with([](auto& p) { p.strength = -1.0; }), "strength: -1"));
-    BOOST_TEST(says(refusal<2>(everything<2>(), Box<2>({0.45, 4.5})), "box: periodic length"));
+    BOOST_TEST(says(why_refused<2>(everything<2>(), Box<2>({0.45, 4.5})), "box: periodic length"));
     DensityPotentials curved = everything<1>();
     curved.strength = 0.1;
-    BOOST_TEST(says(refusal<1>(curved), "a curvature potential is always zero in 1 dimension"));
+    BOOST_TEST(says(why_refused<1>(curved), "a curvature potential is always zero in 1 dimension"));
     BOOST_TEST(
         everything<2>().describe() ==
         "embedded atom, B0 = 1.3, rho0 = 0.9; surface tension 0.3; strength 0.2; core 0.7 of "

@@ -73,11 +73,8 @@ struct Drifts {
 };
 
 Drifts drifts_of(ParticleModel<2>& model, double dt, const char* method = "rk4") {
-    IntegratorOptions options;
-    options.method = method;
-    options.dt = dt;
     const auto y0 = stirred(model, 0.1);
-    Motion<2> motion(model, y0, options);
+    Motion<2> motion(model, y0, {.method = method, .dt = dt});
     motion.advance_to(20.0);
     const auto before = measure_invariants<2>(model, y0),
                after = measure_invariants<2>(model, motion.y());
@@ -104,9 +101,7 @@ std::vector<double> fallen(double scale) {
         model.add(std::move(guide));
     }
     const auto y0 = initial_state<2>(model, 1.0, 1.0, at_rest<2>());
-    IntegratorOptions options;
-    options.dt = 0.0523 * scale;
-    Motion<2> motion(model, y0, options);
+    Motion<2> motion(model, y0, {.dt = 0.0523 * scale});
     motion.advance_to(20.0 * scale);
     const Points<2> x = motion.state().position() / scale;
     return {x.data(), x.data() + x.size()};
@@ -235,8 +230,7 @@ BOOST_AUTO_TEST_CASE(a_solid_and_a_fluid_share_a_mesh) {
     BOOST_TEST(fine.momentum < 1e-12);
     BOOST_TEST(coarse.energy < 1e-4);
     BOOST_TEST(fine.energy < coarse.energy / 2.0);
-    IntegratorOptions options;
-    options.dt = 0.1;
+    const IntegratorOptions options{.dt = 0.1};
     Motion<2> whole(*model, stirred(*model, 0.1), options);
     whole.advance_to(4.0);
     const std::vector<double> y_half(whole.y().begin(), whole.y().end());

@@ -28,13 +28,6 @@ constexpr int cells = 5, copies = 3;
 constexpr double length = cells;
 
 template <int Dim>
-Box<Dim> cube(double L) {
-    std::array<double, Dim> lengths;
-    lengths.fill(L);
-    return Box<Dim>(lengths);
-}
-
-template <int Dim>
 constexpr Eigen::Index all_copies = copies* all_copies<Dim - 1>;
 template <>
 constexpr Eigen::Index all_copies<0> = 1;
@@ -47,7 +40,7 @@ Particles<Dim> patch(unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> u(-0.1, 0.1);
     for (auto& c : x.reshaped()) c = std::round((c + u(random)) * 0x1p32) * 0x1p-32;
-    auto particles = make_particles<Dim>(x, 1.0, 1.0, cube<Dim>(length));
+    auto particles = make_particles<Dim>(x, 1.0, 1.0, periodic<Dim>(length));
     for (double& m : particles.mass) m += u(random);
     return particles;
 }
@@ -79,8 +72,8 @@ template <int Dim>
 double narrow_against_wide(const Build<Dim>& build, double deform = 0.05) {
     set_threads(1);  // of few particles two wait for each other
     const auto one = patch<Dim>(7);
-    auto narrow = build(one, cube<Dim>(length));
-    auto wide = build(repeated<Dim>(one), cube<Dim>(copies * length));
+    auto narrow = build(one, periodic<Dim>(length));
+    auto wide = build(repeated<Dim>(one), periodic<Dim>(copies * length));
     auto y = random_state(*narrow, 8);
     std::vector<double> Y(wide->layout().size(), 0.0);
     const State<Dim> small(narrow->layout(), y), large(wide->layout(), Y);

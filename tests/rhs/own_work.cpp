@@ -4,7 +4,7 @@
 // heat taken from a particle that has none. What the mean form and a form with the partner's stress do instead.
 #include "support/fluid_oracle.hpp"
 #include "support/random_fluid.hpp"
-#include <spam/core/error.hpp>
+#include "support/refusal.hpp"
 #include <spam/core/exact_sum.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/gamma_gas.hpp>
@@ -159,13 +159,10 @@ void check_cold_particles() {
 }
 
 std::string why_refused(const auto& matter, const Scheme& scheme) {
-    try {
+    return refusal([&] {
         ParticleModel<2> model(jittered_particles<2>(8, 31), {});
         model.add_term<SmoothParticles<2>>(matter, scheme);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
+    });
 }
 
 }  // namespace
@@ -208,7 +205,7 @@ BOOST_AUTO_TEST_CASE(what_it_means_nothing_for_is_refused) {
         return text.find(words) != std::string::npos;
     };
     const Scheme own{.work = Work::own, .range = range};
-    BOOST_TEST(why_refused(Fluid{IdealGas{}}, own).empty());
+    BOOST_TEST(why_refused(Fluid{IdealGas{}}, own) == "accepted");
     BOOST_TEST(
         says(why_refused(Fluid{LucyGas{}}, own), "work: own is for laws with a temperature"));
     BOOST_TEST(says(why_refused(ElasticSolid{0.7, 0.4}, own), "work: own is for fluids"));

@@ -17,13 +17,6 @@ using namespace spam::test;
 
 namespace {
 
-template <int Dim>
-Box<Dim> periodic(double length) {
-    std::array<double, Dim> lengths;
-    lengths.fill(length);
-    return Box<Dim>(lengths);
-}
-
 /// A law of pairs by its definition: energy and -(d phi/dr)/r by r, of a pair of these masses.
 struct ByDefinition {
     std::function<double(double m_i, double m_j, double r)> energy, force_over_r;

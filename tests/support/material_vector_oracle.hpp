@@ -165,4 +165,11 @@ class MaterialVectorOracle {
     std::vector<std::vector<Bond>> rows_;
 };
 
+template <int Dim>
+std::vector<double> forces_of(const MaterialVectorOracle<Dim>& oracle, std::span<const double> y) {
+    std::vector<double> f;
+    for (const auto& force : oracle.forces(y)) f.insert(f.end(), force.data(), force.data() + Dim);
+    return f;
+}
+
 }  // namespace spam::test

@@ -4,18 +4,10 @@
 #include "support/random_state.hpp"
 #include <spam/rhs/smooth_particles.hpp>
 
-#include <array>
 #include <random>
 #include <vector>
 
 namespace spam::test {
-
-template <int Dim>
-Box<Dim> periodic(double length) {
-    std::array<double, Dim> lengths;
-    lengths.fill(length);
-    return Box<Dim>(lengths);
-}
 
 /// Random velocities and, where the law has any, temperatures between 0.5 and 1.5.
 template <int Dim>

@@ -4,11 +4,19 @@
 #include <spam/rhs/model.hpp>
 #include <spam/setup/lattices.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 namespace spam::test {
+
+template <int Dim>
+Box<Dim> periodic(double length) {
+    std::array<double, Dim> lengths;
+    lengths.fill(length);
+    return Box<Dim>(lengths);
+}
 
 /// A lattice of about `cells`^Dim particles with spacing 1, jittered, unequal masses: nothing about
 /// it is symmetric. In 2D a block of the triangular lattice.

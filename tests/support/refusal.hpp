@@ -2,7 +2,6 @@
 #pragma once
 
 #include <spam/core/error.hpp>
-#include <spam/integrate/integrator.hpp>
 
 #include <string>
 
@@ -17,16 +16,6 @@ std::string refusal(const Make& make) {
         return error.what();
     }
     return "accepted";
-}
-
-/// What a user is told of options that cannot be; nothing where they can.
-inline std::string why_refused(const IntegratorOptions& options) {
-    try {
-        options.validate();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
 }
 
 }  // namespace spam::test
