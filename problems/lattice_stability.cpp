@@ -30,7 +30,7 @@ using namespace lattice_stability;
 
 // rk4 takes omega t (omega dt)^5/72 of the energy of a vibration: with the fastest, omega = 1.42 of both
 // potentials, 2e-6 until t = 600, and less than 1e-6 of all of it. dt = 0.05 would be too long.
-constexpr double step = 0.03, step_by_period = 0.043;
+constexpr double step = 0.03, omega_dt = 0.043;
 constexpr double range_of_dynamics = 3.25, range_of_one_case = 2.5;
 
 /// Steeper weights, shorter ranges and stronger potentials make faster vibrations. Those of a sample just wide
@@ -38,7 +38,7 @@ constexpr double range_of_dynamics = 3.25, range_of_one_case = 2.5;
 double step_of(Parameters p) {
     p.cells = std::min(p.cells, 2 * static_cast<int>(std::ceil(1.2 * *p.range)) + 2);
     const auto all = analyse(p, p.lattice, Acting::both, *p.range).spectrum.eigenvalue;
-    return std::min(step, step_by_period / std::sqrt(all.back()));
+    return std::min(step, omega_dt / std::sqrt(all.back()));
 }
 
 /// With --potential one lattice is analysed: nothing moves, and potentials that do not act have no

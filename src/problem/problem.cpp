@@ -98,10 +98,9 @@ void Problem::settle_ranks() {
     if (wanted > 1 && !why_one_process().empty()) throw InputError("ranks: " + why_one_process());
     if (common_.ranks && wanted != processes().count())
         throw InputError(fmt::format(
-            "ranks: {} for a run on {}; give --ranks on the command line, which starts them (a file of options "
-            "cannot), or leave it out",
-            wanted,
-            processes().count() == 1 ? "one process" : "as many processes as mpirun has started"));
+            "ranks: {} processes are asked for, and the number running is {}; give --ranks on the command line, which "
+            "starts the processes (a file of options cannot), or leave it out",
+            wanted, processes().count()));
     if (!muted()) return;
     common_.out = scratch_folder();
     common_.force = false;

@@ -15,10 +15,10 @@ template <int Dim>
 double reach_in(const Rezoning<Dim>& rezoning, const Model<Dim>& model, std::span<const double> y) {
     if (rezoning.range > 0.0) return rezoning.range;
     const auto twin = rezoning.make(model.particles());
-    if (twin->layout().size() != y.size())
-        return model.reach();  // without accounts of the run's externals
-    std::vector<double> rates(y.size());
-    twin->rates(0.0, y, rates);
+    // Accounts of externals, the last of y, have no say in it.
+    std::vector<double> state(y.begin(), y.end()), rates(twin->layout().size());
+    state.resize(rates.size());
+    twin->rates(0.0, state, rates);
     return twin->reach();
 }
 

@@ -115,10 +115,11 @@ int start_processes(std::size_t count, char** argv) {
     if (status >= 0) return status;
     // It has not come to its end: a signal at once, or a process that was killed, of which mpirun -q says nothing.
     if (passed_on != 0) return 128 + passed_on;
-    std::fputs(
-        "ranks: a process ended without a word; it was killed, perhaps for want of memory. Where the folder has a "
-        "checkpoint --restart goes on from it\n",
-        stderr);
+    const std::string report = fmt::format(
+        "{}: ranks: a process ended without saying why; it may have been killed, for want of memory for instance. If "
+        "the result folder has a checkpoint, --restart goes on from it\n",
+        std::filesystem::path(argv[0]).filename().string());
+    std::fputs(report.c_str(), stderr);
     return WIFEXITED(ended) && WEXITSTATUS(ended) != 0 ? WEXITSTATUS(ended) : 4;
 }
 

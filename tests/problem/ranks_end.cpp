@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(a_rank_that_is_killed_ends_all) {
     const Outcome outcome = child.finish(Child::Seconds(30));
     BOOST_TEST(outcome.status != 0);
     BOOST_TEST(outcome.status != -1);
-    BOOST_TEST(outcome.err.find("was killed") != std::string::npos, outcome.err);
+    BOOST_TEST(outcome.err.find("been killed") != std::string::npos, outcome.err);
     for (int tenths = 0; tenths < 50 && !processes_with(marked).empty(); ++tenths)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     BOOST_TEST(processes_with(marked).empty());
