@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The tests, room by room.
-spam_test(rhs/oracle unit)
-spam_test(rhs/conservation property)
-spam_test(rhs/covariance property)
+spam_test(rhs/oracle unit spam_test_oracle)
+spam_test(rhs/conservation property spam_test_oracle)
+spam_test(rhs/covariance property spam_test_oracle)
 spam_test(physics/pair_force property)
 spam_test(physics/torque_balance_in_space property)
 spam_test(physics/passes unit)

@@ -50,10 +50,8 @@ struct OwnStress {
 template <int Dim>
 void every_pass() {
     const Cloud<Dim> cloud(75);
-    every_width<DeformationGradient<Dim>>(cloud, "deformation gradient");
-    every_width<ZeroEnergyPenalty<Dim>>(cloud, "penalty");
-    every_width<PenaltyEnergy<Dim>>(cloud, "penalty energy");
-    every_width<ReferenceForce<Dim>>(cloud, "reference force");
+    every_width<DeformationGradient<Dim>, ZeroEnergyPenalty<Dim>, PenaltyEnergy<Dim>,
+                ReferenceForce<Dim>>(cloud);
     BOOST_TEST((antisymmetric<Dim, ReferenceForce<Dim>>(cloud)));
     BOOST_TEST((antisymmetric<Dim, ZeroEnergyPenalty<Dim>>(cloud)));
     BOOST_TEST((!antisymmetric<Dim, OwnStress<Dim>>(cloud)));

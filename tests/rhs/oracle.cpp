@@ -18,15 +18,17 @@ void compare(int cells, Kernel kernel = Kernel::lucy) {
     for (const Scheme& scheme : all_schemes<Dim>(kernel)) {
         BOOST_TEST_CONTEXT(scheme.describe()) {
             SmoothParticleModel<Dim> model(jittered_particles<Dim>(cells, 11), solid, scheme);
-            OracleModel<Dim> oracle(model.particles(), solid, scheme);
-            OracleModel<Dim> wrong(model.particles(), solid, scheme, Mutation::printed_gradient);
+            const auto oracle = oracle_model<Dim>(model.particles(), solid, scheme);
+            const auto wrong =
+                oracle_model<Dim>(model.particles(), solid, scheme, Mutation::printed_gradient);
             const auto y = random_state(model, 12);
             const auto rates = rates_of(model, y);
-            BOOST_TEST(relative_difference(rates, rates_of(oracle, y)) < 1e-12);
-            BOOST_TEST(relative_difference(rates, rates_of(wrong, y)) > 1e-3);
+            BOOST_TEST(relative_difference(rates, rates_of(*oracle, y)) < 1e-12);
+            BOOST_TEST(relative_difference(rates, rates_of(*wrong, y)) > 1e-3);
             if (kernel == Kernel::lucy || kernel == Kernel::w3) continue;
-            OracleModel<Dim> other(model.particles(), solid, scheme, Mutation::lucys_weight);
-            BOOST_TEST(relative_difference(rates, rates_of(other, y)) > 1e-2);
+            const auto other =
+                oracle_model<Dim>(model.particles(), solid, scheme, Mutation::lucys_weight);
+            BOOST_TEST(relative_difference(rates, rates_of(*other, y)) > 1e-2);
         }
     }
 }
@@ -34,13 +36,13 @@ void compare(int cells, Kernel kernel = Kernel::lucy) {
 /// How far rates are from those of a law that is wrong on purpose.
 double distance_from(Mutation mutation, const Scheme& scheme) {
     SmoothParticleModel<2> model(jittered_particles<2>(8, 11), solid, scheme);
-    OracleModel<2> wrong(model.particles(), solid, scheme, mutation);
+    const auto wrong = oracle_model<2>(model.particles(), solid, scheme, mutation);
     auto y = random_state(model, 12);
     // Turning, so that there is an angular momentum to keep.
     const State<2> state(model.layout(), y);
     for (Eigen::Index i = 0; i < state.position().cols(); ++i)
         state.velocity().col(i) += Point<2>(-state.position()(1, i), state.position()(0, i));
-    return relative_difference(rates_of(model, y), rates_of(wrong, y));
+    return relative_difference(rates_of(model, y), rates_of(*wrong, y));
 }
 
 }  // namespace
