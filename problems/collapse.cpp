@@ -142,7 +142,7 @@ void compute(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     using namespace collapse;
     Problem problem("collapse", "a cold ball falls together by its own gravity", 0.0025);
-    problem.units(fluid_units());
+    problem.units(reduced_units("the mass of a particle, the spacing and the constant of gravity"));
     Parameters p;
     auto& options = problem.options();
     options.number("radius", p.radius, "radius of the ball in spacings; 6.6 are 1,208 particles",

@@ -18,7 +18,7 @@
 //
 //     --dimension 2 --axes 2,1     an ellipse in the plane
 //     --ranges ellipses            particles are ellipses that are drawn out with the gas (physics/ellipse.hpp)
-//     --ranges density             h = range/rho^(1/D): as many neighbours in the thin gas as in the dense
+//     --ranges density             h = range (m/rho)^(1/D): as many neighbours in the thin gas as in the dense
 //     --rezone                     particles are split where the gas has become thin, and merged where it is dense:
 //                                  the range of particles stays, and they have neighbours enough
 //     --return                     velocities are reversed halfway: the gas comes back to where it began
@@ -283,10 +283,10 @@ int main(int argc, char** argv) {
         "the plane 4)",
         between(1e-3, 1000.0));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
-    options.number("range", p.range, "range h where the density is 1", between(1.5, 10.0));
+    options.number("range", p.range, "range h at the start", between(1.5, 10.0));
     options.choice<Ranges>(
         "ranges", p.ranges, {Ranges::fixed, Ranges::density, Ranges::ellipses},
-        "range of a particle: the same for all, range/rho^(1/dimension), or an ellipse that is drawn "
+        "range of a particle: the same for all, range (m/rho)^(1/dimension), or an ellipse that is drawn "
         "out with the gas");
     options.number(
         "gradient-axes", p.gradient_axes,

@@ -274,7 +274,8 @@ int main(int argc, char** argv) {
     using namespace polytrope;
     Problem problem("polytrope", "a ball of gas held together by its own gravity", 0.15,
                     "0.15 with 1,200 particles, in proportion to their distance");
-    problem.units(fluid_units());
+    problem.units(reduced_units(
+        "the density and the speed of sound at the centre, and a sixth of the radius"));
     Parameters p;
     auto& options = problem.options();
     options.integer("particles", p.particles,

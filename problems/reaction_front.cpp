@@ -160,7 +160,8 @@ void compute(Session& session, const Parameters& p) {
 int main(int argc, char** argv) {
     using namespace reaction_front;
     Problem problem("reaction_front", "a chemical reaction spreads as a front", 0.05);
-    problem.units(fluid_units());
+    problem.units(
+        reduced_units("the mass of a particle, the spacing and the rate of the reaction"));
     Parameters p;
     auto& options = problem.options();
     options.number("width", p.width, "width of the front, sqrt(8 D/r), in spacings; r is 1",

@@ -5,7 +5,7 @@
 //
 //        +------+       A cube of 7 x 7 x 7 particles, a ball cut out of it, or a block of 9 x 7 x 5, on a
 //       /      /|       cubic lattice of spacing 1 with masses 1, begins in rigid rotation with the speed
-//      +------+ |       0.1 of its outermost particles, free of stress: cube and ball about the axis
+//      +------+ |       0.1 of the cube's outermost particles, free of stress: cube and ball about the axis
 //      |      | +       (1, 2, 3), the block about its middle axis, tilted by 0.05 towards the longest.
 //      |      |/
 //      +------+         lambda = eta = sqrt(3/16), Lucy's weight

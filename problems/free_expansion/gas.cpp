@@ -85,7 +85,7 @@ Gas<Dim> make_gas(int cells, const Parameters& p) {
     if (p.ranges == Ranges::density && !(cells > 2.0 * p.range))
         refuse(
             "cells: with --ranges density particles at corners reach twice as far as "
-            "--range {0:g}, and the periodic box of {1} (twice --cells {2}) is not wider "
+            "--range {0:g}, and the box of {1} (twice --cells {2}) is not wider "
             "than twice that; use at least --cells {3}, or a shorter range",
             p.range, 2 * cells, cells, static_cast<int>(std::floor(2.0 * p.range)) + 1);
     const Box<Dim> room(all_along<double, Dim>(2.0 * cells));

@@ -16,6 +16,15 @@ constexpr std::int64_t digit_mask = (std::int64_t{1} << digit_bits) - 1;
 /// The numbers of a block that is no multiple of what the registers hold are followed by zeros.
 constexpr std::size_t filled(std::size_t count) { return (count + 15) / 16 * 16; }
 
+/// Every digit but the last from 0 to 2^40 - 1.
+void carry_up(std::span<std::int64_t> digit) {
+    for (std::size_t d = 0; d + 1 < digit.size(); ++d) {
+        const std::int64_t carried = digit[d] >> digit_bits;
+        digit[d] &= digit_mask;
+        digit[d + 1] += carried;
+    }
+}
+
 }  // namespace
 
 /// The 53 bits of x, which begin anywhere in a digit, lie in three at the most.
@@ -59,13 +68,8 @@ void ExactSum::add_block(Block& terms, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) *this += terms[k];
 }
 
-/// Every digit but the last from 0 to 2^40 - 1.
 void ExactSum::carry() {
-    for (std::size_t d = 0; d + 1 < digits; ++d) {
-        const std::int64_t carried = digit_[d] >> digit_bits;
-        digit_[d] &= digit_mask;
-        digit_[d + 1] += carried;
-    }
+    carry_up(digit_);
     uncarried_ = 0;
 }
 
@@ -81,17 +85,25 @@ void add_other_parts(std::span<ExactSum> sums) {
 
 double ExactSum::value() const {
     if (not_finite_ != 0.0) return not_finite_;  // NaN, too
-    ExactSum sum = *this;
-    sum.carry();
-    const bool negative = sum.digit_.back() < 0;
+    // Terms of one size fill a few digits. Those above and below are 0, but for what is carried into one above: a
+    // word of 64 bits is less than two digits.
+    std::size_t first = 0, end = digits;
+    while (first < digits && digit_[first] == 0) ++first;
+    if (first == digits) return 0.0;
+    while (digit_[end - 1] == 0) --end;
+    std::array<std::int64_t, digits> room{};
+    const std::span sum(room.data(), std::min(end + 1, digits) - first);
+    std::copy_n(digit_.begin() + static_cast<std::ptrdiff_t>(first), sum.size(), sum.begin());
+    carry_up(sum);
+    const bool negative = sum.back() < 0;
     if (negative) {
-        for (std::int64_t& digit : sum.digit_) digit = -digit;
-        sum.carry();
+        for (std::int64_t& digit : sum) digit = -digit;
+        carry_up(sum);
     }
-    std::size_t top = digits - 1;
-    while (top > 0 && sum.digit_[top] == 0) --top;
+    std::size_t top = sum.size() - 1;
+    while (top > 0 && sum[top] == 0) --top;
     const auto digit = [&](std::size_t below) {
-        return below <= top ? static_cast<std::uint64_t>(sum.digit_[top - below]) : 0;
+        return below <= top ? static_cast<std::uint64_t>(sum[top - below]) : 0;
     };
     if (digit(0) == 0) return 0.0;
     // The first 64 bits, of three digits at the most. Of those below only counts whether all are 0.
@@ -108,8 +120,9 @@ double ExactSum::value() const {
     }
     for (std::size_t below = 3; below <= top; ++below) rest |= digit(below);
     if (rest != 0) high |= 1;
-    const double size = std::ldexp(static_cast<double>(high),
-                                   lowest_exponent + digit_bits * static_cast<int>(top) - space);
+    const double size =
+        std::ldexp(static_cast<double>(high),
+                   lowest_exponent + digit_bits * static_cast<int>(first + top) - space);
     return negative ? -size : size;
 }
 

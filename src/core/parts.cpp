@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace spam {
@@ -20,6 +21,14 @@ thread_local Parts* parts_here = nullptr;
 
 /// The last byte of every message, behind what its sender tells, says whether it goes on.
 constexpr std::byte goes_on{0}, has_given_up{1}, has_left{2};
+
+/// What a part that does not go on has told: at which of its calls, and why.
+std::pair<std::uint64_t, std::string> told_by(const Parts::Bytes& bytes, std::size_t trailer) {
+    std::uint64_t turn = 0;
+    std::memcpy(&turn, bytes.data(), sizeof(turn));
+    const auto* const words = reinterpret_cast<const char*>(bytes.data());
+    return {turn, {words + sizeof(turn), bytes.size() - trailer - sizeof(turn)}};
+}
 
 }  // namespace
 
@@ -54,10 +63,7 @@ std::vector<Parts::Bytes> Parts::exchange(std::vector<Bytes> to, Content content
     for (const std::byte how : {has_left, has_given_up})
         for (const Bytes& bytes : from) {
             if (bytes.back() != how) continue;
-            std::uint64_t turn = 0;
-            std::memcpy(&turn, bytes.data(), sizeof(turn));
-            const auto* const words = reinterpret_cast<const char*>(bytes.data());
-            const std::string why(words + sizeof(turn), bytes.size() - trailer - sizeof(turn));
+            const auto [turn, why] = told_by(bytes, trailer);
             if (how == has_left) throw PartLeft(*(left_ = why));
             throw PartGaveUp(why, turn);
         }
@@ -71,7 +77,9 @@ void Parts::end(std::byte how, std::uint64_t turn, const std::string& reason) {
     Bytes bytes = bytes_of(std::span<const std::uint64_t>(&turn, 1));
     const Bytes words = bytes_of(std::span<const char>(reason));
     bytes.insert(bytes.end(), words.begin(), words.end());
-    send(std::vector<Bytes>(count_, bytes), how, Content::others);
+    // Another one may leave at the same exchange, and makes no further one.
+    for (const Bytes& from : send(std::vector<Bytes>(count_, bytes), how, Content::others))
+        if (from.back() == has_left && !left_) left_ = told_by(from, trailer).second;
 }
 
 void Parts::give_up(const std::string& reason, std::uint64_t turn) {
@@ -89,8 +97,8 @@ std::string Parts::first_of(const std::string& own) {
 double Parts::most(double own) {
     if (alone()) return own;
     double most = own;
-    for (const auto& of_part : gather(std::span<const double>(&own, 1)))
-        most = std::max(most, of_part.front());
+    for (const auto& of_part : gather(std::span<const double>(&own, 1)))  // NaN stays, in all parts
+        if (!(of_part.front() <= most) && !std::isnan(most)) most = of_part.front();
     return most;
 }
 

@@ -20,15 +20,25 @@ Repopulation<Dim>::Repopulation(const Particles<Dim>& before, std::vector<Mat<Di
                         deformation_.size(), before.size()));
 }
 
-template <int Dim>
-typename Repopulation<Dim>::Change& Repopulation<Dim>::change_of(std::size_t i) {
-    if (i >= change_.size())
+namespace {
+
+/// Each particle may have one change. `times`: how often this one names it.
+void require_unchanged(std::size_t i, const std::vector<int>& change,
+                       const std::vector<std::int64_t>& id, std::ptrdiff_t times = 1) {
+    if (i >= change.size())
         throw InputError(
-            fmt::format("population: there is no particle {} among {}", i, change_.size()));
-    if (change_[i] != -1)
+            fmt::format("population: there is no particle {} among {}", i, change.size()));
+    if (change[i] != -1 || times > 1)
         throw InputError(fmt::format(
             "population: particle {} is split, merged or removed twice; make two steps of it",
-            before_.id[i]));
+            id[i]));
+}
+
+}  // namespace
+
+template <int Dim>
+typename Repopulation<Dim>::Change& Repopulation<Dim>::change_of(std::size_t i) {
+    require_unchanged(i, change_, before_.id);
     change_[i] = static_cast<int>(changes_.size());
     return changes_.emplace_back();
 }
@@ -52,10 +62,10 @@ void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles) {
     const auto material = [&](std::size_t i) {
         return before_.material.empty() ? 0 : before_.material[i];
     };
+    // All are looked at before the first one is marked: a merge that is refused changes nothing.
     for (const std::size_t i : particles) {
-        change_of(i);
-        changes_.pop_back();
-        change_[i] = -2;
+        require_unchanged(i, change_, before_.id,
+                          std::count(particles.begin(), particles.end(), i));
         if (material(i) != material(particles.front()))
             throw InputError(fmt::format(
                 "population: particles {} and {} are of different materials and cannot be one",
@@ -65,6 +75,7 @@ void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles) {
                 "population: particles {} and {} are of different bodies and cannot be one",
                 before_.id[particles.front()], before_.id[i]));
     }
+    for (const std::size_t i : particles) change_[i] = -2;
     const std::size_t first = *std::min_element(particles.begin(), particles.end());
     change_[first] = static_cast<int>(changes_.size());
     changes_.push_back({particles});

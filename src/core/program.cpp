@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <spam/core/error.hpp>
 #include <spam/core/program.hpp>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 extern char** environ;
@@ -24,6 +27,20 @@ fs::path find_program(const std::string& name) {
         if (fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0) return file;
     }
     return {};
+}
+
+fs::path make_temporary_folder(const std::string& name) {
+    std::error_code error;
+    const fs::path where = fs::temp_directory_path(error);
+    if (error)
+        throw OutputError(fmt::format(
+            "TMPDIR: there is no folder for temporary files ({}); set it to one that can be written",
+            error.message()));
+    std::string folder = where / (name + "-XXXXXX");
+    if (mkdtemp(folder.data()) == nullptr)
+        throw OutputError(
+            fmt::format("cannot make a folder in {} ({})", where.string(), std::strerror(errno)));
+    return folder;
 }
 
 std::optional<int> Command::run() const {

@@ -156,7 +156,7 @@ int Arkode::rates(double t, N_Vector y, N_Vector y_dot, void* self) {
 
 /// Why a call of evolve came back with this flag. What the rates have thrown goes on from here.
 std::string Arkode::reason_of(int flag) {
-    if (error_) std::rethrow_exception(error_);
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     if (failure_.empty() && !non_finite_.empty())
         return fmt::format("{} (ARKODE {})", non_finite_, flag);
     std::string message = failure_.empty() ? messages_.text() : failure_;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <utility>
 
 namespace spam {
 
@@ -99,7 +100,7 @@ void Cvode::estimate_errors() {
 }
 
 void Cvode::stop(int flag) {
-    if (error_) std::rethrow_exception(error_);
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     std::string message = ode_.failure();
     double h = 0.0;
     CVodeGetCurrentStep(memory_, &h);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace spam {
 namespace {
@@ -58,7 +59,7 @@ int GslStepper::rates(double t, const double y[], double y_dot[], void* self) {
 bool GslStepper::attempt(double t, double h, std::span<double> y, const double* y_dot) {
     const int flag =
         gsl_odeiv2_step_apply(driver_->s, t, h, y.data(), error_.data(), y_dot, nullptr, &system_);
-    if (thrown_) std::rethrow_exception(thrown_);
+    if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     double not_finite = 0.0;  // a NaN or an infinity survives in the sum of x - x
     for (const double e : error_) not_finite += e - e;
     for (const double value : y) not_finite += value - value;

@@ -45,7 +45,7 @@ Lines without_results, with_results;
     const Lines& lines = results_begun == 0 ? without_results : with_results;
     for (std::size_t k = 0; k < watched.size(); ++k)
         if (watched[k] == signal && write(STDERR_FILENO, lines[k].data(), lines[k].size()) < 0)
-            break;  // nobody is left who could be told
+            break;  // no reader is left to tell
     _exit(128 + signal);
 }
 
@@ -67,6 +67,7 @@ extern "C" void on_signal(int signal) {
 
 InterruptWatch::InterruptWatch(const std::string& program) {
     results_begun = 0;
+    received_signal = 0;
     received_at = 0;
     for (std::size_t k = 0; k < watched.size(); ++k) {
         const std::string said = fmt::format("{}: interrupted by signal {}; ", program, watched[k]);
@@ -115,10 +116,10 @@ int InterruptWatch::told() {
 }
 
 int InterruptWatch::agreed() {
-    if (!Parts::here().alone())
-        received_signal =
-            static_cast<int>(Parts::here().most(static_cast<double>(received_signal)));
-    return received_signal;
+    if (Parts::here().alone()) return received_signal;
+    const int all = static_cast<int>(Parts::here().most(static_cast<double>(received_signal)));
+    if (all != 0) received_signal = all;  // or one that came meanwhile would be lost
+    return all;
 }
 
 }  // namespace spam

@@ -68,7 +68,16 @@ RootFound find_root(const Residual& residual, std::span<const double> start,
         check(KINSetMaxNewtonStep(kinsol, options.longest_step), "SetMaxNewtonStep");
     check(KINSetEtaForm(kinsol, KIN_ETACHOICE1), "SetEtaForm");
     check(KINSetLinearSolver(kinsol, linear.get(), nullptr), "SetLinearSolver");
-    check(KINSol(kinsol, x.get(), KIN_LINESEARCH, one.get(), one.get()), "Sol");
+    const int flag = KINSol(kinsol, x.get(), KIN_LINESEARCH, one.get(), one.get());
+    check(flag, "Sol");
+    double left = 0.0;
+    KINGetFuncNorm(kinsol, &left);
+    if (flag == KIN_STEP_LT_STPTOL &&
+        !(left <= options.tolerance * std::sqrt(double(start.size()))))
+        throw GuardStop(fmt::format(
+            "equilibrium: Newton's steps have become too short with forces of {:.1e} left, for {:.1e} that are "
+            "allowed; allow larger ones, or let the load grow in smaller steps",
+            left, options.tolerance));
     RootFound found;
     long steps = 0;
     KINGetNumNonlinSolvIters(kinsol, &steps);

@@ -195,7 +195,12 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
         std::unique_lock lock(mutex);
         while (working > 0) {
             news.wait_for(lock, std::chrono::milliseconds(200));
-            on_row(rows_.size());
+            if (error) continue;
+            try {
+                on_row(rows_.size());
+            } catch (...) {  // threads must have ended before it goes on
+                error = std::current_exception();
+            }
         }
     }
     for (std::thread& worker : workers) worker.join();

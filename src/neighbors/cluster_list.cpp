@@ -89,7 +89,7 @@ void ClusterList<Dim>::take_home() {
                          periods = periods_.data()](std::size_t i) {
         for (std::size_t a = 0; a < Dim; ++a) {
             const double q = from[Dim * i + a] * inverse[a] - begin[a];
-            auto k = static_cast<std::int32_t>(q);
+            auto k = static_cast<std::int32_t>(std::clamp(q, -2e9, 2e9));  // else no number
             k -= q < k ? 1 : 0;
             periods[Dim * i + a] = k;
             to[Dim * i + a] = from[Dim * i + a] - k * length[a];

@@ -22,7 +22,9 @@ typename StripSort<Dim>::Int StripSort<Dim>::bin(std::size_t a, double x) const 
 /// Cuts direction a into bins of about `edge`.
 template <int Dim>
 void StripSort<Dim>::divide(std::size_t a, double edge) {
-    const double fit = std::clamp(std::floor(extent_[a] / edge), 1.0, 1e9);
+    // One bin where volumes of cells are beyond all numbers (1e154 apart in the plane).
+    const double bins = std::floor(extent_[a] / edge),
+                 fit = bins >= 1.0 ? std::min(bins, 1e9) : 1.0;
     count_[a] = static_cast<Int>(fit);
     per_edge_[a] = extent_[a] > 0.0 ? fit / extent_[a] : 0.0;
 }

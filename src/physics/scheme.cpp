@@ -35,7 +35,7 @@ void Scheme::validate(int dim) const {
     if (transport == Transport::shifting) validate_shifting();
 }
 
-/// Shifting is for fluids that fill their box: there nobody keeps an angular momentum.
+/// Shifting is for fluids that fill their box: no angular momentum is kept there.
 void Scheme::validate_shifting() const {
     if (!(shifting > 0.0) || !std::isfinite(shifting))
         throw InputError(fmt::format(

@@ -15,7 +15,14 @@ void draw_log_log(Session& session, std::string_view name, const LogLogPicture& 
 void draw_configurations(Session& session, std::string_view name, std::string_view title,
                          const std::vector<ConfigurationPanel>& panels, std::size_t columns,
                          std::string_view colour_label, ColourScale scale) {
-    session.note_drawn(draw_configurations(session.plots_folder(), name, title, panels, columns,
+    // A run that ends early has one state for several of the times that were wanted: it is drawn once.
+    std::vector<ConfigurationPanel> different;
+    for (const auto& panel : panels)
+        if (different.empty() || panel.title != different.back().title ||
+            panel.position.cols() != different.back().position.cols() ||
+            panel.position != different.back().position || panel.colour != different.back().colour)
+            different.push_back(panel);
+    session.note_drawn(draw_configurations(session.plots_folder(), name, title, different, columns,
                                            colour_label, scale));
 }
 

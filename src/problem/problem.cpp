@@ -4,6 +4,7 @@
 #include "why_stopped.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
+#include <spam/core/program.hpp>
 #include <spam/core/text.hpp>
 #include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
@@ -32,8 +33,9 @@ void keep_standard_descriptors() {
 }
 
 /// Of a process whose results are not kept.
-std::string scratch_folder() {
-    return std::filesystem::temp_directory_path() / fmt::format("spam-rank-{}", getpid());
+const std::filesystem::path& scratch_folder() {
+    static const std::filesystem::path folder = make_temporary_folder("spam-rank");
+    return folder;
 }
 
 InputError too_large() {
@@ -102,7 +104,7 @@ void Problem::settle_ranks() {
             "starts the processes (a file of options cannot), or leave it out",
             wanted, processes().count()));
     if (!muted()) return;
-    common_.out = scratch_folder();
+    common_.out = scratch_folder() / "out";
     common_.force = false;
     common_.no_plots = true;
 }
@@ -236,8 +238,10 @@ int Problem::main(int argc, char** argv, const std::function<void(Session&)>& bo
     if (const int null = open("/dev/null", O_WRONLY); null >= 0)
         for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) dup2(null, fd);
     run(argc, argv, body);
-    std::error_code ignored;
-    std::filesystem::remove_all(scratch_folder(), ignored);
+    try {
+        std::filesystem::remove_all(scratch_folder());
+    } catch (const std::exception&) {  // the run has said that there is none
+    }
     return 0;
 }
 

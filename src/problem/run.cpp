@@ -167,7 +167,7 @@ void Run<Dim>::watch(double t, const Watchers& watchers) {
 template <int Dim>
 void Run<Dim>::guard(double t, const Watchers& watchers) {
     for (const std::string& name : recorder_.newly_empty()) {
-        remember(t, {name + " is not a number, its cells are left empty", 0.0});
+        remember(t, {name + " is not a number; its cells are left empty", 0.0});
         if (watchers.warning)
             watchers.warning(t, fmt::format("{} is no number at t = {:.6g}, its "
                                             "cells are left empty",
@@ -275,6 +275,10 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     } catch (...) {
         reason = record_.statistics.stopped = why_a_run_stops();
         if (reason.empty()) throw;
+        if (!motion_->processes().alone() && is_for_want_of_memory()) {
+            motion_->processes().leave(reason);
+            throw;
+        }
     }
     complete();
     return reason;

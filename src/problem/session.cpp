@@ -276,6 +276,7 @@ void Session::print_checks() {
 
 void Session::write_results_so_far() {
     write_results(*folder_, checks_);
+    if (statistics_.empty()) return;  // stopped within the first run
     if (analysis_start_)
         statistics_.front().wall_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - *analysis_start_)

@@ -122,13 +122,13 @@ void Session::describe(const Case<Dim>& one) {
             terminal_.say(fmt::format(
                 "note        --{} {:g} is longer than the run: only its start and end are recorded",
                 name, interval));
-    if (integrator_.adaptive()) {
+    if (own.adaptive()) {
         std::string tolerances;
         for (const auto& block : one.model->layout().blocks())
             if (block.field.role() == Role::integrated)
                 tolerances +=
                     fmt::format("{}{} {:.1e}", tolerances.empty() ? "" : ", ", block.field.name(),
-                                integrator_.absolute_tolerance(block.field.name(), block.scale));
+                                own.absolute_tolerance(block.field.name(), block.scale));
         terminal_.say(fmt::format("atol        {}", tolerances));
         const auto& blocks = one.model->layout().blocks();
         if (std::any_of(blocks.begin(), blocks.end(),

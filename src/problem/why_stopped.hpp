@@ -28,4 +28,17 @@ inline std::string why_a_run_stops() {
     }
 }
 
+/// Whether the exception just caught is one that a process meets alone, for want of memory: others know nothing of it.
+inline bool is_for_want_of_memory() {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        return true;
+    } catch (const std::length_error&) {
+        return true;
+    } catch (...) {
+        return false;
+    }
+}
+
 }  // namespace spam

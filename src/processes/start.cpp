@@ -95,23 +95,37 @@ int start_processes(std::size_t count, char** argv) {
         throw InputError(
             "ranks: there is no mpirun on PATH, which starts them; install it (Debian: openmpi-bin), "
             "or leave --ranks out");
-    std::string name = std::filesystem::temp_directory_path() / "spam-status-XXXXXX";
-    const int file = mkstemp(name.data());
-    if (file < 0) throw OutputError(fmt::format("cannot write '{}'", name));
-    close(file);
+    const std::filesystem::path folder = make_temporary_folder("spam-status"),
+                                name = folder / "status";
     setenv(status_variable, name.c_str(), 1);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         if (std::signal(signal, pass_on) == SIG_IGN) std::signal(signal, SIG_IGN);
+    // A signal waits until it is known whom to pass it on to.
+    sigset_t signals, before;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    sigprocmask(SIG_BLOCK, &signals, &before);
     const pid_t child = fork();
-    if (child == 0) become_mpirun(count, argv);
+    if (child == 0) {
+        sigprocmask(SIG_SETMASK, &before, nullptr);
+        become_mpirun(count, argv);
+    }
+    const int refused = errno;
     launcher = child;
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    std::error_code ignored;
+    if (child < 0) {
+        std::filesystem::remove_all(folder, ignored);
+        throw OutputError(fmt::format(
+            "ranks: no process can be started ({}); raise the limit on processes (ulimit -u)",
+            std::strerror(refused)));
+    }
     int ended = 0;
     while (waitpid(child, &ended, 0) < 0 && errno == EINTR) {
     }
     int status = -1;
     std::ifstream(name) >> status;
-    std::error_code ignored;
-    std::filesystem::remove(name, ignored);
+    std::filesystem::remove_all(folder, ignored);
     if (status >= 0) return status;
     // It has not come to its end: a signal at once, or a process that was killed, of which mpirun -q says nothing.
     if (passed_on != 0) return 128 + passed_on;

@@ -37,7 +37,7 @@ class Partners {
     template <int Dim>
     void take(const BondRows<Dim>& rows, std::size_t k) {
         mask_ = std::bit_ceil(2 * rows.row(k) + 1) - 1;
-        held_.assign(mask_ + 1, nobody);
+        held_.assign(mask_ + 1, none);
         for (std::size_t m = 0; m < rows.row(k); ++m)
             if (!rows.vacant(k, m)) {
                 const std::uint32_t j = rows.others().number(rows.partner(k, m));
@@ -47,10 +47,10 @@ class Partners {
     bool contain(std::uint32_t j) const { return held_[place(j)] == j; }
 
   private:
-    static constexpr std::uint32_t nobody = ~0U;
+    static constexpr std::uint32_t none = ~0U;
     std::size_t place(std::uint32_t j) const {
         std::size_t at = j & mask_;
-        while (held_[at] != j && held_[at] != nobody) at = (at + 1) & mask_;
+        while (held_[at] != j && held_[at] != none) at = (at + 1) & mask_;
         return at;
     }
 

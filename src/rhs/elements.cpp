@@ -262,6 +262,7 @@ std::string Elements::rates(const Now& now) {
 }
 
 Elements::Answer Elements::answer(Ask what, std::span<const double> y) const {
+    if (what == Ask::damping && y.empty()) return {damping_};  // of what is at rest
     const Nodes nodes = nodes_of(state_of(y));
     if (what == Ask::damping) return {damping_ + friction_damping(nodes)};
     if (what == Ask::neighbour_forces) return {neighbour_forces_in(y)};

@@ -310,6 +310,7 @@ double Ellipses<Dim>::largest_aspect(std::span<const double> y) const {
 
 template <int Dim>
 auto Ellipses<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::damping) return {};  // asked without a state, too
     const ConstState<Dim> state = this->state_of(y);
     if (what == Ask::energy) return {carried_energy(this->particles(), state)};
     if (what == Ask::density) return {0.0, summed_density(y)};

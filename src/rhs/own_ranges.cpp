@@ -56,6 +56,12 @@ double solve_range(const Surroundings& near, const GeneralWeight<Dim>& unit, dou
     return h;
 }
 
+/// Why particles with a cold law are not split or merged.
+std::string rezoned_cold() {
+    return "the energy of this law is a function of the density, which is found anew with ranges that follow it where "
+           "particles are split or merged, and nothing can pay; use a law with an energy, such as GammaGas";
+}
+
 }  // namespace
 
 std::string VariableRangeScheme::describe() const {
@@ -101,6 +107,7 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
     this->nature_.fields = {Field::density, Field::energy};
     this->nature_.potential = false;
     this->nature_.sums_density = true;
+    if (fluid.state.cold) this->nature_.no_rezoning = rezoned_cold();
 }
 
 template <int Dim>
@@ -139,12 +146,15 @@ std::string OwnRanges<Dim>::find_ranges(const ConstState<Dim>& state) {
         range_[i] = range_of(i, r);
         if (range_[i] > range_[widest]) widest = i;
     }
-    this->nature_.reach = Parts::here().most(range_[widest]);
+    const double own = range_.empty() ? 0.0 : range_[widest];  // a part may have no particle
+    this->nature_.reach = Parts::here().most(own);
     if (this->nature_.reach < most_range()) return {};
+    const std::string which = own == this->nature_.reach
+                                  ? fmt::format(" of particle {}", this->particles().id[widest])
+                                  : "";
     return fmt::format(
-        "range {:g} of particle {} has grown to half of the periodic box or to the distance of two "
-        "walls",
-        this->nature_.reach, this->particles().id[widest]);
+        "range {:g}{} has grown to half of the periodic box or to the distance of two walls",
+        this->nature_.reach, which);
 }
 
 /// A list that reaches as far as the longest range, and some way further as long as ranges grow.
@@ -235,8 +245,7 @@ std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position)
     bool found = false;
     for (double reach = 1.2 * start; !found; reach *= 1.5) {
         const double look = std::min(reach, 0.999 * most);
-        Neighbourhood<Dim> listed(look, ListUse::once, this->box().without_walls(), 1, R::numbers,
-                                  R::kinds);
+        Neighbourhood<Dim> listed(look, ListUse::once, this->box(), 1, R::numbers, R::kinds);
         listed.build(position);
         listed.template write<R>(0, R::numbers, [&](std::size_t i, double* record) {
             std::copy_n(position.data() + Dim * i, Dim, record);
@@ -282,6 +291,7 @@ void OwnRanges<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim
     bool all_same = true;
     for (std::size_t k = 0; k < change.parts.size(); ++k) all_same = all_same && change.same(k);
     if (all_same) return;
+    if (fluid_.state.cold) throw InputError("population: " + rezoned_cold());
     std::ranges::copy(solve_densities(now.position()), now.density().data());
 }
 
@@ -296,6 +306,7 @@ std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
 
 template <int Dim>
 auto OwnRanges<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
+    if (what == Ask::damping) return {};  // asked without a state, too
     const ConstState<Dim> state = this->state_of(y);
     if (what == Ask::energy) return {carried_energy(this->particles(), state)};
     if (what == Ask::neighbour_forces)

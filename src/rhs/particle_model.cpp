@@ -154,7 +154,10 @@ void ParticleModel<Dim>::find_rates(double t, std::span<const double> y, std::sp
 template <int Dim>
 double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
     double energy = 0.0;
-    for (const auto& term : terms_) energy += term->energy(y);
+    for (const auto& term : terms_) {
+        const Parts::Among numbers(Parts::here(), term->among().first());
+        energy += term->energy(y);
+    }
     for (const auto& external : externals_)
         if (has_energy(*external))
             energy += external->energy(this->particles(), {this->layout(), y});

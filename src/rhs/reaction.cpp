@@ -53,6 +53,7 @@ Reaction<Dim>::Reaction(const Selection<Dim>& among, const ReactionScheme& schem
     this->nature_.fields = {field_kind::concentration};
     this->nature_.reach = scheme_.range;
     this->nature_.potential = false;
+    this->nature_.sums_density = true;
 }
 
 template <int Dim>

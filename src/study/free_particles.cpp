@@ -22,6 +22,10 @@ FreeParticles<Dim>::FreeParticles(Model<Dim>& model, std::span<const double> y,
       Jv_(y.size()),
       position_(model.layout().find(Field::position, Holder::particle)->offset),
       velocity_(model.layout().find(Field::velocity, Holder::particle)->offset) {
+    if (held.size() != model.particles().size())
+        throw InputError(
+            fmt::format("held: {} values are given for {} particles; give one for each",
+                        held.size(), model.particles().size()));
     for (std::size_t i = 0; i < held.size(); ++i)
         if (!held[i]) free_.push_back(i);
     State<Dim>(model.layout(), y_).velocity().setZero();

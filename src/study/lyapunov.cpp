@@ -192,6 +192,12 @@ template <int Dim>
 LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0,
                                    const IntegratorOptions& integrator,
                                    const LyapunovOptions& options) {
+    if (!(options.duration > 0.0) || !(options.interval > 0.0) ||
+        !(options.discarded >= 0.0 && options.discarded < 1.0))
+        throw InputError(fmt::format(
+            "lyapunov: duration {:g} and interval {:g} must be above 0, and the part {:g} that is discarded from 0 to "
+            "less than 1",
+            options.duration, options.interval, options.discarded));
     const auto n = static_cast<Eigen::Index>(size_without_accounts(model));
     const auto M = static_cast<Eigen::Index>(options.exponents);
     require_spectrum(model, integrator, options.exponents);

@@ -184,3 +184,11 @@ BOOST_AUTO_TEST_CASE(an_exception_of_a_task_ends_the_study_with_its_rows_kept) {
     BOOST_TEST(table.known() == 4u);
     BOOST_TEST(StudyTable(f.folder, "study", columns).known() == 4u);
 }
+
+BOOST_AUTO_TEST_CASE(so_does_one_of_who_is_told_of_rows) {
+    const Folder f;
+    std::atomic<int> computed{0};
+    StudyTable table(f.folder, "study", columns);
+    const auto full = [](std::size_t) { throw OutputError("cannot write 'run.log'"); };
+    BOOST_CHECK_THROW(table.run(squares(10, computed), 2, full), OutputError);
+}

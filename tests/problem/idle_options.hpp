@@ -48,6 +48,7 @@ inline const std::map<std::pair<std::string, std::string>, Words> own_beside{
     {{"cantilever", "compare"}, {"--t-end", "0.005"}},
     {{"collapse", "compare"}, {"--t-end", "0.02"}},
     {{"taylor_bar", "compare"}, {"--t-end", "0.02"}},
+    {{"tension_test", "load-rate"}, {"--t-end", "20"}},  // else as long as it lasts
     {{"water_column", "compare"},
      {"--width", "4", "--samples", "1", "--relaxation-time", "0.5", "--t-end", "0.5"}},
 };
@@ -124,7 +125,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"md_fields", {}},
     {"md_fields", {"--system", "fluid"}},
     {"mesh_modes", {}},
-    {"lattice_stability", {"--range", "2", "--cells", "6", "--block", "6"}},
+    {"lattice_stability", {"--range", "2", "--cells", "6", "--block", "6", "--t-end", "1"}},
     {"lattice_stability", {"--potential", "both"}},
     {"lattice_stability", {"--potential", "density"}},
     {"relaxation", {"--t-end", "10"}},

@@ -146,3 +146,15 @@ BOOST_AUTO_TEST_CASE(without_what_starts_them_ranks_are_refused) {
     BOOST_TEST(lines(outcome.err) == 1U, outcome.err);
     BOOST_TEST(outcome.err.find("openmpi-bin") != std::string::npos, outcome.err);
 }
+
+BOOST_AUTO_TEST_CASE(without_a_folder_for_temporary_files_as_well) {
+    if (no_ranks()) return;
+    const Scratch folder;
+    Launch launch{folder.path()};
+    launch.before_exec = [] { setenv("TMPDIR", "/nowhere", 1); };
+    const Outcome outcome =
+        Child(problem("free_expansion", {"--ranks", "2"}), launch).finish(Child::Seconds(60));
+    BOOST_TEST(outcome.status == 4);
+    BOOST_TEST(lines(outcome.err) == 1U, outcome.err);
+    BOOST_TEST(outcome.err.find("TMPDIR") != std::string::npos, outcome.err);
+}

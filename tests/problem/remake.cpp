@@ -141,6 +141,8 @@ BOOST_AUTO_TEST_CASE(changes_without_meaning_are_refused) {
     particles.material[9] = 1;
     Repopulation<2> mixed(particles);
     BOOST_CHECK_THROW(mixed.merge({8, 9}), InputError);
+    BOOST_CHECK_THROW(mixed.merge({3, 4, 3}), InputError);
+    BOOST_TEST(mixed.finish().particles.size() == particles.size());  // nothing of it is done
 }
 
 /// Elements go on with all they hold where no corner has changed.

@@ -151,8 +151,40 @@ BOOST_AUTO_TEST_CASE(what_nothing_can_pay_for_is_refused) {
                std::string::npos);
     const auto paid = remade(with_gas, 5.0);
     BOOST_TEST(std::abs(paid.after.energy / paid.before.energy - 1.0) < 1e-14);
+    const auto cold_with_ranges = [&](Particles<2> p) {
+        return std::make_shared<VariableRangeModel<2>>(std::move(p), Fluid{EmbeddedAtom{}},
+                                                       VariableRangeScheme{3.0, Kernel::w4});
+    };
     BOOST_TEST(refusal([&] { remade(cold, 0.0); }).find("and nothing can pay") !=
                std::string::npos);
+    BOOST_TEST(refusal([&] { remade(cold_with_ranges, 0.0); }).find("and nothing can pay") !=
+               std::string::npos);
+    BOOST_TEST(!cold_with_ranges(lattice)->law.nature().no_rezoning.empty());
+}
+
+/// Neither children nor twins, through many generations.
+BOOST_AUTO_TEST_CASE(nothing_is_made_behind_a_wall) {
+    Box<2> box;
+    box.set_wall(0, false, {WallKind::mirror, 0.0});
+    const auto make = [&](Particles<2> particles) {
+        return std::make_shared<FluidModel<2>>(std::move(particles), Fluid{GammaGas{2.0}}, summed,
+                                               box);
+    };
+    for (const bool expands : {true, false}) {
+        const auto model = make(make_particles<2>(cell_centres<2>({8, 8}), 1.0));
+        const Points<2> x = model->particles().reference_position;
+        Case<2> one{model, model->state(x, (expands ? 0.5 : -0.3) * x, 0.05), {}};
+        one.plan.t_end = expands ? 6.0 : 2.0;
+        one.plan.output_every = one.plan.snapshot_every = 0.5;
+        one.plan.rezone({.volume = expands ? RezoningLimits{1.2, 0.2} : RezoningLimits{9.0, 1.2}});
+        one.plan.rezoning->every = 0.5;
+        one.plan.rezoning->make = make;
+        const auto record = run_in_memory(one, {.method = "rk4", .dt = 0.05});
+        BOOST_TEST(record.complete, record.statistics.stopped);
+        BOOST_TEST(record.history.last(expands ? "splits" : "merges") > 3.0);
+        const auto n = static_cast<Eigen::Index>(record.statistics.particles);
+        BOOST_TEST(Eigen::Map<const Points<2>>(record.y.data(), 2, n).row(0).minCoeff() > 0.0);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(models_that_cannot_be_rezoned_say_so) {

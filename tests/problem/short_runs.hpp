@@ -73,7 +73,8 @@ inline const std::map<std::string, Words> short_runs{
      {"--columns", "16", "--rows", "6", "--load-rate", "4e-5", "--t-end", "120",
       "--checkpoint-every", "17"}},
     {"water_column",
-     {"--model", "both", "--width", "6", "--t-end", "4", "--checkpoint-every", "0.67"}},
+     {"--model", "both", "--width", "6", "--relaxation-time", "8", "--t-end", "4",
+      "--checkpoint-every", "0.67"}},
 };
 /// In space, what is plane above: one of them, or all in long runs.
 inline const std::vector<std::pair<std::string, Words>> short_runs_in_space{

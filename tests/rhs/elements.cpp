@@ -130,6 +130,8 @@ BOOST_AUTO_TEST_CASE(an_hourglass_meets_what_resists_it_and_nothing_else) {
                     std::abs(std::abs(rate.elements().field(field_kind::hourglass_force)(0, k)) -
                              0.4 * lattice_density * c * c) < 1e-14);
         BOOST_TEST(std::abs(model->fastest_damping(y) - 4.0 * control.viscosity * c) < 1e-13);
+        // Also asked for without a state, of bodies at rest.
+        BOOST_TEST(std::abs(model->fastest_damping({}) - 4.0 * control.viscosity * c) < 1e-13);
     }
 }
 

@@ -245,6 +245,28 @@ BOOST_AUTO_TEST_CASE(after_reading_what_was_remembered_rates_are_those_of_a_mode
     BOOST_TEST((rates_of(used, y) == rates_of(fresh, y)));
 }
 
+/// A lattice goes on behind mirrors as in a periodic box; without images first rows would be a third too thin.
+BOOST_AUTO_TEST_CASE(densities_at_the_start_know_of_walls) {
+    Box<2> mirrors;
+    for (const int a : {0, 1})
+        for (const bool upper : {false, true})
+            mirrors.set_wall(a, upper, {WallKind::mirror, upper ? 8.0 : 0.0});
+    const auto particles = make_particles<2>(cell_centres<2>({8, 8}), 1.0);
+    const auto densities = [&](const Box<2>& box) {
+        return VariableRangeModel<2>(particles, {IdealGas{2, 1.0}}, {3.0}, box)
+            .solve_densities(particles.reference_position);
+    };
+    const auto walled = densities(mirrors), periodic = densities(Box<2>({8.0, 8.0})),
+               open = densities({});
+    double worst = 0.0, without = 0.0;
+    for (std::size_t i = 0; i < walled.size(); ++i) {
+        worst = std::max(worst, std::abs(walled[i] - periodic[i]));
+        without = std::max(without, std::abs(open[i] - periodic[i]));
+    }
+    BOOST_TEST(worst < 1e-12);
+    BOOST_TEST(without > 0.3);
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto particles = jittered_particles<2>(8, 96);
     using Model = VariableRangeModel<2>;

@@ -136,6 +136,8 @@ BOOST_AUTO_TEST_CASE(what_has_no_equilibrium) {
     BOOST_CHECK_THROW(equilibrium<2>(swirl.model, swirl.y, swirl.held, 1e-9), InputError);
     BOOST_CHECK_THROW(equilibrium<2>(all.model, all.y, std::vector<bool>(9, true), 1e-9),
                       InputError);
+    BOOST_CHECK_THROW(equilibrium<2>(swirl.model, swirl.y, std::vector<bool>(3, false), 1e-9),
+                      InputError);
     BOOST_CHECK_THROW(lowest_modes<2>(swirl.model, swirl.y, swirl.held, 1), InputError);
     Chain fine(8, 0.05);
     for (const std::size_t count : {std::size_t{0}, std::size_t{17}})

@@ -253,6 +253,12 @@ BOOST_AUTO_TEST_CASE(what_has_no_tangents) {
     SoftDisks many(23);  // of 2116 numbers
     BOOST_CHECK_THROW(require_spectrum<2>(many.model, {.method = "rk4", .dt = 0.1}, 2001),
                       InputError);
+    for (const LyapunovOptions& none :
+         {LyapunovOptions{.duration = 0.0}, LyapunovOptions{.interval = 0.0},
+          LyapunovOptions{.discarded = 1.0}})
+        BOOST_CHECK_THROW(
+            lyapunov_spectrum<2>(disks.model, disks.y, {.method = "rk4", .dt = 0.01}, none),
+            InputError);
     disks.model.add_term<ReflectedPairs<2>>(0.3);
     refused(disks.model, {.method = "rk4", .dt = 0.01});
     for (const std::size_t exponents : {std::size_t{0}, std::size_t{1000}})

@@ -97,7 +97,7 @@ class MpiProcesses final : public Parts {
         // The first one still writes: MPI itself would look for it without a rest.
         for (std::size_t p = 0; p < count(); ++p)
             if (p != own()) bells_->ring(static_cast<int>(p));
-        bells_->wait();
+        if (!alone()) bells_->wait();
         finish_sending();
         bells_.reset();
         if (ours_) MPI_Finalize();
