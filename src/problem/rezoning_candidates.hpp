@@ -101,10 +101,8 @@ class Candidates {
         const auto vote = [&](const std::optional<RezoningLimits>& limits, double value) {
             if (!limits) return;
             const bool above = limits->split > limits->merge;
-            // Where nothing is ever split those that may not merge may not join either.
-            const bool one_sided = !(limits->split > 0.0) || std::isinf(limits->split);
-            const double middle =
-                one_sided ? limits->merge : std::sqrt(limits->split * limits->merge);
+            // Where nothing is split, 0 or infinite: then others join whatever they are.
+            const double middle = std::sqrt(limits->split * limits->merge);
             votes.splits |= above ? value > limits->split : value < limits->split;
             votes.merges &= above ? value < limits->merge : value > limits->merge;
             votes.joins &= above ? value < middle : value > middle;
