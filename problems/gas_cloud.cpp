@@ -283,7 +283,10 @@ int main(int argc, char** argv) {
         "the plane 4)",
         between(1e-3, 1000.0));
     options.choice<Kernel>("kernel", p.kernel, all_kernels(), "weight function");
-    options.number("range", p.range, "range h at the start", between(1.5, 10.0));
+    options.number(
+        "range", p.range,
+        "range h of the weight function; with --ranges density or ellipses that at the start",
+        between(1.5, 10.0));
     options.choice<Ranges>(
         "ranges", p.ranges, {Ranges::fixed, Ranges::density, Ranges::ellipses},
         "range of a particle: the same for all, range (m/rho)^(1/dimension), or an ellipse that is drawn "

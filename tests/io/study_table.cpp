@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(an_exception_of_a_task_ends_the_study_with_its_rows_kept) {
     BOOST_TEST(StudyTable(f.folder, "study", columns).known() == 4u);
 }
 
-BOOST_AUTO_TEST_CASE(so_does_one_of_who_is_told_of_rows) {
+BOOST_AUTO_TEST_CASE(so_does_an_exception_where_progress_is_reported) {
     const Folder f;
     std::atomic<int> computed{0};
     StudyTable table(f.folder, "study", columns);

@@ -136,25 +136,19 @@ BOOST_AUTO_TEST_CASE(an_exception_between_any_two_exchanges_ends_all) {
     BOOST_TEST(run_failing(0, 1'000'000).status == 0);
 }
 
-BOOST_AUTO_TEST_CASE(without_what_starts_them_ranks_are_refused) {
+/// One line with `word`, and a status, where this variable of the environment is "/nowhere".
+void check_start_without(const char* variable, int status, const char* word) {
     const Scratch folder;
     Launch launch{folder.path()};
-    launch.before_exec = [] { setenv("PATH", "/nowhere", 1); };
+    launch.before_exec = [variable] { setenv(variable, "/nowhere", 1); };
     const Outcome outcome =
         Child(problem("free_expansion", {"--ranks", "2"}), launch).finish(Child::Seconds(60));
-    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(outcome.status == status);
     BOOST_TEST(lines(outcome.err) == 1U, outcome.err);
-    BOOST_TEST(outcome.err.find("openmpi-bin") != std::string::npos, outcome.err);
+    BOOST_TEST(outcome.err.find(word) != std::string::npos, outcome.err);
 }
 
-BOOST_AUTO_TEST_CASE(without_a_folder_for_temporary_files_as_well) {
-    if (no_ranks()) return;
-    const Scratch folder;
-    Launch launch{folder.path()};
-    launch.before_exec = [] { setenv("TMPDIR", "/nowhere", 1); };
-    const Outcome outcome =
-        Child(problem("free_expansion", {"--ranks", "2"}), launch).finish(Child::Seconds(60));
-    BOOST_TEST(outcome.status == 4);
-    BOOST_TEST(lines(outcome.err) == 1U, outcome.err);
-    BOOST_TEST(outcome.err.find("TMPDIR") != std::string::npos, outcome.err);
+BOOST_AUTO_TEST_CASE(without_what_starts_them_ranks_are_refused) {
+    check_start_without("PATH", 2, "openmpi-bin");
+    if (!no_ranks()) check_start_without("TMPDIR", 4, "TMPDIR");
 }
