@@ -103,8 +103,6 @@ double GasEntropy<Dim>::on_grid(const FieldGrid<Dim>& grid, Heat heat) const {
     return integral(grid, heat, [](double rho_e, double rho) { return rho_e / rho; });
 }
 
-template class GasEntropy<1>;
-template class GasEntropy<2>;
-template class GasEntropy<3>;
+SPAM_COMPILED(template class GasEntropy);
 
 }  // namespace spam

@@ -56,8 +56,6 @@ class GasEntropy {
     mutable Eigen::MatrixXd at_particles_;  ///< their sums there, once they have been asked for
 };
 
-extern template class GasEntropy<1>;
-extern template class GasEntropy<2>;
-extern template class GasEntropy<3>;
+SPAM_COMPILED(extern template class GasEntropy);
 
 }  // namespace spam

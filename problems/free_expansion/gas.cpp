@@ -221,20 +221,13 @@ void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<co
     write_file_series(folder, "fields", files);
 }
 
-template double step_for<1>(const Parameters&);
-template double step_for<2>(const Parameters&);
-template double step_for<3>(const Parameters&);
-template Gas<1> make_gas(int, const Parameters&);
-template Gas<2> make_gas(int, const Parameters&);
-template Gas<3> make_gas(int, const Parameters&);
-template std::vector<Column<1>> entropy_columns(const Gas<1>&);
-template std::vector<Column<2>> entropy_columns(const Gas<2>&);
-template std::vector<Column<3>> entropy_columns(const Gas<3>&);
-template Fields<1> fields_of(const Gas<1>&, const Points<1>&, const Points<1>&, bool);
-template Fields<2> fields_of(const Gas<2>&, const Points<2>&, const Points<2>&, bool);
-template Fields<3> fields_of(const Gas<3>&, const Points<3>&, const Points<3>&, bool);
-template void write_fields(const RunFolder&, Gas<1>&, double, std::span<const double>);
-template void write_fields(const RunFolder&, Gas<2>&, double, std::span<const double>);
-template void write_fields(const RunFolder&, Gas<3>&, double, std::span<const double>);
+#define SPAM_INSTANTIATE(D)                                                                \
+    template double step_for<D>(const Parameters&);                                        \
+    template Gas<D> make_gas(int, const Parameters&);                                      \
+    template std::vector<Column<D>> entropy_columns(const Gas<D>&);                        \
+    template Fields<D> fields_of(const Gas<D>&, const Points<D>&, const Points<D>&, bool); \
+    template void write_fields(const RunFolder&, Gas<D>&, double, std::span<const double>);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace free_expansion

@@ -45,8 +45,6 @@ double KickedLattice<Dim>::kinetic_rate(double t) const {
     return change / sum;
 }
 
-template class KickedLattice<1>;
-template class KickedLattice<2>;
-template class KickedLattice<3>;
+SPAM_COMPILED(template class KickedLattice);
 
 }  // namespace spam

@@ -219,8 +219,6 @@ Eigen::MatrixXcd LatticeModes<Dim>::acceleration_rate(const Point<Dim>& k) const
     return J.middleRows<Dim>(Dim) * J.middleCols<Dim>(Dim);
 }
 
-template class LatticeModes<1>;
-template class LatticeModes<2>;
-template class LatticeModes<3>;
+SPAM_COMPILED(template class LatticeModes);
 
 }  // namespace spam

@@ -68,8 +68,6 @@ std::string FieldLayout<Dim>::entry_name(std::size_t k) const {
     return std::string(e.field.name()) + e.field.template suffix<Dim>(e.component);
 }
 
-template class FieldLayout<1>;
-template class FieldLayout<2>;
-template class FieldLayout<3>;
+SPAM_COMPILED(template class FieldLayout);
 
 }  // namespace spam

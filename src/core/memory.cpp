@@ -302,11 +302,7 @@ void Memory<Dim>::pairs(Field field, std::vector<std::array<std::uint32_t, 2>>& 
     pairs = std::move(made);
 }
 
-template struct Change<1>;
-template struct Change<2>;
-template struct Change<3>;
-template class Memory<1>;
-template class Memory<2>;
-template class Memory<3>;
+SPAM_COMPILED(template struct Change);
+SPAM_COMPILED(template class Memory);
 
 }  // namespace spam

@@ -167,8 +167,6 @@ Population<Dim> Repopulation<Dim>::finish(std::int64_t first_new) const {
     return after;
 }
 
-template class Repopulation<1>;
-template class Repopulation<2>;
-template class Repopulation<3>;
+SPAM_COMPILED(template class Repopulation);
 
 }  // namespace spam

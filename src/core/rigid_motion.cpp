@@ -56,20 +56,13 @@ RigidMotion<Dim> best_rigid_motion(const Eigen::Ref<const Points<Dim>>& from,
     return motion;
 }
 
-template Point<1> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<1>>&);
-template Point<2> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<2>>&);
-template Point<3> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<3>>&);
-template RigidMotion<1> best_translation(const Eigen::Ref<const Points<1>>&,
-                                         const Eigen::Ref<const Points<1>>&);
-template RigidMotion<2> best_translation(const Eigen::Ref<const Points<2>>&,
-                                         const Eigen::Ref<const Points<2>>&);
-template RigidMotion<3> best_translation(const Eigen::Ref<const Points<3>>&,
-                                         const Eigen::Ref<const Points<3>>&);
-template RigidMotion<1> best_rigid_motion(const Eigen::Ref<const Points<1>>&,
-                                          const Eigen::Ref<const Points<1>>&);
-template RigidMotion<2> best_rigid_motion(const Eigen::Ref<const Points<2>>&,
-                                          const Eigen::Ref<const Points<2>>&);
-template RigidMotion<3> best_rigid_motion(const Eigen::Ref<const Points<3>>&,
-                                          const Eigen::Ref<const Points<3>>&);
+#define SPAM_INSTANTIATE(D)                                                                      \
+    template Point<D> mean_by_mass(std::span<const double>, const Eigen::Ref<const Points<D>>&); \
+    template RigidMotion<D> best_translation(const Eigen::Ref<const Points<D>>&,                 \
+                                             const Eigen::Ref<const Points<D>>&);                \
+    template RigidMotion<D> best_rigid_motion(const Eigen::Ref<const Points<D>>&,                \
+                                              const Eigen::Ref<const Points<D>>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -131,9 +131,7 @@ WaveSpectrum wave_spectrum(const FieldGrid<Dim>& grid, std::span<const double> v
     return spectrum;
 }
 
-template struct FieldGrid<1>;
-template struct FieldGrid<2>;
-template struct FieldGrid<3>;
+SPAM_COMPILED(template struct FieldGrid);
 template WaveSpectrum wave_spectrum(const FieldGrid<1>&, std::span<const double>);
 template WaveSpectrum wave_spectrum(const FieldGrid<2>&, std::span<const double>);
 template WaveSpectrum wave_spectrum(const FieldGrid<3>&, std::span<const double>);

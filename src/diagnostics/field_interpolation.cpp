@@ -223,8 +223,6 @@ Eigen::MatrixXd FieldInterpolation<Dim>::gradient(const Field& f, const Places& 
     return result;
 }
 
-template class FieldInterpolation<1>;
-template class FieldInterpolation<2>;
-template class FieldInterpolation<3>;
+SPAM_COMPILED(template class FieldInterpolation);
 
 }  // namespace spam

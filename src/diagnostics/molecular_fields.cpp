@@ -165,8 +165,6 @@ auto MolecularFields<Dim>::at(const Places& places, BondStress stress) const -> 
     return values;
 }
 
-template class MolecularFields<1>;
-template class MolecularFields<2>;
-template class MolecularFields<3>;
+SPAM_COMPILED(template class MolecularFields);
 
 }  // namespace spam

@@ -70,14 +70,11 @@ Survival survival(const History& history) {
     return {t.back(), true, "whole"};
 }
 
-template double shape_error<1>(const Points<1>&, const Points<1>&, double);
-template double shape_error<2>(const Points<2>&, const Points<2>&, double);
-template double shape_error<3>(const Points<3>&, const Points<3>&, double);
-template double closest_pair<1>(const Points<1>&, double, const Box<1>&);
-template double closest_pair<2>(const Points<2>&, double, const Box<2>&);
-template double closest_pair<3>(const Points<3>&, double, const Box<3>&);
-template double clumped_fraction<1>(const Points<1>&, double, const Box<1>&);
-template double clumped_fraction<2>(const Points<2>&, double, const Box<2>&);
-template double clumped_fraction<3>(const Points<3>&, double, const Box<3>&);
+#define SPAM_INSTANTIATE(D)                                                     \
+    template double shape_error<D>(const Points<D>&, const Points<D>&, double); \
+    template double closest_pair<D>(const Points<D>&, double, const Box<D>&);   \
+    template double clumped_fraction<D>(const Points<D>&, double, const Box<D>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -47,14 +47,12 @@ std::size_t energy_gradient(Model<Dim>& model, double t, std::span<const double>
     return potential ? 1 : 0;
 }
 
-template std::string why_no_energy(const Model<1>&);
-template std::string why_no_energy(const Model<2>&);
-template std::string why_no_energy(const Model<3>&);
-template double total_energy(const Model<1>&, std::span<const double>);
-template double total_energy(const Model<2>&, std::span<const double>);
-template double total_energy(const Model<3>&, std::span<const double>);
-template std::size_t energy_gradient(Model<1>&, double, std::span<const double>, std::span<double>);
-template std::size_t energy_gradient(Model<2>&, double, std::span<const double>, std::span<double>);
-template std::size_t energy_gradient(Model<3>&, double, std::span<const double>, std::span<double>);
+#define SPAM_INSTANTIATE(D)                                                          \
+    template std::string why_no_energy(const Model<D>&);                             \
+    template double total_energy(const Model<D>&, std::span<const double>);          \
+    template std::size_t energy_gradient(Model<D>&, double, std::span<const double>, \
+                                         std::span<double>);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -58,9 +58,7 @@ WallImages<Dim> images_behind_walls(const Box<Dim>& box, double reach, const Poi
     return images;
 }
 
-template struct WallImages<1>;
-template struct WallImages<2>;
-template struct WallImages<3>;
+SPAM_COMPILED(template struct WallImages);
 template WallImages<1> images_behind_walls(const Box<1>&, double, const Points<1>&,
                                            const Points<1>&);
 template WallImages<2> images_behind_walls(const Box<2>&, double, const Points<2>&,

@@ -22,8 +22,6 @@ std::string Drag<Dim>::describe() const {
     return fmt::format("quadratic drag c = {:g}", c_);
 }
 
-template class Drag<1>;
-template class Drag<2>;
-template class Drag<3>;
+SPAM_COMPILED(template class Drag);
 
 }  // namespace spam

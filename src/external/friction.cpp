@@ -41,8 +41,6 @@ std::string Friction<Dim>::describe() const {
                        of_ == FrictionOf::all_motion ? "all motion" : "what is not rigid motion");
 }
 
-template class Friction<1>;
-template class Friction<2>;
-template class Friction<3>;
+SPAM_COMPILED(template class Friction);
 
 }  // namespace spam

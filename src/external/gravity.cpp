@@ -18,8 +18,6 @@ std::string Gravity<Dim>::describe() const {
     return fmt::format("gravity ({})", components);
 }
 
-template class Gravity<1>;
-template class Gravity<2>;
-template class Gravity<3>;
+SPAM_COMPILED(template class Gravity);
 
 }  // namespace spam

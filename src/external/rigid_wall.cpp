@@ -42,8 +42,6 @@ std::string RigidWall<Dim>::describe() const {
     return words;
 }
 
-template class RigidWall<1>;
-template class RigidWall<2>;
-template class RigidWall<3>;
+SPAM_COMPILED(template class RigidWall);
 
 }  // namespace spam

@@ -38,8 +38,6 @@ std::string Thermostat<Dim>::describe() const {
     return fmt::format("thermostat kT = {:g}, rate {:g}", kT_0_, gamma_);
 }
 
-template class Thermostat<1>;
-template class Thermostat<2>;
-template class Thermostat<3>;
+SPAM_COMPILED(template class Thermostat);
 
 }  // namespace spam

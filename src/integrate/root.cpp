@@ -40,13 +40,9 @@ RootFound find_root(const Residual& residual, std::span<const double> start,
     std::fill(one.span().begin(), one.span().end(), 1.0);
     const auto freed = [](void* memory) { KINFree(&memory); };
     const std::unique_ptr<void, decltype(freed)> memory(KINCreate(context.get()), freed);
-    const long most =
-        options.most_products > 0
-            ? options.most_products
-            : 50 + static_cast<long>(5.0 * std::sqrt(static_cast<double>(start.size())));
+    const int products = 50 + static_cast<int>(5.0 * std::sqrt(static_cast<double>(start.size())));
     const std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, decltype(&SUNLinSolFree)> linear(
-        SUNLinSol_PCG(x.get(), SUN_PREC_NONE, static_cast<int>(most), context.get()),
-        &SUNLinSolFree);
+        SUNLinSol_PCG(x.get(), SUN_PREC_NONE, products, context.get()), &SUNLinSolFree);
     if (memory == nullptr || linear == nullptr) throw std::bad_alloc();
     void* const kinsol = memory.get();
     const auto check = [&](int flag, const char* what) {

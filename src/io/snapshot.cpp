@@ -202,8 +202,6 @@ void write_file_series(const RunFolder& folder, std::string_view name,
     folder.write(fmt::format("{}.pvd", name), list + "  </Collection>\n</VTKFile>\n");
 }
 
-template class SnapshotSeries<1>;
-template class SnapshotSeries<2>;
-template class SnapshotSeries<3>;
+SPAM_COMPILED(template class SnapshotSeries);
 
 }  // namespace spam

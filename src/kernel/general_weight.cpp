@@ -64,8 +64,6 @@ void GeneralWeight<Dim>::set_monaghan() {
     spline_second_ = 48.0 * A / (h * h);
 }
 
-template class GeneralWeight<1>;
-template class GeneralWeight<2>;
-template class GeneralWeight<3>;
+SPAM_COMPILED(template class GeneralWeight);
 
 }  // namespace spam

@@ -127,20 +127,13 @@ double mean_along(const AnyWeight<Dim>& weight, const Point<Dim>& a, const Point
     return integral / length;
 }
 
-template double moment(const AnyWeight<1>&, int);
-template double moment(const AnyWeight<2>&, int);
-template double moment(const AnyWeight<3>&, int);
-template double steepest_wave(const AnyWeight<1>&);
-template double steepest_wave(const AnyWeight<2>&);
-template double steepest_wave(const AnyWeight<3>&);
-template double fastest_diffusion(const AnyWeight<1>&);
-template double fastest_diffusion(const AnyWeight<2>&);
-template double fastest_diffusion(const AnyWeight<3>&);
-template double relative_step(const AnyWeight<1>&, const AnyWeight<1>&);
-template double relative_step(const AnyWeight<2>&, const AnyWeight<2>&);
-template double relative_step(const AnyWeight<3>&, const AnyWeight<3>&);
-template double mean_along(const AnyWeight<1>&, const Point<1>&, const Point<1>&);
-template double mean_along(const AnyWeight<2>&, const Point<2>&, const Point<2>&);
-template double mean_along(const AnyWeight<3>&, const Point<3>&, const Point<3>&);
+#define SPAM_INSTANTIATE(D)                                                  \
+    template double moment(const AnyWeight<D>&, int);                        \
+    template double steepest_wave(const AnyWeight<D>&);                      \
+    template double fastest_diffusion(const AnyWeight<D>&);                  \
+    template double relative_step(const AnyWeight<D>&, const AnyWeight<D>&); \
+    template double mean_along(const AnyWeight<D>&, const Point<D>&, const Point<D>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

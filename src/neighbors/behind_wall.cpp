@@ -74,8 +74,6 @@ bool BehindWall<Dim>::load(const ClusterList<Dim>& list, const double* records,
     return !clusters_.empty();
 }
 
-template class BehindWall<1>;
-template class BehindWall<2>;
-template class BehindWall<3>;
+SPAM_COMPILED(template class BehindWall);
 
 }  // namespace spam

@@ -57,8 +57,6 @@ double ClusterBoxes<Dim>::typical_volume(double reach) const {
     return static_cast<double>(bounds_.size()) / std::max(sum, 1e-300);
 }
 
-template class ClusterBoxes<1>;
-template class ClusterBoxes<2>;
-template class ClusterBoxes<3>;
+SPAM_COMPILED(template class ClusterBoxes);
 
 }  // namespace spam

@@ -211,8 +211,6 @@ void ClusterCells<Dim>::build(const Input& in) {
     bound_chunks();
 }
 
-template class ClusterCells<1>;
-template class ClusterCells<2>;
-template class ClusterCells<3>;
+SPAM_COMPILED(template class ClusterCells);
 
 }  // namespace spam

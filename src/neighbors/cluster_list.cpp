@@ -236,8 +236,6 @@ bool ClusterList<Dim>::serves(const Eigen::Ref<const Points<Dim>>& position) {
     return motion_.within(0.5 * skin_, position, box_);
 }
 
-template class ClusterList<1>;
-template class ClusterList<2>;
-template class ClusterList<3>;
+SPAM_COMPILED(template class ClusterList);
 
 }  // namespace spam

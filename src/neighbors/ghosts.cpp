@@ -305,8 +305,6 @@ bool Ghosts<Dim>::refresh(double* records, std::size_t stride, std::span<const N
     return true;
 }
 
-template class Ghosts<1>;
-template class Ghosts<2>;
-template class Ghosts<3>;
+SPAM_COMPILED(template class Ghosts);
 
 }  // namespace spam

@@ -48,8 +48,6 @@ bool MotionSince<Dim>::within(double distance, const Eigen::Ref<const Points<Dim
     return all_within();
 }
 
-template class MotionSince<1>;
-template class MotionSince<2>;
-template class MotionSince<3>;
+SPAM_COMPILED(template class MotionSince);
 
 }  // namespace spam

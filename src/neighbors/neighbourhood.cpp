@@ -74,8 +74,6 @@ const BehindWall<Dim>* Neighbourhood<Dim>::behind(int a, bool upper) const {
     return nullptr;
 }
 
-template class Neighbourhood<1>;
-template class Neighbourhood<2>;
-template class Neighbourhood<3>;
+SPAM_COMPILED(template class Neighbourhood);
 
 }  // namespace spam

@@ -42,8 +42,6 @@ PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim
 template void require_one_image(const Box<1>&, double);
 template void require_one_image(const Box<2>&, double);
 template void require_one_image(const Box<3>&, double);
-template class PairList<1>;
-template class PairList<2>;
-template class PairList<3>;
+SPAM_COMPILED(template class PairList);
 
 }  // namespace spam

@@ -175,8 +175,6 @@ void StripSort<Dim>::sort_bin(std::size_t b, const Points<Dim>& position, double
     }
 }
 
-template class StripSort<1>;
-template class StripSort<2>;
-template class StripSort<3>;
+SPAM_COMPILED(template class StripSort);
 
 }  // namespace spam

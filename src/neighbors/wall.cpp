@@ -68,9 +68,7 @@ std::string Box<Dim>::describe_walls() const {
     return words;
 }
 
-template struct Wall<1>;
-template struct Wall<2>;
-template struct Wall<3>;
+SPAM_COMPILED(template struct Wall);
 template void Box<1>::set_wall(int, bool, const Wall<1>&);
 template void Box<2>::set_wall(int, bool, const Wall<2>&);
 template void Box<3>::set_wall(int, bool, const Wall<3>&);

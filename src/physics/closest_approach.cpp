@@ -278,8 +278,6 @@ Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Di
     template class ClosestApproach<D>;                                               \
     template Event closest_approach_event(ClosestApproach<D>, const FieldLayout<D>&, \
                                           const std::vector<bool>&, std::size_t);
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -223,14 +223,11 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     return memory;
 }
 
-template CaseMemory case_memory(const Model<1>&, std::span<const double>, double);
-template CaseMemory case_memory(const Model<2>&, std::span<const double>, double);
-template CaseMemory case_memory(const Model<3>&, std::span<const double>, double);
-template std::vector<double> state_of(const CaseMemory&, const Model<1>&);
-template std::vector<double> state_of(const CaseMemory&, const Model<2>&);
-template std::vector<double> state_of(const CaseMemory&, const Model<3>&);
-template void revive(Case<1>&, const CaseMemory&);
-template void revive(Case<2>&, const CaseMemory&);
-template void revive(Case<3>&, const CaseMemory&);
+#define SPAM_INSTANTIATE(D)                                                            \
+    template CaseMemory case_memory(const Model<D>&, std::span<const double>, double); \
+    template std::vector<double> state_of(const CaseMemory&, const Model<D>&);         \
+    template void revive(Case<D>&, const CaseMemory&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

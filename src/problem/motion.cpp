@@ -102,8 +102,6 @@ void Motion<Dim>::remember(Archive& archive) {
 template Ode as_ode(Model<1>&, const IntegratorOptions&, std::size_t&);
 template Ode as_ode(Model<2>&, const IntegratorOptions&, std::size_t&);
 template Ode as_ode(Model<3>&, const IntegratorOptions&, std::size_t&);
-template class Motion<1>;
-template class Motion<2>;
-template class Motion<3>;
+SPAM_COMPILED(template class Motion);
 
 }  // namespace spam

@@ -67,8 +67,6 @@ ConfigurationPanel speed_panel(const std::string& title, const Model<2>& model,
     template struct NearestState<D>;                                                     \
     template std::vector<NearestState<D>> states_at(const std::vector<double>&, double); \
     template Observer<D> keep_nearest(std::vector<NearestState<D>>&, ValuesOfState<D>);
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -286,8 +286,6 @@ void PartedMotion<Dim>::tell_part() {
     part_->remember(back);
 }
 
-template class PartedMotion<1>;
-template class PartedMotion<2>;
-template class PartedMotion<3>;
+SPAM_COMPILED(template class PartedMotion);
 
 }  // namespace spam

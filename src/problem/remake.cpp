@@ -223,17 +223,14 @@ std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
     return started;
 }
 
-template Remade<1> remake(Model<1>&, std::span<const double>, const Population<1>&, Model<1>&);
-template Remade<2> remake(Model<2>&, std::span<const double>, const Population<2>&, Model<2>&);
-template Remade<3> remake(Model<3>&, std::span<const double>, const Population<3>&, Model<3>&);
-template Point<1> twin_offset(const Model<1>&, std::span<const double>,
-                              const std::vector<std::size_t>&);
-template Point<2> twin_offset(const Model<2>&, std::span<const double>,
-                              const std::vector<std::size_t>&);
-template Point<3> twin_offset(const Model<3>&, std::span<const double>,
-                              const std::vector<std::size_t>&);
-template std::vector<double> restated(const Model<1>&, std::span<const double>, const Model<1>&);
-template std::vector<double> restated(const Model<2>&, std::span<const double>, const Model<2>&);
-template std::vector<double> restated(const Model<3>&, std::span<const double>, const Model<3>&);
+#define SPAM_INSTANTIATE(D)                                                             \
+    template Remade<D> remake(Model<D>&, std::span<const double>, const Population<D>&, \
+                              Model<D>&);                                               \
+    template Point<D> twin_offset(const Model<D>&, std::span<const double>,             \
+                                  const std::vector<std::size_t>&);                     \
+    template std::vector<double> restated(const Model<D>&, std::span<const double>,     \
+                                          const Model<D>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -140,8 +140,6 @@ auto Rezoning<Dim>::change(Model<Dim>& model, std::span<const double> y) const
     }
 }
 
-template struct Rezoning<1>;
-template struct Rezoning<2>;
-template struct Rezoning<3>;
+SPAM_COMPILED(template struct Rezoning);
 
 }  // namespace spam

@@ -292,9 +292,7 @@ RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
     return std::move(run.record());
 }
 
-template class Run<1>;
-template class Run<2>;
-template class Run<3>;
+SPAM_COMPILED(template class Run);
 template RunRecord run_in_memory(Case<1>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<2>, const IntegratorOptions&);
 template RunRecord run_in_memory(Case<3>, const IntegratorOptions&);

@@ -48,14 +48,11 @@ void Session::refuse_endless(const Case<Dim>& one) const {
             one.plan.t_end, spacings));
 }
 
-template void Session::refuse_idle_balance(const std::vector<Case<1>>&);
-template void Session::refuse_unstable(const Case<1>&) const;
-template void Session::refuse_endless(const Case<1>&) const;
-template void Session::refuse_idle_balance(const std::vector<Case<2>>&);
-template void Session::refuse_unstable(const Case<2>&) const;
-template void Session::refuse_endless(const Case<2>&) const;
-template void Session::refuse_idle_balance(const std::vector<Case<3>>&);
-template void Session::refuse_unstable(const Case<3>&) const;
-template void Session::refuse_endless(const Case<3>&) const;
+#define SPAM_INSTANTIATE(D)                                                  \
+    template void Session::refuse_idle_balance(const std::vector<Case<D>>&); \
+    template void Session::refuse_unstable(const Case<D>&) const;            \
+    template void Session::refuse_endless(const Case<D>&) const;
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

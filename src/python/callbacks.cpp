@@ -116,8 +116,6 @@ template struct FunctionLaw<2, false>;
 template struct FunctionLaw<2, true>;
 template struct FunctionLaw<3, false>;
 template struct FunctionLaw<3, true>;
-template class FunctionForce<1>;
-template class FunctionForce<2>;
-template class FunctionForce<3>;
+SPAM_COMPILED(template class FunctionForce);
 
 }  // namespace spam::python

@@ -82,8 +82,6 @@ Doubles HeldModel<Dim>::rates(double t, const py::object& given) {
     return y_dot;
 }
 
-template class HeldModel<1>;
-template class HeldModel<2>;
-template class HeldModel<3>;
+SPAM_COMPILED(template class HeldModel);
 
 }  // namespace spam::python

@@ -314,8 +314,6 @@ py::dict Simulation<Dim>::statistics() const {
         py::arg("pair_interactions") = pairs_before_ + now_->motion.pair_interactions());
 }
 
-template class Simulation<1>;
-template class Simulation<2>;
-template class Simulation<3>;
+SPAM_COMPILED(template class Simulation);
 
 }  // namespace spam::python

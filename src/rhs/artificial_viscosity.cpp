@@ -43,8 +43,6 @@ ArtificialViscosity<Dim>::ArtificialViscosity(const Selection<Dim>& among,
                                               const Constants& constants)
     : PairTerm<Dim>(among, viscous_law<Dim>(among, constants)) {}
 
-template class ArtificialViscosity<1>;
-template class ArtificialViscosity<2>;
-template class ArtificialViscosity<3>;
+SPAM_COMPILED(template class ArtificialViscosity);
 
 }  // namespace spam

@@ -153,7 +153,6 @@ class FluidConstitution final : public Constitution<Dim> {
 
     std::vector<Fluid> fluids_;
     bool thermal_, gradients_;
-    Matter matter_ = Matter::inviscid;
     std::span<const double> rho_, e_;  ///< of the latest prepare()
     std::vector<double> pressure_, temperature_;
     std::vector<std::pair<SymTensor<Dim>, Vec<Dim>>> fluxes_;  ///< A and q, by slot

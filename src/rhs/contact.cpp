@@ -111,8 +111,6 @@ double Contact<Dim>::closest(std::span<const double> y) const {
     return least;
 }
 
-template class Contact<1>;
-template class Contact<2>;
-template class Contact<3>;
+SPAM_COMPILED(template class Contact);
 
 }  // namespace spam

@@ -307,8 +307,6 @@ auto DensityPotentialTerm<Dim>::answer(Ask what, std::span<const double> y) cons
     return {sum / this->particles().spacing};
 }
 
-template class DensityPotentialTerm<1>;
-template class DensityPotentialTerm<2>;
-template class DensityPotentialTerm<3>;
+SPAM_COMPILED(template class DensityPotentialTerm);
 
 }  // namespace spam

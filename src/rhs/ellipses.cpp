@@ -319,8 +319,6 @@ auto Ellipses<Dim>::answer(Ask what, std::span<const double> y) const -> Answer 
     return {};
 }
 
-template class Ellipses<1>;
-template class Ellipses<2>;
-template class Ellipses<3>;
+SPAM_COMPILED(template class Ellipses);
 
 }  // namespace spam

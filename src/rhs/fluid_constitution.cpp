@@ -325,8 +325,6 @@ double FluidConstitution<Dim>::stress_forces(const ConstState<Dim>& state,
     });
 }
 
-template class FluidConstitution<1>;
-template class FluidConstitution<2>;
-template class FluidConstitution<3>;
+SPAM_COMPILED(template class FluidConstitution);
 
 }  // namespace spam

@@ -136,8 +136,6 @@ void Model<Dim>::take_scales(const Model& other) {
     time_scale_ = other.time_scale_;
 }
 
-template class Model<1>;
-template class Model<2>;
-template class Model<3>;
+SPAM_COMPILED(template class Model);
 
 }  // namespace spam

@@ -314,8 +314,6 @@ auto OwnRanges<Dim>::answer(Ask what, std::span<const double> y) const -> Answer
     return {};
 }
 
-template class OwnRanges<1>;
-template class OwnRanges<2>;
-template class OwnRanges<3>;
+SPAM_COMPILED(template class OwnRanges);
 
 }  // namespace spam

@@ -94,8 +94,6 @@ void sweep_walls(Neighbourhood<Dim>& near, const SweepInput<Dim>& in, Sweep<Dim>
     template double valid_range<D>(double, double, std::size_t);                     \
     template void sweep_walls<D>(Neighbourhood<D>&, const SweepInput<D>&, Sweep<D>); \
     template class PackedParticles<D>;
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

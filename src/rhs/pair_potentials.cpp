@@ -131,17 +131,9 @@ WeightPotential<Dim>::WeightPotential(const Selection<Dim>& among, double range,
                                       Kernel kernel)
     : PairTerm<Dim>(among, weights_law<Dim>(among.particles(), range, a, kernel)) {}
 
-template class Core<1>;
-template class Core<2>;
-template class Core<3>;
-template class Cohesion<1>;
-template class Cohesion<2>;
-template class Cohesion<3>;
-template class LongRange<1>;
-template class LongRange<2>;
-template class LongRange<3>;
-template class WeightPotential<1>;
-template class WeightPotential<2>;
-template class WeightPotential<3>;
+SPAM_COMPILED(template class Core);
+SPAM_COMPILED(template class Cohesion);
+SPAM_COMPILED(template class LongRange);
+SPAM_COMPILED(template class WeightPotential);
 
 }  // namespace spam

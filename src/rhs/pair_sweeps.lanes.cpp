@@ -82,26 +82,15 @@ Sweeps<Dim> weight_potential_sweeps(Kernel kernel) {
     return kernel == Kernel::lucy ? of(LucysSweep{}) : of(GeneralSweep{});
 }
 
-template Sweeps<1> viscous_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> viscous_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> viscous_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> core_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> core_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> core_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> cohesive_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> cohesive_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> cohesive_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> contact_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> contact_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> contact_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> long_range_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> long_range_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> long_range_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> species_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> species_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> species_sweeps<3, InstructionSet::SPAM_LEVEL>();
-template Sweeps<1> weight_potential_sweeps<1, InstructionSet::SPAM_LEVEL>(Kernel);
-template Sweeps<2> weight_potential_sweeps<2, InstructionSet::SPAM_LEVEL>(Kernel);
-template Sweeps<3> weight_potential_sweeps<3, InstructionSet::SPAM_LEVEL>(Kernel);
+#define SPAM_INSTANTIATE(D)                                                \
+    template Sweeps<D> viscous_sweeps<D, InstructionSet::SPAM_LEVEL>();    \
+    template Sweeps<D> core_sweeps<D, InstructionSet::SPAM_LEVEL>();       \
+    template Sweeps<D> cohesive_sweeps<D, InstructionSet::SPAM_LEVEL>();   \
+    template Sweeps<D> contact_sweeps<D, InstructionSet::SPAM_LEVEL>();    \
+    template Sweeps<D> long_range_sweeps<D, InstructionSet::SPAM_LEVEL>(); \
+    template Sweeps<D> species_sweeps<D, InstructionSet::SPAM_LEVEL>();    \
+    template Sweeps<D> weight_potential_sweeps<D, InstructionSet::SPAM_LEVEL>(Kernel);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

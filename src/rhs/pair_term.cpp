@@ -162,8 +162,6 @@ std::optional<std::vector<PairForce<Dim>>> PairTerm<Dim>::pair_forces(
     return pairs;
 }
 
-template class PairTerm<1>;
-template class PairTerm<2>;
-template class PairTerm<3>;
+SPAM_COMPILED(template class PairTerm);
 
 }  // namespace spam

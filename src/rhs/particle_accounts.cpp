@@ -270,8 +270,6 @@ auto ParticleModel<Dim>::fold_back(const State<Dim>& state, Eigen::Index i, int 
     template ParticleModel<D>::Given ParticleModel<D>::fold_back(const State<D>&, Eigen::Index,   \
                                                                  int, bool) const;                \
     template double ParticleModel<D>::gained(std::size_t, const Point<D>&, const Point<D>&) const;
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -119,9 +119,7 @@ void ParticleModel<Dim>::take_over(const Model<Dim>& before, std::span<const dou
         const;                                                                                    \
     template void ParticleModel<D>::take_over(const Model<D>&, std::span<const double>,           \
                                               const Change<D>&, std::span<double>);
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 #undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -36,8 +36,6 @@ void ParticleModel<Dim>::refuse_parts() {
         std::span<const std::uint32_t>) const;                                                     \
     template ParticleModel<D>::Own::Own(std::span<const std::uint32_t>, std::size_t, std::size_t); \
     template void ParticleModel<D>::refuse_parts();
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

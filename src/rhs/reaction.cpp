@@ -108,8 +108,6 @@ auto Reaction<Dim>::answer(Ask what, std::span<const double> y) const -> Answer 
     return Term<Dim>::answer(what, y);
 }
 
-template class Reaction<1>;
-template class Reaction<2>;
-template class Reaction<3>;
+SPAM_COMPILED(template class Reaction);
 
 }  // namespace spam

@@ -39,8 +39,6 @@ std::string ReflectedPairs<Dim>::rates(const Now& now) {
     return {};
 }
 
-template class ReflectedPairs<1>;
-template class ReflectedPairs<2>;
-template class ReflectedPairs<3>;
+SPAM_COMPILED(template class ReflectedPairs);
 
 }  // namespace spam

@@ -35,9 +35,7 @@ Sweeps<Dim> registered_sweeps(const std::string& name) {
     return it->second();
 }
 
-template struct RegisterSweeps<1>;
-template struct RegisterSweeps<2>;
-template struct RegisterSweeps<3>;
+SPAM_COMPILED(template struct RegisterSweeps);
 template Sweeps<1> registered_sweeps(const std::string&);
 template Sweeps<2> registered_sweeps(const std::string&);
 template Sweeps<3> registered_sweeps(const std::string&);

@@ -36,8 +36,6 @@ void Selection<Dim>::update_bodies() {
                     part_->body.begin());
 }
 
-template class Selection<1>;
-template class Selection<2>;
-template class Selection<3>;
+SPAM_COMPILED(template class Selection);
 
 }  // namespace spam

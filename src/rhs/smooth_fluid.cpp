@@ -77,36 +77,19 @@ void SmoothParticles<Dim>::take_over(const Term<Dim>& /*before*/, const ConstSta
                 constitution_->describe(), change.id[change.parts[k].front().particle]));
 }
 
-template std::vector<double> FluidConstitution<1>::pressures(std::span<const double>,
-                                                             std::span<const double>) const;
-template std::vector<double> FluidConstitution<2>::pressures(std::span<const double>,
-                                                             std::span<const double>) const;
-template std::vector<double> FluidConstitution<3>::pressures(std::span<const double>,
-                                                             std::span<const double>) const;
-template std::vector<double> FluidConstitution<1>::temperatures(std::span<const double>,
-                                                                std::span<const double>) const;
-template std::vector<double> FluidConstitution<2>::temperatures(std::span<const double>,
-                                                                std::span<const double>) const;
-template std::vector<double> FluidConstitution<3>::temperatures(std::span<const double>,
-                                                                std::span<const double>) const;
-template const Fluid& SmoothParticles<1>::fluid() const;
-template std::vector<double> SmoothParticles<1>::pressure(std::span<const double>) const;
-template std::vector<double> SmoothParticles<1>::temperature(std::span<const double>) const;
-template std::vector<double> SmoothParticles<1>::start(const Points<1>&, const Points<1>&, double);
-template const Fluid& SmoothParticles<2>::fluid() const;
-template std::vector<double> SmoothParticles<2>::pressure(std::span<const double>) const;
-template std::vector<double> SmoothParticles<2>::temperature(std::span<const double>) const;
-template std::vector<double> SmoothParticles<2>::start(const Points<2>&, const Points<2>&, double);
-template const Fluid& SmoothParticles<3>::fluid() const;
-template std::vector<double> SmoothParticles<3>::pressure(std::span<const double>) const;
-template std::vector<double> SmoothParticles<3>::temperature(std::span<const double>) const;
-template std::vector<double> SmoothParticles<3>::start(const Points<3>&, const Points<3>&, double);
-
-template void SmoothParticles<1>::take_over(const Term<1>&, const ConstState<1>&, const Change<1>&,
-                                            const State<1>&);
-template void SmoothParticles<2>::take_over(const Term<2>&, const ConstState<2>&, const Change<2>&,
-                                            const State<2>&);
-template void SmoothParticles<3>::take_over(const Term<3>&, const ConstState<3>&, const Change<3>&,
-                                            const State<3>&);
+#define SPAM_INSTANTIATE(D)                                                                      \
+    template std::vector<double> FluidConstitution<D>::pressures(std::span<const double>,        \
+                                                                 std::span<const double>) const; \
+    template std::vector<double> FluidConstitution<D>::temperatures(                             \
+        std::span<const double>, std::span<const double>) const;                                 \
+    template const Fluid& SmoothParticles<D>::fluid() const;                                     \
+    template std::vector<double> SmoothParticles<D>::pressure(std::span<const double>) const;    \
+    template std::vector<double> SmoothParticles<D>::temperature(std::span<const double>) const; \
+    template std::vector<double> SmoothParticles<D>::start(const Points<D>&, const Points<D>&,   \
+                                                           double);                              \
+    template void SmoothParticles<D>::take_over(const Term<D>&, const ConstState<D>&,            \
+                                                const Change<D>&, const State<D>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
+#undef SPAM_INSTANTIATE
 
 }  // namespace spam

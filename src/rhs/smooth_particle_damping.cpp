@@ -102,8 +102,6 @@ double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, const R
     template double FluidConstitution<D>::damping(const GeneralWeight<D>&, const RestingBody&, \
                                                   std::span<const double>,                     \
                                                   std::span<const double>) const;
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

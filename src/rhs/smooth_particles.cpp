@@ -343,8 +343,6 @@ std::vector<double> SmoothParticles<Dim>::summed_density(const PackedFields& fie
                                                   fields);
 }
 
-template class SmoothParticles<1>;
-template class SmoothParticles<2>;
-template class SmoothParticles<3>;
+SPAM_COMPILED(template class SmoothParticles);
 
 }  // namespace spam

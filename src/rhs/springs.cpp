@@ -160,8 +160,6 @@ void Springs<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim>&
                 change.id[change.parts[k].front().particle]));
 }
 
-template class Springs<1>;
-template class Springs<2>;
-template class Springs<3>;
+SPAM_COMPILED(template class Springs);
 
 }  // namespace spam

@@ -15,8 +15,6 @@ auto Term<Dim>::counts() const -> Counts {
     return counts;
 }
 
-template class Term<1>;
-template class Term<2>;
-template class Term<3>;
+SPAM_COMPILED(template class Term);
 
 }  // namespace spam

@@ -329,8 +329,6 @@ auto TotalLagrangian<Dim>::answer(Ask what, std::span<const double> y) const -> 
     return found;
 }
 
-template class TotalLagrangian<1>;
-template class TotalLagrangian<2>;
-template class TotalLagrangian<3>;
+SPAM_COMPILED(template class TotalLagrangian);
 
 }  // namespace spam

@@ -63,9 +63,7 @@ void ParticleModel<Dim>::refuse_walls(const Term<Dim>& term) const {
 #define SPAM_INSTANTIATE(D)                                      \
     template void ParticleModel<D>::refuse_beyond_walls() const; \
     template void ParticleModel<D>::refuse_walls(const Term<D>&) const;
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 #undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -105,8 +105,6 @@ void FreeParticles<Dim>::require_potential(std::string_view whose) {
             whose));
 }
 
-template class FreeParticles<1>;
-template class FreeParticles<2>;
-template class FreeParticles<3>;
+SPAM_COMPILED(template class FreeParticles);
 
 }  // namespace spam

@@ -48,8 +48,6 @@ class FreeParticles {
     std::size_t position_, velocity_;
 };
 
-extern template class FreeParticles<1>;
-extern template class FreeParticles<2>;
-extern template class FreeParticles<3>;
+SPAM_COMPILED(extern template class FreeParticles);
 
 }  // namespace spam

@@ -276,16 +276,12 @@ LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0
     return found;
 }
 
-template class TangentMotion<1>;
-template class TangentMotion<2>;
-template class TangentMotion<3>;
+SPAM_COMPILED(template class TangentMotion);
 #define SPAM_INSTANTIATE_SPECTRUM(D)                                                     \
     template void require_spectrum<D>(Model<D>&, const IntegratorOptions&, std::size_t); \
     template std::vector<double> shares<D>(const Model<D>&, std::span<const double>);    \
     template LyapunovSpectrum lyapunov_spectrum<D>(                                      \
         Model<D>&, std::span<const double>, const IntegratorOptions&, const LyapunovOptions&);
-SPAM_INSTANTIATE_SPECTRUM(1)
-SPAM_INSTANTIATE_SPECTRUM(2)
-SPAM_INSTANTIATE_SPECTRUM(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE_SPECTRUM)
 
 }  // namespace spam

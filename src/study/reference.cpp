@@ -93,8 +93,6 @@ auto Reference<Dim>::choose(const Start<Dim>& start) -> std::optional<Choice> {
 template FieldErrors compare(const Start<1>&, std::span<const double>, std::span<const double>);
 template FieldErrors compare(const Start<2>&, std::span<const double>, std::span<const double>);
 template FieldErrors compare(const Start<3>&, std::span<const double>, std::span<const double>);
-template class Reference<1>;
-template class Reference<2>;
-template class Reference<3>;
+SPAM_COMPILED(template class Reference);
 
 }  // namespace spam::work_precision

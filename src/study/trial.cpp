@@ -96,9 +96,7 @@ ConservedScales conserved_scales(const Model<Dim>& model, std::span<const double
                                   const TrialRun&, double);                                \
     template double calls_per_step(const Start<Dim>&, const std::string&, double);         \
     template ConservedScales conserved_scales(const Model<Dim>&, std::span<const double>, double);
-SPAM_INSTANTIATE(1)
-SPAM_INSTANTIATE(2)
-SPAM_INSTANTIATE(3)
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 #undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -2,9 +2,9 @@
 // Cluster lists and pair lists against a look at every pair; and that the comparison notices a list
 // that is wrong.
 #include "neighbors/random_points.hpp"
+#include "support/brute_force.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
-#include <spam/neighbors/brute_force.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/neighbors/pair_list.hpp>
 

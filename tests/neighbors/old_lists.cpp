@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of flows, lists that have grown old and narrow boxes: images of particles.
 #include "neighbors/random_points.hpp"
-#include <spam/neighbors/brute_force.hpp>
+#include "support/brute_force.hpp"
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/neighbors/pair_list.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pass of one's own, in one file: the number of neighbours and the sum of their squared distances,
 // swept with every width, in open space and in a box, against a look at every pair.
-#include <spam/neighbors/brute_force.hpp>
+#include "support/brute_force.hpp"
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/neighbors/sweep.hpp>
 

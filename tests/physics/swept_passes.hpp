@@ -2,9 +2,9 @@
 // Passes in 1, 2, 4 and 8 lanes against their own pair bodies in plain numbers, pair by pair.
 #pragma once
 
+#include "support/brute_force.hpp"
 #include "support/random_state.hpp"
 #include <spam/kernel/lucy.hpp>
-#include <spam/neighbors/brute_force.hpp>
 #include <spam/neighbors/cluster_list.hpp>
 #include <spam/neighbors/sweep.hpp>
 #include <spam/physics/pass_constants.hpp>

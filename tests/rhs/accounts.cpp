@@ -4,6 +4,8 @@
 #include "rhs/combinations.hpp"
 #include <spam/integrate/integrator.hpp>
 
+#include <fmt/format.h>
+
 using namespace spam;
 using namespace spam::test;
 
@@ -170,4 +172,31 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(accounts_have_no_say_in_steps, In, PlaneAndSpace) 
     };
     const auto booked = [](Sample<Dim>& s) { add_external<Secret<Dim>>(s, 0.0); };
     BOOST_TEST(std::abs(steps(booked) - steps(externals<Dim>().at(""))) <= 2.0);  // N is larger
+}
+
+/// A group or a load of too few particles would be read beyond its end.
+BOOST_AUTO_TEST_CASE_TEMPLATE(externals_of_another_number_of_particles_are_refused, In,
+                              PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    const Springy<Dim> body([](Sample<Dim>&) {}, {.method = "rk4", .dt = 0.1}, 0.1);
+    ParticleModel<Dim> model(body.sample.model.particles(), {});
+    const std::size_t n = model.particles().size();
+    const auto constant = [](double) { return Point<Dim>(Point<Dim>::Zero()); };
+    const auto with = [&](std::size_t size) {
+        const auto columns = static_cast<Eigen::Index>(size);
+        return std::vector<std::shared_ptr<External<Dim>>>{
+            std::make_shared<Clamp<Dim>>(Group(size)),
+            std::make_shared<Load<Dim>>(constant, Group(size)),
+            std::make_shared<DistributedLoad<Dim>>([](double) { return 0.0; },
+                                                   Points<Dim>(Points<Dim>::Zero(Dim, columns)))};
+    };
+    for (const std::size_t size : {n - 1, n + 1}) {
+        const auto said = fmt::format("made for {} particles, and the model has {}", size, n);
+        for (const auto& external : with(size))
+            BOOST_CHECK_EXCEPTION(model.add(external), InputError, [&](const InputError& e) {
+                return std::string(e.what()).find(said) != std::string::npos;
+            });
+    }
+    for (const auto& external : with(n)) model.add(external);
+    BOOST_TEST(model.externals().size() == 3u);
 }

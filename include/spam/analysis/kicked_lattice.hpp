@@ -35,8 +35,6 @@ class KickedLattice {
     Point<Dim> fastest_ = Point<Dim>::Zero();
 };
 
-extern template class KickedLattice<1>;
-extern template class KickedLattice<2>;
-extern template class KickedLattice<3>;
+SPAM_COMPILED(extern template class KickedLattice);
 
 }  // namespace spam

@@ -65,8 +65,6 @@ class LatticeModes {
     std::size_t rhs_evaluations_ = 0;
 };
 
-extern template class LatticeModes<1>;
-extern template class LatticeModes<2>;
-extern template class LatticeModes<3>;
+SPAM_COMPILED(extern template class LatticeModes);
 
 }  // namespace spam

@@ -85,8 +85,6 @@ class FieldLayout {
     std::vector<Block> blocks_;
 };
 
-extern template class FieldLayout<1>;
-extern template class FieldLayout<2>;
-extern template class FieldLayout<3>;
+SPAM_COMPILED(extern template class FieldLayout);
 
 }  // namespace spam

@@ -101,11 +101,7 @@ class Memory {
     std::vector<std::pair<Field, Holder>> fields_;
 };
 
-extern template struct Change<1>;
-extern template struct Change<2>;
-extern template struct Change<3>;
-extern template class Memory<1>;
-extern template class Memory<2>;
-extern template class Memory<3>;
+SPAM_COMPILED(extern template struct Change);
+SPAM_COMPILED(extern template class Memory);
 
 }  // namespace spam

@@ -87,8 +87,6 @@ class Repopulation {
     std::vector<Change> changes_;
 };
 
-extern template class Repopulation<1>;
-extern template class Repopulation<2>;
-extern template class Repopulation<3>;
+SPAM_COMPILED(extern template class Repopulation);
 
 }  // namespace spam

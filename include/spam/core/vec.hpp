@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/dimensions.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstddef>

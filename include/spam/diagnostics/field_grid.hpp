@@ -43,11 +43,6 @@ struct WaveSpectrum {
 template <int Dim>
 WaveSpectrum wave_spectrum(const FieldGrid<Dim>& grid, std::span<const double> values);
 
-extern template struct FieldGrid<1>;
-extern template struct FieldGrid<2>;
-extern template struct FieldGrid<3>;
-extern template WaveSpectrum wave_spectrum(const FieldGrid<1>&, std::span<const double>);
-extern template WaveSpectrum wave_spectrum(const FieldGrid<2>&, std::span<const double>);
-extern template WaveSpectrum wave_spectrum(const FieldGrid<3>&, std::span<const double>);
+SPAM_COMPILED(extern template struct FieldGrid);
 
 }  // namespace spam

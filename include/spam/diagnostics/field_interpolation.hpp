@@ -60,8 +60,6 @@ class FieldInterpolation {
     Points<Dim> sorted_;  ///< positions in the order of particle_
 };
 
-extern template class FieldInterpolation<1>;
-extern template class FieldInterpolation<2>;
-extern template class FieldInterpolation<3>;
+SPAM_COMPILED(extern template class FieldInterpolation);
 
 }  // namespace spam

@@ -51,8 +51,4 @@ struct InvariantScales {
 template <int Dim>
 InvariantScales measure_scales(const Model<Dim>& model, std::span<const double> y);
 
-extern template Invariants<1> measure_invariants(const Model<1>&, std::span<const double>);
-extern template Invariants<2> measure_invariants(const Model<2>&, std::span<const double>);
-extern template Invariants<3> measure_invariants(const Model<3>&, std::span<const double>);
-
 }  // namespace spam

@@ -64,8 +64,6 @@ class MolecularFields {
     double reach_;             ///< of the range and half the longest bond
 };
 
-extern template class MolecularFields<1>;
-extern template class MolecularFields<2>;
-extern template class MolecularFields<3>;
+SPAM_COMPILED(extern template class MolecularFields);
 
 }  // namespace spam

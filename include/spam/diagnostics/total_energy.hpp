@@ -24,17 +24,4 @@ template <int Dim>
 std::size_t energy_gradient(Model<Dim>& model, double t, std::span<const double> y,
                             std::span<double> gradient);
 
-extern template std::string why_no_energy(const Model<1>&);
-extern template std::string why_no_energy(const Model<2>&);
-extern template std::string why_no_energy(const Model<3>&);
-extern template double total_energy(const Model<1>&, std::span<const double>);
-extern template double total_energy(const Model<2>&, std::span<const double>);
-extern template double total_energy(const Model<3>&, std::span<const double>);
-extern template std::size_t energy_gradient(Model<1>&, double, std::span<const double>,
-                                            std::span<double>);
-extern template std::size_t energy_gradient(Model<2>&, double, std::span<const double>,
-                                            std::span<double>);
-extern template std::size_t energy_gradient(Model<3>&, double, std::span<const double>,
-                                            std::span<double>);
-
 }  // namespace spam

@@ -51,6 +51,7 @@ class Clamp final : public External<Dim> {
                    ? static_cast<int>(std::count(along_.begin(), along_.end(), true))
                    : 0;
     }
+    std::size_t particles() const override { return group_.size(); }
     std::string describe() const override {
         for (std::size_t a = 0; a < Dim; ++a)
             if (!along_[a])

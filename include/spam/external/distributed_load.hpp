@@ -13,12 +13,12 @@ template <int Dim>
 class DistributedLoad final : public External<Dim> {
   public:
     /// `size`: f, of t alone and without steps, or adaptive methods lose their order there. `pattern`: b
-    /// (Dim x N), by number of the particle. Throws InputError where that is not finite.
+    /// (Dim x N), by number of the particle. Throws InputError where that is empty or not finite.
     DistributedLoad(std::function<double(double t)> size, Points<Dim> pattern)
         : size_(std::move(size)),
           pattern_(std::move(pattern)) {
-        if (!pattern_.allFinite())
-            throw InputError("load: the load of a particle is no finite number");
+        if (pattern_.cols() == 0 || !pattern_.allFinite())
+            throw InputError("load: give a finite load for every particle");
     }
 
     void prepare(const typename External<Dim>::Now& now) override { f_ = size_(now.t); }
@@ -31,6 +31,7 @@ class DistributedLoad final : public External<Dim> {
     std::string inseparable() const override {
         return "the work of its load depends on velocities";
     }
+    std::size_t particles() const override { return static_cast<std::size_t>(pattern_.cols()); }
     std::string describe() const override {
         return "a load that depends on time and on the particle";
     }

@@ -33,8 +33,6 @@ class Drag final : public External<Dim> {
     Point<Dim> U_;
 };
 
-extern template class Drag<1>;
-extern template class Drag<2>;
-extern template class Drag<3>;
+SPAM_COMPILED(extern template class Drag);
 
 }  // namespace spam

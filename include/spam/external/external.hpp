@@ -78,6 +78,9 @@ class External {
     virtual double damping() const { return 0.0; }
     /// Why velocities and positions cannot be advanced in turn; empty where only positions matter.
     virtual std::string inseparable() const { return {}; }
+    /// How many particles of the whole run it knows one by one; 0 where it knows none. A model of another number
+    /// of particles refuses it.
+    virtual std::size_t particles() const { return 0; }
     /// Along how many axes the motion of a particle is prescribed, whatever acts on it.
     virtual int prescribed_axes(std::size_t /*number in the whole run*/) const { return 0; }
 

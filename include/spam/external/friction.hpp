@@ -38,8 +38,6 @@ class Friction final : public External<Dim> {
     RigidVelocity<Dim> rigid_;
 };
 
-extern template class Friction<1>;
-extern template class Friction<2>;
-extern template class Friction<3>;
+SPAM_COMPILED(extern template class Friction);
 
 }  // namespace spam

@@ -29,8 +29,6 @@ class Gravity final : public External<Dim> {
     Point<Dim> g_;
 };
 
-extern template class Gravity<1>;
-extern template class Gravity<2>;
-extern template class Gravity<3>;
+SPAM_COMPILED(extern template class Gravity);
 
 }  // namespace spam

@@ -26,6 +26,7 @@ class Load final : public External<Dim> {
     std::string inseparable() const override {
         return "the work of its load depends on velocities";
     }
+    std::size_t particles() const override { return group_.size(); }
     std::string describe() const override { return "a load that depends on time"; }
 
   private:

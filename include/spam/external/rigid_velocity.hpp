@@ -29,11 +29,4 @@ struct RigidVelocity {
 template <int Dim>
 RigidVelocity<Dim> rigid_velocity_of(const std::vector<double>& mass, const ConstState<Dim>& state);
 
-extern template RigidVelocity<1> rigid_velocity_of(const std::vector<double>&,
-                                                   const ConstState<1>&);
-extern template RigidVelocity<2> rigid_velocity_of(const std::vector<double>&,
-                                                   const ConstState<2>&);
-extern template RigidVelocity<3> rigid_velocity_of(const std::vector<double>&,
-                                                   const ConstState<3>&);
-
 }  // namespace spam

@@ -55,8 +55,6 @@ class RigidWall final : public External<Dim> {
     double h_, energy_, range_;
 };
 
-extern template class RigidWall<1>;
-extern template class RigidWall<2>;
-extern template class RigidWall<3>;
+SPAM_COMPILED(extern template class RigidWall);
 
 }  // namespace spam

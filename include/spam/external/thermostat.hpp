@@ -36,8 +36,6 @@ class Thermostat final : public External<Dim> {
     Point<Dim> V_ = Point<Dim>::Zero();
 };
 
-extern template class Thermostat<1>;
-extern template class Thermostat<2>;
-extern template class Thermostat<3>;
+SPAM_COMPILED(extern template class Thermostat);
 
 }  // namespace spam

@@ -16,7 +16,6 @@ struct RootOptions {
     double tolerance = 1e-10;  ///< of the largest |F|
     long most_steps = 50;      ///< of Newton's method
     double longest_step = 0;   ///< of x, its norm; 0: any
-    long most_products = 0;    ///< derivatives by step; 0: 5 sqrt(n) + 50
 };
 
 struct RootFound {

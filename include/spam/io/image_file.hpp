@@ -25,11 +25,4 @@ template <int Dim>
 void write_image(const RunFolder& folder, std::string_view name, double t, const Box<Dim>& box,
                  const FieldGrid<Dim>& grid, const std::vector<ImageField>& fields);
 
-extern template void write_image(const RunFolder&, std::string_view, double, const Box<1>&,
-                                 const FieldGrid<1>&, const std::vector<ImageField>&);
-extern template void write_image(const RunFolder&, std::string_view, double, const Box<2>&,
-                                 const FieldGrid<2>&, const std::vector<ImageField>&);
-extern template void write_image(const RunFolder&, std::string_view, double, const Box<3>&,
-                                 const FieldGrid<3>&, const std::vector<ImageField>&);
-
 }  // namespace spam

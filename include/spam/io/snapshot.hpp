@@ -59,8 +59,6 @@ class SnapshotSeries {
     std::vector<std::pair<double, std::string>> files_;
 };
 
-extern template class SnapshotSeries<1>;
-extern template class SnapshotSeries<2>;
-extern template class SnapshotSeries<3>;
+SPAM_COMPILED(extern template class SnapshotSeries);
 
 }  // namespace spam

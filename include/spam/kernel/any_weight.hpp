@@ -57,8 +57,4 @@ class AnyWeight {
 template <int Dim>
 AnyWeight<Dim> weight_function(std::string_view name, double range);
 
-extern template AnyWeight<1> weight_function<1>(std::string_view, double);
-extern template AnyWeight<2> weight_function<2>(std::string_view, double);
-extern template AnyWeight<3> weight_function<3>(std::string_view, double);
-
 }  // namespace spam

@@ -76,8 +76,6 @@ class GeneralWeight {
     Coefficients<7> third_{};
 };
 
-extern template class GeneralWeight<1>;
-extern template class GeneralWeight<2>;
-extern template class GeneralWeight<3>;
+SPAM_COMPILED(extern template class GeneralWeight);
 
 }  // namespace spam

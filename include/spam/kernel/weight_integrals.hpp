@@ -32,20 +32,4 @@ double relative_step(const AnyWeight<Dim>& weight, const AnyWeight<Dim>& standar
 template <int Dim>
 double mean_along(const AnyWeight<Dim>& weight, const Point<Dim>& a, const Point<Dim>& b);
 
-extern template double moment(const AnyWeight<1>&, int);
-extern template double moment(const AnyWeight<2>&, int);
-extern template double moment(const AnyWeight<3>&, int);
-extern template double steepest_wave(const AnyWeight<1>&);
-extern template double steepest_wave(const AnyWeight<2>&);
-extern template double steepest_wave(const AnyWeight<3>&);
-extern template double fastest_diffusion(const AnyWeight<1>&);
-extern template double fastest_diffusion(const AnyWeight<2>&);
-extern template double fastest_diffusion(const AnyWeight<3>&);
-extern template double relative_step(const AnyWeight<1>&, const AnyWeight<1>&);
-extern template double relative_step(const AnyWeight<2>&, const AnyWeight<2>&);
-extern template double relative_step(const AnyWeight<3>&, const AnyWeight<3>&);
-extern template double mean_along(const AnyWeight<1>&, const Point<1>&, const Point<1>&);
-extern template double mean_along(const AnyWeight<2>&, const Point<2>&, const Point<2>&);
-extern template double mean_along(const AnyWeight<3>&, const Point<3>&, const Point<3>&);
-
 }  // namespace spam

@@ -60,8 +60,6 @@ class BehindWall {
     std::vector<double> records_{};
 };
 
-extern template class BehindWall<1>;
-extern template class BehindWall<2>;
-extern template class BehindWall<3>;
+SPAM_COMPILED(extern template class BehindWall);
 
 }  // namespace spam

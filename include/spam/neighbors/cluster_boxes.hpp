@@ -38,8 +38,6 @@ class ClusterBoxes {
     std::vector<Bounds<Dim>> bounds_;
 };
 
-extern template class ClusterBoxes<1>;
-extern template class ClusterBoxes<2>;
-extern template class ClusterBoxes<3>;
+SPAM_COMPILED(extern template class ClusterBoxes);
 
 }  // namespace spam

@@ -100,8 +100,6 @@ struct NearLevel {
     }
 };
 
-extern template class ClusterCells<1>;
-extern template class ClusterCells<2>;
-extern template class ClusterCells<3>;
+SPAM_COMPILED(extern template class ClusterCells);
 
 }  // namespace spam

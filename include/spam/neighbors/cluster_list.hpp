@@ -126,8 +126,6 @@ class ClusterList {
     std::vector<std::vector<std::vector<std::uint32_t>>> parts_;  ///< pages of entries
 };
 
-extern template class ClusterList<1>;
-extern template class ClusterList<2>;
-extern template class ClusterList<3>;
+SPAM_COMPILED(extern template class ClusterList);
 
 }  // namespace spam

@@ -27,9 +27,4 @@ struct Records {
     std::size_t stride;
 };
 
-/// A run of slots [first, last).
-struct SlotRange {
-    std::uint32_t first, last;
-};
-
 }  // namespace spam

@@ -121,8 +121,6 @@ class Ghosts {
     mutable std::vector<double> changes_;          ///< sign and shift of every number, by image
 };
 
-extern template class Ghosts<1>;
-extern template class Ghosts<2>;
-extern template class Ghosts<3>;
+SPAM_COMPILED(extern template class Ghosts);
 
 }  // namespace spam

@@ -33,8 +33,6 @@ class MotionSince {
     RigidMotion<Dim> motion_;  ///< since then, roughly
 };
 
-extern template class MotionSince<1>;
-extern template class MotionSince<2>;
-extern template class MotionSince<3>;
+SPAM_COMPILED(extern template class MotionSince);
 
 }  // namespace spam

@@ -141,8 +141,6 @@ class Neighbourhood {
     std::vector<BehindWall<Dim>> walls_;
 };
 
-extern template class Neighbourhood<1>;
-extern template class Neighbourhood<2>;
-extern template class Neighbourhood<3>;
+SPAM_COMPILED(extern template class Neighbourhood);
 
 }  // namespace spam

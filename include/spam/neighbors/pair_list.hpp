@@ -33,8 +33,6 @@ class PairList {
     std::vector<std::uint32_t> entries_;
 };
 
-extern template class PairList<1>;
-extern template class PairList<2>;
-extern template class PairList<3>;
+SPAM_COMPILED(extern template class PairList);
 
 }  // namespace spam

@@ -28,25 +28,6 @@ class StripSort {
     /// order()[slot] is the particle's number. Ties keep the lower number first.
     std::span<const std::uint32_t> order() const { return order_; }
 
-    /// Bins of direction a: where they begin, how wide they are (0 where all is at one place), how many
-    /// there are.
-    double origin(std::size_t a) const { return origin_[a]; }
-    double edge(std::size_t a) const { return per_edge_[a] > 0.0 ? 1.0 / per_edge_[a] : 0.0; }
-    std::size_t bins(std::size_t a) const { return static_cast<std::size_t>(count_[a]); }
-    /// The share of space of a particle, roughly.
-    double volume() const { return volume_; }
-
-    /// visit(first, last): ranges of slots, ascending, that together hold every particle between the
-    /// corners `low` and `high` (and some around).
-    template <class Visit>
-    void for_each_range(const Point<Dim>& low, const Point<Dim>& high, const Visit& visit) const {
-        std::array<std::array<Int, 2>, Dim> bins;
-        for (std::size_t a = 0; a < Dim; ++a)
-            bins[a] = {bin(a, low[static_cast<Eigen::Index>(a)]),
-                       bin(a, high[static_cast<Eigen::Index>(a)])};
-        visit_axis<0>(bins, 0, visit);
-    }
-
   private:
     using Int = std::int32_t;
 
@@ -57,23 +38,6 @@ class StripSort {
     struct Sequence;
     void sort_bin(std::size_t b, const Points<Dim>& position, double sign);
 
-    /// `sequence`: number of the strip so far; in odd ones the next direction runs backwards.
-    template <int Axis, class Visit>
-    void visit_axis(const std::array<std::array<Int, 2>, Dim>& bins, Int sequence,
-                    const Visit& visit) const {
-        const Int n = count_[Axis];
-        const bool backwards = sequence % 2 != 0;
-        const auto [first, last] = bins[Axis];
-        const Int begin = sequence * n + (backwards ? n - 1 - last : first);
-        const Int end = begin + (last - first);
-        if constexpr (Axis + 1 < Dim) {
-            for (Int s = begin; s <= end; ++s) visit_axis<Axis + 1>(bins, s, visit);
-        } else {
-            visit(start_[static_cast<std::size_t>(begin)],
-                  start_[static_cast<std::size_t>(end) + 1]);
-        }
-    }
-
     std::array<double, Dim> origin_{}, extent_{}, per_edge_{};
     std::array<Int, Dim> count_{};
     double volume_ = 1.0;  ///< per particle
@@ -82,8 +46,6 @@ class StripSort {
     std::vector<std::uint32_t> order_, start_, bin_of_;
 };
 
-extern template class StripSort<1>;
-extern template class StripSort<2>;
-extern template class StripSort<3>;
+SPAM_COMPILED(extern template class StripSort);
 
 }  // namespace spam

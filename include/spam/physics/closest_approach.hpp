@@ -106,11 +106,7 @@ template <int Dim>
 Event closest_approach_event(ClosestApproach<Dim> approach, const FieldLayout<Dim>& layout,
                              const std::vector<bool>& held = {}, std::size_t first = 0);
 
-extern template struct ElasticReflection<1>;
-extern template struct ElasticReflection<2>;
-extern template struct ElasticReflection<3>;
-extern template class ClosestApproach<1>;
-extern template class ClosestApproach<2>;
-extern template class ClosestApproach<3>;
+SPAM_COMPILED(extern template struct ElasticReflection);
+SPAM_COMPILED(extern template class ClosestApproach);
 
 }  // namespace spam

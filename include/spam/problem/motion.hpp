@@ -65,8 +65,6 @@ class Motion {
     std::unique_ptr<Integrator> integrator_;
 };
 
-extern template class Motion<1>;
-extern template class Motion<2>;
-extern template class Motion<3>;
+SPAM_COMPILED(extern template class Motion);
 
 }  // namespace spam

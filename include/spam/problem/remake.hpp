@@ -60,23 +60,4 @@ template <int Dim>
 std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
                              const Model<Dim>& next);
 
-extern template Remade<1> remake(Model<1>&, std::span<const double>, const Population<1>&,
-                                 Model<1>&);
-extern template Remade<2> remake(Model<2>&, std::span<const double>, const Population<2>&,
-                                 Model<2>&);
-extern template Remade<3> remake(Model<3>&, std::span<const double>, const Population<3>&,
-                                 Model<3>&);
-extern template Point<1> twin_offset(const Model<1>&, std::span<const double>,
-                                     const std::vector<std::size_t>&);
-extern template Point<2> twin_offset(const Model<2>&, std::span<const double>,
-                                     const std::vector<std::size_t>&);
-extern template Point<3> twin_offset(const Model<3>&, std::span<const double>,
-                                     const std::vector<std::size_t>&);
-extern template std::vector<double> restated(const Model<1>&, std::span<const double>,
-                                             const Model<1>&);
-extern template std::vector<double> restated(const Model<2>&, std::span<const double>,
-                                             const Model<2>&);
-extern template std::vector<double> restated(const Model<3>&, std::span<const double>,
-                                             const Model<3>&);
-
 }  // namespace spam

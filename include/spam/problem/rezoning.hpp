@@ -76,8 +76,6 @@ struct Rezoning {
     std::optional<Next> change(Model<Dim>& model, std::span<const double> y) const;
 };
 
-extern template struct Rezoning<1>;
-extern template struct Rezoning<2>;
-extern template struct Rezoning<3>;
+SPAM_COMPILED(extern template struct Rezoning);
 
 }  // namespace spam

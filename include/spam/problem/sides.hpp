@@ -74,8 +74,4 @@ class Sides {
     Words words_;
 };
 
-extern template Box<1> Sides::box(const Point<1>&, const Point<1>&, const Meanings&) const;
-extern template Box<2> Sides::box(const Point<2>&, const Point<2>&, const Meanings&) const;
-extern template Box<3> Sides::box(const Point<3>&, const Point<3>&, const Meanings&) const;
-
 }  // namespace spam

@@ -29,8 +29,6 @@ class ArtificialViscosity final : public PairTerm<Dim> {
     ArtificialViscosity(const Selection<Dim>& among, const Constants& constants);
 };
 
-extern template class ArtificialViscosity<1>;
-extern template class ArtificialViscosity<2>;
-extern template class ArtificialViscosity<3>;
+SPAM_COMPILED(extern template class ArtificialViscosity);
 
 }  // namespace spam

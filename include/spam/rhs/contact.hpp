@@ -41,8 +41,6 @@ class Contact final : public PairTerm<Dim> {
     std::vector<std::int32_t> bodies_;  ///< as they were when this was made
 };
 
-extern template class Contact<1>;
-extern template class Contact<2>;
-extern template class Contact<3>;
+SPAM_COMPILED(extern template class Contact);
 
 }  // namespace spam

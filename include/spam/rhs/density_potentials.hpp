@@ -57,9 +57,7 @@ class DensityPotentialTerm final : public Term<Dim> {
     std::unique_ptr<Parts> parts_;  ///< sweeps, records and fields
 };
 
-extern template class DensityPotentialTerm<1>;
-extern template class DensityPotentialTerm<2>;
-extern template class DensityPotentialTerm<3>;
+SPAM_COMPILED(extern template class DensityPotentialTerm);
 
 /// Potentials of the density and nothing else.
 template <int Dim>

@@ -73,8 +73,6 @@ class Ellipses final : public Term<Dim> {
     std::unique_ptr<PackedParticles<Dim>> packed_;
 };
 
-extern template class Ellipses<1>;
-extern template class Ellipses<2>;
-extern template class Ellipses<3>;
+SPAM_COMPILED(extern template class Ellipses);
 
 }  // namespace spam

@@ -185,8 +185,6 @@ class Model {
     std::string failure_;
 };
 
-extern template class Model<1>;
-extern template class Model<2>;
-extern template class Model<3>;
+SPAM_COMPILED(extern template class Model);
 
 }  // namespace spam

@@ -71,12 +71,10 @@ class OwnRanges final : public Term<Dim> {
     GeneralWeight<Dim> unit_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
-    std::vector<double> range_, pressure_, pull_, rho_dot_;
+    std::vector<double> range_, pressure_, pull_;
 };
 
-extern template class OwnRanges<1>;
-extern template class OwnRanges<2>;
-extern template class OwnRanges<3>;
+SPAM_COMPILED(extern template class OwnRanges);
 
 /// A fluid of such particles and nothing else.
 template <int Dim>

@@ -80,8 +80,6 @@ class PairTerm : public Term<Dim>, public ForcesOfPairs<Dim> {
     std::unique_ptr<PackedParticles<Dim>> packed_;
 };
 
-extern template class PairTerm<1>;
-extern template class PairTerm<2>;
-extern template class PairTerm<3>;
+SPAM_COMPILED(extern template class PairTerm);
 
 }  // namespace spam

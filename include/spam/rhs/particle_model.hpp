@@ -69,7 +69,8 @@ class ParticleModel : public Model<Dim> {
         return nullptr;
     }
 
-    /// Adds an external behind those there are. y grows by the accounts (external.hpp).
+    /// Adds an external behind those there are. y grows by the accounts (external.hpp). Throws InputError where it
+    /// was made for another number of particles.
     void add(std::shared_ptr<External<Dim>> external);
     /// In the order in which they are applied.
     const Externals& externals() const { return externals_; }
@@ -190,6 +191,7 @@ class ParticleModel : public Model<Dim> {
     bool term_rates(double t, std::span<const double> y, std::span<double> y_dot);
     void apply(External<Dim>& external, const typename External<Dim>::Now& now);
     void book(const External<Dim>& external, Given given, const State<Dim>& rate) const;
+    void take(std::shared_ptr<External<Dim>> external);
     void add_accounts();
     void book_change(const Points<Dim>& velocity_before, const State<Dim>& state) const;
     void book_walls(const typename External<Dim>::Now& now);
@@ -216,8 +218,6 @@ class ParticleModel : public Model<Dim> {
     std::size_t reflections_ = 0;
 };
 
-extern template class ParticleModel<1>;
-extern template class ParticleModel<2>;
-extern template class ParticleModel<3>;
+SPAM_COMPILED(extern template class ParticleModel);
 
 }  // namespace spam

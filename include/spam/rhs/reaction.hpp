@@ -58,8 +58,6 @@ class Reaction final : public Term<Dim> {
     std::vector<double> rho_;
 };
 
-extern template class Reaction<1>;
-extern template class Reaction<2>;
-extern template class Reaction<3>;
+SPAM_COMPILED(extern template class Reaction);
 
 }  // namespace spam

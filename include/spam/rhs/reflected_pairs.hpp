@@ -21,8 +21,6 @@ class ReflectedPairs final : public Term<Dim> {
     Answer answer(Ask, std::span<const double>) const override { return {}; }
 };
 
-extern template class ReflectedPairs<1>;
-extern template class ReflectedPairs<2>;
-extern template class ReflectedPairs<3>;
+SPAM_COMPILED(extern template class ReflectedPairs);
 
 }  // namespace spam

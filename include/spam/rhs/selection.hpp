@@ -43,8 +43,6 @@ class Selection {
     std::shared_ptr<Particles<Dim>> part_;  ///< null where it is all
 };
 
-extern template class Selection<1>;
-extern template class Selection<2>;
-extern template class Selection<3>;
+SPAM_COMPILED(extern template class Selection);
 
 }  // namespace spam

@@ -129,9 +129,7 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<double> watched_rates_;  ///< there
 };
 
-extern template class SmoothParticles<1>;
-extern template class SmoothParticles<2>;
-extern template class SmoothParticles<3>;
+SPAM_COMPILED(extern template class SmoothParticles);
 
 /// A solid of smooth particles and nothing else.
 template <int Dim>

@@ -46,9 +46,7 @@ class Springs final : public Term<Dim>, public ForcesOfPairs<Dim> {
     Neighbourhood<Dim> near_;  ///< of the reference positions; the records are positions
 };
 
-extern template class Springs<1>;
-extern template class Springs<2>;
-extern template class Springs<3>;
+SPAM_COMPILED(extern template class Springs);
 
 /// Springs and nothing else.
 template <int Dim>

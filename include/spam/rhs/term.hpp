@@ -155,8 +155,6 @@ class Term {
     std::vector<Neighbourhood<Dim>*> neighbourhoods_;
 };
 
-extern template class Term<1>;
-extern template class Term<2>;
-extern template class Term<3>;
+SPAM_COMPILED(extern template class Term);
 
 }  // namespace spam

@@ -74,9 +74,7 @@ class TotalLagrangian final : public Term<Dim> {
     std::unique_ptr<Neighbourhood<Dim>> moving_;
 };
 
-extern template class TotalLagrangian<1>;
-extern template class TotalLagrangian<2>;
-extern template class TotalLagrangian<3>;
+SPAM_COMPILED(extern template class TotalLagrangian);
 
 /// A total-Lagrangian solid and nothing else.
 template <int Dim>
