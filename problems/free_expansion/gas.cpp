@@ -228,6 +228,5 @@ void write_fields(const RunFolder& folder, Gas<Dim>& gas, double t, std::span<co
     template Fields<D> fields_of(const Gas<D>&, const Points<D>&, const Points<D>&, bool); \
     template void write_fields(const RunFolder&, Gas<D>&, double, std::span<const double>);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace free_expansion

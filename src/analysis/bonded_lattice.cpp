@@ -302,6 +302,5 @@ Eigen::Matrix2d triangular_basis(double spacing) {
     template class BondedLattice<D>;
 SPAM_INSTANTIATE(2)
 SPAM_INSTANTIATE(3)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -63,6 +63,5 @@ RigidMotion<Dim> best_rigid_motion(const Eigen::Ref<const Points<Dim>>& from,
     template RigidMotion<D> best_rigid_motion(const Eigen::Ref<const Points<D>>&,                \
                                               const Eigen::Ref<const Points<D>>&);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

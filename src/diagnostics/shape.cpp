@@ -75,6 +75,5 @@ Survival survival(const History& history) {
     template double closest_pair<D>(const Points<D>&, double, const Box<D>&);   \
     template double clumped_fraction<D>(const Points<D>&, double, const Box<D>&);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

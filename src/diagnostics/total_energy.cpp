@@ -53,6 +53,5 @@ std::size_t energy_gradient(Model<Dim>& model, double t, std::span<const double>
     template std::size_t energy_gradient(Model<D>&, double, std::span<const double>, \
                                          std::span<double>);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

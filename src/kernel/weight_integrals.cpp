@@ -134,6 +134,5 @@ double mean_along(const AnyWeight<Dim>& weight, const Point<Dim>& a, const Point
     template double relative_step(const AnyWeight<D>&, const AnyWeight<D>&); \
     template double mean_along(const AnyWeight<D>&, const Point<D>&, const Point<D>&);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -228,6 +228,5 @@ SessionMemory read_checkpoint(const std::filesystem::path& path) {
     template std::vector<double> state_of(const CaseMemory&, const Model<D>&);         \
     template void revive(Case<D>&, const CaseMemory&);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

@@ -231,6 +231,5 @@ std::vector<double> restated(const Model<Dim>& model, std::span<const double> y,
     template std::vector<double> restated(const Model<D>&, std::span<const double>,     \
                                           const Model<D>&);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

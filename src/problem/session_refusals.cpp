@@ -53,6 +53,5 @@ void Session::refuse_endless(const Case<Dim>& one) const {
     template void Session::refuse_unstable(const Case<D>&) const;            \
     template void Session::refuse_endless(const Case<D>&) const;
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

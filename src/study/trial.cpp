@@ -97,6 +97,5 @@ ConservedScales conserved_scales(const Model<Dim>& model, std::span<const double
     template double calls_per_step(const Start<Dim>&, const std::string&, double);         \
     template ConservedScales conserved_scales(const Model<Dim>&, std::span<const double>, double);
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
-#undef SPAM_INSTANTIATE
 
 }  // namespace spam

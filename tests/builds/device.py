@@ -80,8 +80,8 @@ void smooth(const Law& law, const Mat<Dim>& grad_v, SymTensor<Dim>& stress) {
 BONDS = """
 #define native_lanes(level) 4
 #define SPAM_LEVEL generic
-#include "src/rhs/bond_sweeps.lanes.cpp"
-#include "src/rhs/bond_updates.lanes.cpp"
+#include "src/rhs/material_vectors/bond_sweeps.lanes.cpp"
+#include "src/rhs/material_vectors/bond_updates.lanes.cpp"
 """
 
 # A pass that cannot be one: what it calls is known to the host alone.
@@ -138,7 +138,7 @@ def sweeps():
 def compiled(code):
     """What clang says of it."""
     commands = json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8"))
-    command = next(one["command"] for one in commands if one["file"].endswith("rhs/pair_sweeps.lanes.cpp"))
+    command = next(one["command"] for one in commands if one["file"].endswith("rhs/pairs/pair_sweeps.lanes.cpp"))
     include = re.findall(r"-I ?\S+|-isystem \S+", command)
     ours, libraries = headers()
     as_includes = ["\n".join(f"#include <{name}>" for name in names) for names in (libraries, ours)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <spam/core/dimensions.hpp>
+#include <spam/core/in_each_dimension.hpp>
 
 #include <array>
 #include <cmath>
