@@ -31,11 +31,13 @@ MaterialPoint<Dim>::MaterialPoint(const Material<Dim>& material, Gradient gradie
         ode_.settle = [this](double t, std::span<double> y) {
             return material_.settle(t, 0, 1, State<Dim>(layout_, y));
         };
-    for (const auto& block : layout_.blocks())
+    for (const auto& block : layout_.blocks()) {
+        ode_.blocks.push_back({std::string(block.field.name()), block.offset, block.size});
         ode_.absolute_tolerance.insert(ode_.absolute_tolerance.end(), block.size,
                                        block.field.role() == Role::integrated
                                            ? options.absolute_tolerance(block.field.name(), 1.0)
                                            : std::numeric_limits<double>::infinity());
+    }
     integrator_ = make_integrator(options, ode_, y_, 0.0, context_);
 }
 

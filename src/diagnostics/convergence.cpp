@@ -63,7 +63,7 @@ GrowthFit fit_growth(std::span<const double> t, std::span<const double> change, 
     std::vector<double> envelope;
     double most = 0.0;
     for (const double c : change) {
-        if (!(std::abs(c) <= most)) most = std::abs(c);  // NaN stays
+        if (!std::isnan(most) && !(std::abs(c) <= most)) most = std::abs(c);  // NaN stays
         envelope.push_back(most);
     }
     GrowthFit fit{0.0, most, most > round_off};

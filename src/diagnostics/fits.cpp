@@ -30,11 +30,16 @@ double best_factor(std::span<const double> of, std::span<const double> to) {
 
 double period_of_zeros(std::span<const double> t, std::span<const double> value) {
     std::vector<double> number, zero;
+    std::size_t last = 0;  // the latest row that is not 0
     for (std::size_t r = 1; r < t.size(); ++r) {
-        const double before = value[r - 1], now = value[r];
-        if (before == 0.0 || (before < 0.0) == (now < 0.0)) continue;
-        number.push_back(static_cast<double>(zero.size()));
-        zero.push_back(t[r - 1] + (t[r] - t[r - 1]) * before / (before - now));
+        if (value[r] == 0.0) continue;
+        const double before = value[last], now = value[r];
+        if (before != 0.0 && (before < 0.0) != (now < 0.0)) {
+            number.push_back(static_cast<double>(zero.size()));
+            zero.push_back(last + 1 < r ? t[last + 1]
+                                        : t[last] + (t[r] - t[last]) * before / (before - now));
+        }
+        last = r;
     }
     return zero.size() < 3 ? 0.0 : 2.0 * fit_line(number, zero).slope;
 }

@@ -32,6 +32,10 @@ void History::remember(Archive& archive) {
         throw InputError(fmt::format("remembered columns {}, not {}", fmt::join(names, ","),
                                      fmt::join(names_, ",")));
     if (!archive.reading()) return;
+    for (const auto& row : rows)
+        if (row.size() != names_.size())
+            throw InputError(fmt::format("a remembered row has {} numbers for {} columns",
+                                         row.size(), names_.size()));
     rows_.clear();
     extents_.clear();
     for (auto& row : rows) add(std::move(row));

@@ -29,21 +29,27 @@ double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& b
     // In a periodic box the list may reach no further than half of it.
     for (int a = 0; a < Dim; ++a)
         if (box.periodic(a)) extent = std::min(extent, 0.499 * box.length(a));
+    const auto look_at = [&](std::size_t i, std::size_t j) {
+        double r2 = 0.0;
+        for (int a = 0; a < Dim; ++a) {
+            double s = position(a, static_cast<Eigen::Index>(i)) -
+                       position(a, static_cast<Eigen::Index>(j));
+            if (box.periodic(a)) s -= box.length(a) * std::round(s / box.length(a));
+            r2 += s * s;
+        }
+        closest2 = std::min(closest2, r2);
+    };
     for (double look = std::min(reach, extent); n > 1; look = std::min(2.0 * look, extent)) {
         const PairList<Dim> list(position, look, box);
         for (std::size_t i = 0; i < n; ++i)
-            for (const std::uint32_t j : list.neighbours(i)) {
-                if (j <= i) continue;
-                double r2 = 0.0;
-                for (int a = 0; a < Dim; ++a) {
-                    double s = position(a, static_cast<Eigen::Index>(i)) - position(a, j);
-                    if (box.periodic(a)) s -= box.length(a) * std::round(s / box.length(a));
-                    r2 += s * s;
-                }
-                closest2 = std::min(closest2, r2);
-            }
+            for (const std::uint32_t j : list.neighbours(i))
+                if (j > i) look_at(i, j);
         if (std::isfinite(closest2) || look >= extent) break;
     }
+    if (!std::isfinite(closest2) &&
+        position.allFinite())  // farther apart than a narrow box is wide
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = i + 1; j < n; ++j) look_at(i, j);
     return std::sqrt(closest2);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/exact_sum.hpp>
 #include <spam/diagnostics/total_energy.hpp>
+#include <spam/rhs/particle_model.hpp>
 
 #include <algorithm>
 
@@ -15,6 +16,11 @@ std::string why_no_energy(const Model<Dim>& model) {
     const bool potential = layout.blocks().size() == 2 && layout.has(Field::position);
     if (!layout.has(Field::velocity) || !(layout.has(Field::energy) || potential))
         return "y holds neither energies nor positions and velocities alone";
+    if (const auto* made_of = dynamic_cast<const ParticleModel<Dim>*>(&model);
+        made_of != nullptr && layout.has(Field::energy))
+        for (const auto& term : made_of->terms())
+            if (term->nature().potential && !term->nature().own_heat)
+                return "a potential holds a part of it beside the energies of particles";
     return {};
 }
 

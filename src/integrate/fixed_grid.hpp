@@ -29,17 +29,22 @@ class FixedGrid {
     /// After that step, at step.to.
     void arrive(const Step& step) {
         ++n_;
-        if (!near(step.to, time(n_))) reset(step.to);
+        if (!near(step.to, time(n_))) begin(step.to);
     }
+    /// y has changed at t. A time of the grid stays one: where something changes after every step, times would
+    /// accumulate.
     void reset(double t) {
-        t0_ = t;
-        n_ = 0;
+        if (!near(t, time(n_))) begin(t);
     }
     double dt() const { return dt_; }
 
     void remember(Archive& archive) { archive(t0_, n_); }
 
   private:
+    void begin(double t) {
+        t0_ = t;
+        n_ = 0;
+    }
     double time(std::size_t n) const { return t0_ + static_cast<double>(n) * dt_; }
     double slack() const { return 1e-9 * dt_; }
     bool near(double a, double b) const { return std::abs(a - b) <= slack(); }

@@ -92,7 +92,9 @@ GslAdaptive::Accepted GslAdaptive::accepted_step(double t_stop) {
 /// Another step from where the accepted one began, of length h.
 std::span<const double> GslAdaptive::retake(double h) {
     N_VScale(1.0, y_.get(), z_.get());
-    stepper_.attempt(t_, h, z_.span(), std::as_const(y_dot_).span().data());
+    if (!stepper_.attempt(t_, h, z_.span(), std::as_const(y_dot_).span().data()))
+        if (const std::string reason = ode_.failure(); !reason.empty())
+            throw GuardStop(fmt::format("{} at t = {:.6g}", reason, stepper_.failed_at()));
     guard(z_.span(), t_ + h);
     return z_.span();
 }
@@ -115,19 +117,17 @@ double GslAdaptive::take_step(double t_stop) {
     return t_;
 }
 
+/// A multistep method begins anew with order 1, which needs a shorter step than the next.
 void GslAdaptive::reset(double t) {
     t_ = t;
-    h_ = 0.0;
     stepper_.reset();
+    if (multistep_) h_ = 0.0;
 }
 
-/// A multistep method begins anew with order 1, which needs a shorter step than the next.
 void GslAdaptive::remember(Archive& archive) {
     Integrator::remember(archive);
     archive(watch_, h_);
-    if (!archive.reading()) return;
-    stepper_.reset();
-    if (multistep_) h_ = 0.0;
+    if (archive.reading()) reset(t_);
 }
 
 }  // namespace spam

@@ -66,19 +66,21 @@ RootFound find_root(const Residual& residual, std::span<const double> start,
     check(KINSetLinearSolver(kinsol, linear.get(), nullptr), "SetLinearSolver");
     const int flag = KINSol(kinsol, x.get(), KIN_LINESEARCH, one.get(), one.get());
     check(flag, "Sol");
+    RootFound found;
+    const auto at = std::as_const(x).span();
+    found.x.assign(at.begin(), at.end());
+    std::vector<double> F(found.x.size());
+    residual(found.x, F);
     double left = 0.0;
-    KINGetFuncNorm(kinsol, &left);
-    if (flag == KIN_STEP_LT_STPTOL &&
-        !(left <= options.tolerance * std::sqrt(double(start.size()))))
+    for (const double each : F)
+        if (!(std::abs(each) <= left)) left = std::abs(each);
+    if (flag == KIN_STEP_LT_STPTOL && !(left <= options.tolerance))
         throw GuardStop(fmt::format(
             "equilibrium: Newton's steps have become too short with forces of {:.1e} left, for {:.1e} that are "
             "allowed; allow larger ones, or let the load grow in smaller steps",
             left, options.tolerance));
-    RootFound found;
     long steps = 0;
     KINGetNumNonlinSolvIters(kinsol, &steps);
-    const auto at = std::as_const(x).span();
-    found.x.assign(at.begin(), at.end());
     found.steps = static_cast<std::size_t>(steps);
     return found;
 }

@@ -139,6 +139,7 @@ py::object make_elements(const py::object& x,
 py::dict fields_of_elements(HeldModel<2>& self, const py::object& given) {
     const std::vector<double> y = self.checked(given);
     const typename HeldModel<2>::Use use(self);
+    enter(self.size(), 0);
     const auto* const elements = self.model->term<Elements>();
     if (elements == nullptr)
         throw InputError("model: it has no elements; give one made by Elements()");

@@ -41,8 +41,15 @@ std::vector<double> HeldModel<Dim>::start(const py::object& velocity, double tem
     }
     const Use use(*this);
     enter(size(), 0);
+    std::vector<double> y;
+    {
+        const py::gil_scoped_release
+            others;  // rates of a state at rest may call functions of Python
+        y = start_(v, temperature);
+    }
+    pending->raise();
     scaled_ = true;
-    return start_(v, temperature);
+    return y;
 }
 
 template <int Dim>

@@ -253,6 +253,7 @@ void bind(py::module_& module, const char* name) {
             [](Model& self, const py::object& y) {
                 const std::vector<double> checked = self.checked(y);
                 const typename Model::Use use(self);
+                enter(self.size(), 0);
                 return array_of(self.model->density(checked));
             },
             "y"_a, "(N,); empty for a model without.")
@@ -260,16 +261,23 @@ void bind(py::module_& module, const char* name) {
             "shape_error",
             [](const Model& self, const py::object& x) {
                 const auto& p = self.model->particles();
-                return shape_error<Dim>(p.reference_position, points_of<Dim>(x, "position"),
-                                        p.spacing);
+                const Points<Dim> position = points_of<Dim>(x, "position");
+                if (position.cols() != p.reference_position.cols())
+                    throw InputError(
+                        fmt::format("position: is of {} particles, and the model has {}",
+                                    position.cols(), p.size()));
+                enter(p.size(), 0);
+                return shape_error<Dim>(p.reference_position, position, p.spacing);
             },
             "position"_a,
             "Distance from the best-fitting rigid motion, root mean square in spacings.")
         .def(
             "closest_pair",
             [](const Model& self, const py::object& x) {
-                return closest_pair<Dim>(points_of<Dim>(x, "position"),
-                                         self.model->particles().spacing, self.model->box());
+                const Points<Dim> position = points_of<Dim>(x, "position");
+                enter(static_cast<std::size_t>(position.cols()), 0);
+                return closest_pair<Dim>(position, self.model->particles().spacing,
+                                         self.model->box());
             },
             "position"_a, "Distance of the closest two particles.")
         .def("__repr__", [](const Model& self) {

@@ -41,9 +41,7 @@ class Simulation<Dim>::Turn {
             throw std::runtime_error(
                 "the model goes on in another Simulation, which was made of it later; make a model for each");
         enter(simulation.held()->size(), simulation.threads_);
-        simulation.at_work_ = true;
     }
-    ~Turn() { simulation_.at_work_ = false; }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
     /// It goes on with this model.
@@ -183,6 +181,7 @@ void Simulation<Dim>::prepare(const RezoningChoice& choice) {
     Rezoning<Dim> how = choice.of<Dim>();
     how.memory = rezoned_;
     how.make = [this](Particles<Dim> particles) -> std::shared_ptr<Model<Dim>> {
+        const py::gil_scoped_acquire interpreter;  // models share functions of Python
         made_ = held()->again(std::move(particles));
         return made_->model;
     };
@@ -193,18 +192,21 @@ void Simulation<Dim>::prepare(const RezoningChoice& choice) {
     plan_.rezone(std::move(how));
 }
 
-/// As Run::rezone: what goes on is what a checkpoint would hold.
+/// As Run::rezone: what goes on is what a checkpoint would hold. Without the interpreter where rates may be found: other
+/// threads of a right-hand side wait for it.
 template <int Dim>
 void Simulation<Dim>::rezone(double t, Turn& turn) {
-    const py::gil_scoped_acquire interpreter;  // models share functions of Python, and may be its
     auto next = plan_.rezoning->change(*held()->model, now_->motion.y());
     if (!next) return;
     made_->made_in_a_run();
     const auto then = std::make_shared<OnItsWay>(std::move(made_), next->y, options_, t);
     then->motion.go_on_from(now_->motion);
     pairs_before_ += now_->motion.pair_interactions();
-    turn.pass_to(*then->held);
-    now_ = then;
+    {
+        const py::gil_scoped_acquire interpreter;  // of what has been, functions of Python may go
+        turn.pass_to(*then->held);
+        now_ = then;
+    }
     recorder_->go_on_with(*held()->model);
     for (const Remark& remark : next->remarks) remarks_.emplace_back(t, remark);
 }
@@ -250,6 +252,7 @@ void Simulation<Dim>::run(const RunRequest& request) {
 
 template <int Dim>
 void Simulation<Dim>::replace(const py::dict& fields) {
+    const typename HeldModel<Dim>::Use use(*held());
     const auto present = this->y();
     std::vector<double> y(present.begin(), present.end());
     for (const auto& [key, value] : fields) {
@@ -266,7 +269,7 @@ void Simulation<Dim>::replace(const py::dict& fields) {
                     y.begin() + static_cast<std::ptrdiff_t>(block->offset));
     }
     // Inside a run the driver lets the integrator begin anew, after revise().
-    if (!at_work_ && held()->moved_by != this)
+    if (!use.nested() && held()->moved_by != this)
         throw std::runtime_error("the model goes on in another Simulation; make a model for each");
     now_->motion.edit([&](std::span<double> now) {
         std::copy(y.begin(), y.end(), now.begin());
@@ -277,6 +280,7 @@ void Simulation<Dim>::replace(const py::dict& fields) {
 template <int Dim>
 py::object Simulation<Dim>::rows() const {
     if (!recorder_) return py::none();
+    const typename HeldModel<Dim>::Use use(*held());
     const History& history = recorder_->history();
     const auto columns = static_cast<py::ssize_t>(history.names().size());
     Doubles all({static_cast<py::ssize_t>(history.rows().size()), columns});
@@ -289,6 +293,7 @@ template <int Dim>
 py::list Simulation<Dim>::drifts() const {
     py::list drifts;
     if (!recorder_) return drifts;
+    const typename HeldModel<Dim>::Use use(*held());
     for (const Drift& one : recorder_->drifts(promise_limit(options_, *held()->model)))
         drifts.append(py::make_tuple(one.name, std::string(to_string(one.promise)), one.scale,
                                      one.limit, one.change, one.kept()));
@@ -297,6 +302,7 @@ py::list Simulation<Dim>::drifts() const {
 
 template <int Dim>
 py::list Simulation<Dim>::remarks() const {
+    const typename HeldModel<Dim>::Use use(*held());
     py::list list;
     for (const auto& [t, remark] : remarks_)
         list.append(py::make_tuple(t, remark.what, remark.value));

@@ -8,6 +8,7 @@
 #include <spam/integrate/driver.hpp>
 #include <spam/problem/parted_motion.hpp>
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct RunRequest {
     std::optional<RezoningChoice> rezone{};
 };
 
-inline const void* latest_on_its_way = nullptr;  ///< of all Simulations, of whatever dimension
+inline std::atomic<const void*> latest_on_its_way =
+    nullptr;  ///< of all Simulations, of whatever dimension
 
 /// A model on its way, as Python drives it. The interpreter is free while it computes.
 template <int Dim>
@@ -84,7 +86,6 @@ class Simulation {
 
     IntegratorOptions options_;
     int threads_;
-    bool at_work_ = false;
     std::shared_ptr<OnItsWay> now_;
     std::shared_ptr<HeldModel<Dim>> made_;  ///< of the particles of the latest change
     std::shared_ptr<RezoningMemory> rezoned_ = std::make_shared<RezoningMemory>();

@@ -15,6 +15,28 @@ namespace spam::python {
 
 using namespace py::literals;
 
+namespace {
+
+/// No option may silently do nothing.
+void refuse_idle(const IntegratorOptions& options, const py::dict& given) {
+    for (const char* name :
+         {"rtol", "atol", "min_step", "max_step", "initial_step", "controller", "safety"}) {
+        if (!given.contains(name) || py::object(given[name]).is_none()) continue;
+        if (options.dt)
+            throw InputError(fmt::format(
+                "{}: dt asks for fixed steps, {} for adaptive ones; leave one out", name, name));
+        const bool of_arkode =
+            name == std::string_view("controller") || name == std::string_view("safety");
+        if (of_arkode && !options.method.starts_with("arkode:"))
+            throw InputError(
+                fmt::format("{}: {} has its own step-size control, the option is for "
+                            "arkode:<table> only; leave it out",
+                            name, options.method));
+    }
+}
+
+}  // namespace
+
 IntegratorOptions options_of(const std::string& method, const py::dict& given) {
     IntegratorOptions options;
     options.method = method;
@@ -55,6 +77,7 @@ IntegratorOptions options_of(const std::string& method, const py::dict& given) {
             throw InputError(fmt::format("'{}' is no option of an integrator{}", one_line(name),
                                          suggestion(name, known)));
     }
+    refuse_idle(options, given);
     options.validate();
     return options;
 }

@@ -222,12 +222,15 @@ LyapunovSpectrum lyapunov_spectrum(Model<Dim>& model, std::span<const double> y0
     for (double& number : V.reshaped()) number = normal(random);
     TangentMotion<Dim> motion(model, y0, orthonormal(scale.asDiagonal() * V), integrator);
 
+    // Ten at least behind what is discarded: the errors come from ten blocks.
     const auto intervals =
-        static_cast<std::size_t>(std::max(20.0, std::round(options.duration / options.interval)));
+        static_cast<std::size_t>(std::max({20.0, std::ceil(10.0 / (1.0 - options.discarded)) + 1.0,
+                                           std::round(options.duration / options.interval)}));
+    const double interval = options.duration / static_cast<double>(intervals);
     const std::size_t first = static_cast<std::size_t>(options.discarded * double(intervals));
     const double window = options.window > 0.0 ? options.window : options.duration / 40.0;
     const auto per_window =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(window / options.interval)));
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(window / interval)));
     LyapunovSpectrum found;
     Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(M, 10);
     Eigen::VectorXd in_window = Eigen::VectorXd::Zero(M), block_time = Eigen::VectorXd::Zero(10);

@@ -142,3 +142,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_finite_is_not_hidden) {
     const auto fit = growth([](double t) { return t > 300.0 ? std::nan("") : 1e-9 * t; });
     BOOST_TEST(!(fit.largest < 1.0));
 }
+
+BOOST_AUTO_TEST_CASE(what_is_no_number_does_not_grow) {
+    const std::vector<double> t{1, 2, 3, 4}, change{5.0, 5.0, std::nan(""), 0.1};
+    BOOST_TEST(std::isnan(fit_growth(t, change, 1e-13).largest));
+}

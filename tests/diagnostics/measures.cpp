@@ -101,6 +101,7 @@ BOOST_AUTO_TEST_CASE(closest_pairs) {
     far << 0, 300, 0, 400;
     BOOST_TEST(closest_pair<2>(far, 1.0, {}) == 500.0);
     BOOST_TEST(closest_pair<2>(far.leftCols(1), 1.0, {}) == HUGE_VAL);
+    BOOST_TEST(closest_pair<2>(far, 1.0, Box<2>({6.0, 0.0})) == 400.0);  // 300 = 50 periods
     Points<1> edge(1, 3);
     edge << 0.1, 5.0, 9.95;
     BOOST_TEST(closest_pair<1>(edge, 1.0, Box<1>({10.0})) == 0.15,

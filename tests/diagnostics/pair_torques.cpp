@@ -158,5 +158,12 @@ BOOST_AUTO_TEST_CASE(periods_from_zeros) {
     }
     BOOST_TEST(period_of_zeros(t, value) == 7.3, boost::test_tools::tolerance(1e-4));
     BOOST_TEST(period_of_zeros(std::span(t).first(60), std::span(value).first(60)) == 0.0);
+    // Zeros that are rows.
+    std::vector<double> rows, square;
+    for (int n = 0; n < 17; ++n) {
+        rows.push_back(n);
+        square.push_back(n % 2 == 1 ? 0.0 : n % 4 == 0 ? 1.0 : -1.0);
+    }
+    BOOST_TEST(period_of_zeros(rows, square) == 4.0, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(best_factor(std::vector<double>{2, 4}, std::vector<double>{1, 2}) == 2.0);
 }

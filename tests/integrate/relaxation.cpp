@@ -124,6 +124,11 @@ BOOST_AUTO_TEST_CASE(rates_do_no_work_along_the_gradient) {
     const auto system = damped(smooth_hexagon(2, 0.3));
     BOOST_TEST(why_no_energy(*system->model) == "externals change it");
     BOOST_TEST(power(*system) > 1e-3);
+    SmoothParticleModel<2> with_core(make_particles<2>(triangular_hexagon(2), 1.0),
+                                     ElasticSolid::triangular_lattice(), Scheme{});
+    BOOST_TEST(why_no_energy<2>(with_core) == "");
+    with_core.add_term<Core<2>>(CorePotential{0.01, 1.0});
+    BOOST_TEST(why_no_energy<2>(with_core).starts_with("a potential holds a part of it"));
 }
 
 BOOST_AUTO_TEST_CASE(rescaled_steps_keep_the_energy) {

@@ -264,3 +264,30 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
     o.safety = 1.0;
     BOOST_TEST(has(reason(o, ode), "safety"));
 }
+
+/// What changes y after every step, as a material that yields does, accumulates no times.
+BOOST_AUTO_TEST_CASE(fixed_steps_stay_on_their_grid_whatever_settles) {
+    for (const char* method : {"rk4", "arkode:ZONNEVELD_5_3_4", "gsl:rkck"}) {
+        Ode ode = oscillators();
+        ode.settle = [](double, std::span<double> y) {
+            y[2] *= 0.999;
+            return true;
+        };
+        Run run({.method = method, .dt = 0.01}, ode);
+        BOOST_TEST(run.to(320.0).steps == 32000U);
+        BOOST_TEST(*std::min_element(run.steps.begin(), run.steps.end()) == 0.01);
+    }
+}
+
+/// An adaptive method of one step goes on with the step it has found.
+BOOST_AUTO_TEST_CASE(adaptive_steps_stay_as_long_whatever_settles) {
+    for (const char* method : {"arkode:DORMAND_PRINCE_7_4_5", "gsl:rkf45"}) {
+        const auto steps_with = [&](bool settles) {
+            Ode ode = oscillators();
+            if (settles) ode.settle = [](double, std::span<double>) { return true; };
+            Run run({.method = method, .rtol = 1e-6}, ode);
+            return run.to(20.0).steps;
+        };
+        BOOST_TEST(steps_with(true) <= steps_with(false) + 5U);
+    }
+}

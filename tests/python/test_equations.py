@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """integrate() and work_precision(): equations of one's own by the library's methods."""
 import importlib.util
+import math
 import unittest
 
 import numpy as np
@@ -52,6 +53,12 @@ class Integrate(unittest.TestCase):
         for array, copy in kept:
             np.testing.assert_array_equal(array, copy)
 
+    def test_short_times(self):
+        for method in ("arkode:DORMAND_PRINCE_7_4_5", "gsl:rk8pd", "cvode:adams"):
+            y = spam.integrate(lambda t, y: np.array([y[1], -1e28 * y[0]]), [1.0, 0.0], 1e-14, method=method,
+                               atol=1e-6).y[-1]
+            self.assertAlmostEqual(y[0], math.cos(1.0), delta=1e-4, msg=method)
+
     def test_a_stiff_equation(self):
         f = lambda t, y: -1e4 * (y - np.cos(t))  # noqa: E731
         bdf = [name for name in spam.methods() if "bdf" in name]
@@ -95,6 +102,11 @@ class WorkPrecision(unittest.TestCase):
                                     steps=[50, 100])
         self.assertEqual(study.floor, 0.0)
         self.assertAlmostEqual(np.log2(study["error"][0] / study["error"][1]), 4, delta=0.1)
+
+    def test_names_of_arkode(self):
+        study = spam.work_precision(oscillator, [1.0, 0.0], 1.0, methods=["arkode:ARKODE_DORMAND_PRINCE_7_4_5"],
+                                    steps=[], tolerances=[1e-6], reference=[math.cos(1.0), -math.sin(1.0)])
+        self.assertLess(study["error"][0], 1e-4)
 
     def test_unknown_methods(self):
         with self.assertRaises(spam.InputError):

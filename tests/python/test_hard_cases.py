@@ -169,6 +169,11 @@ class Threads(unittest.TestCase):
 
     def test_one_model_is_used_by_one_thread(self):
         sim, ended = self.simulations()[0], threading.Event()
+
+        def edited():
+            with sim.edit() as s:
+                s.velocity *= 1.0
+
         thread = threading.Thread(target=sim.run, args=(1e6,), kwargs={
             "every": 0.1, "enough": lambda m, s: ended.is_set()})
         thread.start()
@@ -176,8 +181,9 @@ class Threads(unittest.TestCase):
             while sim.t == 0.0:
                 time.sleep(0.001)
             for _ in range(50):  # also while it calls functions
-                with self.assertRaisesRegex(RuntimeError, "at work"):
-                    sim.model.rates(0.0, np.zeros(sim.model.size))
+                for call in (lambda: sim.model.rates(0.0, np.zeros(sim.model.size)), lambda: sim.last_run, edited):
+                    with self.assertRaisesRegex(RuntimeError, "at work"):
+                        call()
         finally:
             ended.set()
             thread.join()
@@ -201,11 +207,13 @@ import numpy as np
 import spam_mechanics as spam
 x = spam.triangular_hexagon(20)
 def make(x): return spam.Simulation(spam.SmoothParticles(x), dt=0.1, threads=2)
+model = spam.SmoothParticles(x)
+y = model.start()
 if {first}: make(x).step()
 child = os.fork()
 if child == 0:
     try:
-        make(spam.triangular_hexagon({n})).step()
+        {call}
         os._exit(0)
     except RuntimeError as error:
         print(error, flush=True)
@@ -215,9 +223,10 @@ print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 
 
 class Forks(unittest.TestCase):
-    def forked(self, first, n):
+    def forked(self, first, n, call=None):
+        call = call or f"make(spam.triangular_hexagon({n})).step()"
         with python_processes():
-            return subprocess.run([sys.executable, "-c", _AFTER_FORK.format(first=first, n=n)], text=True,
+            return subprocess.run([sys.executable, "-c", _AFTER_FORK.format(first=first, call=call)], text=True,
                                   capture_output=True, timeout=60).stdout
 
     def test_after_a_parallel_run(self):
@@ -225,6 +234,14 @@ class Forks(unittest.TestCase):
         self.assertIn("spawn", said)
         self.assertTrue(said.endswith("7\n"), said)
         self.assertEqual(said.count("\n"), 2)
+
+    def test_whatever_computes_says_so(self):
+        for call in ("model.rates(0.0, y)", "model.density(y)", "model.shape_error(x)", "model.closest_pair(x)",
+                     "spam.integrate(lambda t, y: -y, [1.0] * 60000, 1.0)"):
+            with self.subTest(call):
+                said = self.forked(first=True, n=20, call=call)
+                self.assertIn("spawn", said)
+                self.assertTrue(said.endswith("7\n"), said)
 
     def test_before_one_and_of_few_particles(self):
         self.assertEqual(self.forked(first=False, n=20), "0\n")
@@ -271,6 +288,7 @@ class WrongInput(unittest.TestCase):
             (r"y0: has the shape \(3,\)", lambda: spam.Simulation(model, [1, 2, 3], dt=0.1)),
             ("y0: holds the velocities", lambda: spam.Simulation(model, [1], velocity=v, dt=0.1)),
             (r"y: has the shape \(2,\), and should have \(171,\)", lambda: model.rates(0.0, [1.0, 2.0])),
+            ("position: is of 3 particles, and the model has 19", lambda: model.shape_error(x[:3])),
             ("y: entry 0 is nan", lambda: model.rates(0.0, np.full(model.size, np.nan))),
             ("g: has 3 components", lambda: make(x, externals=[spam.Gravity([0, 0, 1])])),
         ]:
@@ -296,6 +314,10 @@ class WrongInput(unittest.TestCase):
             ("integrator|method", lambda: make(method="rk5")),
             ("dt", lambda: make(method="rk4")),
             ("dt: is no number", lambda: make(dt="much")),
+            ("rtol: dt asks for fixed steps", lambda: make(dt=0.1, rtol=1e-3)),
+            ("max_step: dt asks for fixed steps", lambda: make(dt=0.1, max_step=0.01)),
+            ("safety: gsl:rk8pd has its own step-size control", lambda: make(method="gsl:rk8pd", safety=0.3)),
+            ("controller: cvode:adams has its own", lambda: make(method="cvode:adams", controller="pi")),
             ("dt", lambda: make(dt=-0.1)),
             ("'rtoll' is no option of an integrator; did you mean rtol", lambda: make(dt=0.1, rtoll=1)),
             ("max_steps: 0", lambda: make(dt=0.1, max_steps=0)),

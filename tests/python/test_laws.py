@@ -152,6 +152,25 @@ class Defaults(unittest.TestCase):
                 rates.append(model.rates(0.0, model.start(v)))
             np.testing.assert_array_equal(*rates)
 
+    def test_scales_of_bonds_are_in_their_units(self):
+        """As many steps in every unit of length, which is a power of two, on lines, in planes and in space."""
+        for n in (1, 2, 3):
+            x = spam.square_lattice([4] * n) if n > 1 else spam.square_lattice([12])
+            v = 0.05 * np.sin(1.0 + np.arange(x.size)).reshape(x.shape)
+            for make in (lambda L: spam.Springs(x * L, kappa=0.7, spacing=L),
+                         lambda L: spam.Molecules(x * L, energy=0.7 * L**2, spacing=L)):
+                steps = set()
+                for L in (1.0, 2.0**10, 2.0**-10):
+                    sim = spam.Simulation(make(L), velocity=v * L, method="arkode:DORMAND_PRINCE_7_4_5")
+                    sim.run(10.0)
+                    steps.add(sim.statistics["steps"])
+                self.assertEqual(len(steps), 1, (n, steps))
+
+    def test_a_box_may_be_an_array(self):
+        x = spam.square_lattice([12, 12])
+        for make in (spam.SmoothParticles, spam.TotalLagrangian, spam.Springs, spam.Molecules):
+            self.assertEqual(len(make(x, box=np.array([12.0, 12.0]))), 144)
+
     def test_ranges_are_three_spacings(self):
         """In a unit of length eight times as long stress has the same rate, and accelerations are an eighth."""
         x = spam.triangular_hexagon(4)
@@ -211,6 +230,12 @@ class OneTemperature(unittest.TestCase):
 
 
 class Forces(unittest.TestCase):
+    def test_a_start_with_functions_in_several_threads(self):
+        x = spam.square_lattice([40, 40])
+        model = spam.SmoothParticles(x, material=spam.Fluid(spam.IdealGas()),
+                                     externals=[spam.Force(lambda t, x, v: 0.0 * x)])
+        self.assertEqual(spam.Simulation(model, dt=0.1, threads=2).step(), 0.1)
+
     def test_a_spring_to_the_origin(self):
         x, v = rotation(3)
         force = spam.Force(lambda t, x, v: -0.01 * x)

@@ -2,7 +2,11 @@
 """What read() finds in a result folder."""
 import csv
 import importlib.util
+import os
+import pathlib
+import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import spam_mechanics as spam
@@ -136,6 +140,17 @@ class Run(unittest.TestCase):
         for name, word in [("hexagon", "no problem 'hexagon'"), ("../drop", "no name of a problem")]:
             with self.assertRaisesRegex(spam.InputError, word):
                 spam.run(name)
+
+    def test_a_program_that_is_killed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for signal, error in (("SEGV", RuntimeError), ("KILL", RuntimeError), ("INT", KeyboardInterrupt)):
+                file = pathlib.Path(folder) / "killed"
+                file.write_text(f"#!/bin/sh\nkill -{signal} $$\n")
+                file.chmod(0o755)
+                with unittest.mock.patch.dict(os.environ, SPAM_PROBLEMS=folder), self.assertRaises(error) as caught:
+                    spam.run("killed")
+                if error is RuntimeError:
+                    self.assertIn("SIG" + signal, str(caught.exception))
 
     def test_a_guard(self):
         program("rotating_hexagon")

@@ -45,6 +45,14 @@ class Runs(unittest.TestCase):
         for column in run.names:
             np.testing.assert_array_equal(run[column], case.invariants[column][out], column)
 
+    def test_a_function_of_python_acts_in_several_threads(self):
+        x = spam.square_lattice([40, 40])
+        model = spam.SmoothParticles(x, material=spam.Fluid(spam.GammaGas(2.0)), scheme=spam.Scheme(**summed),
+                                     externals=[spam.Force(lambda t, x, v: 0.0 * x)])
+        sim = spam.Simulation(model, velocity=0.4 * (x - x.mean(axis=0)), temperature=0.05, dt=0.05, threads=2)
+        run = sim.run(1.0, every=0.5, rezone=spam.Rezoning(0.5, volume=(1.2, 0.3)))
+        self.assertGreater(run["splits"][-1], 0)
+
     def test_what_is_kept_and_what_changes(self):
         model, sim = square()
         before, seen = sim.state.position, []

@@ -316,7 +316,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_left_out_of_bonds_is_seen, In, PartsIn) {
     Reached found;
     try {
         found = in_parts<Dim>(2, make, {}, long_steps, Wrong::images);
-    } catch (const GuardStop&) {  // it has none of the bytes
+    } catch (const GuardStop&) {         // it has none of the bytes
+    } catch (const std::logic_error&) {  // nor here, where other pairs are bonded in either part
     }
     BOOST_TEST(different_bytes(found, right) > 0U);
 }

@@ -81,6 +81,29 @@ BOOST_AUTO_TEST_CASE(a_chain_of_springs) {
     }
 }
 
+// No length or force has a unit of its own.
+BOOST_AUTO_TEST_CASE(a_chain_of_springs_in_other_units) {
+    for (const double L : {1e-9, 1e6})
+        for (const double f : {1e-12, 1e9}) {  // of forces
+            const double kappa = 0.7 * f / L;
+            ParticleModel<2> model(make_particles<2>(square_lattice<2>({9, 1}, L), 1.0, L));
+            model.add_term<Springs<2>>(HarmonicSpring{kappa, L});
+            const auto x = model.particles().reference_position.row(0);
+            Eigen::Index last = 0;
+            x.maxCoeff(&last);
+            model.add(std::make_unique<Pull>(static_cast<std::size_t>(last), 0.05 * f, 0.0));
+            const auto y = initial_state<2>(model, 1.0, 1.0, at_rest<2>());
+            std::vector<bool> held;
+            for (const double at : x) held.push_back(at < x.minCoeff() + 0.5 * L);
+            const Equilibrium rest = equilibrium<2>(model, y, held, 1e-11 * f);
+            BOOST_TEST(rest.largest_force < 1e-11 * f);
+            const auto at = ConstState<2>(model.layout(), rest.y).position();
+            BOOST_TEST(
+                (at.row(0).maxCoeff() - at.row(0).minCoeff()) / L == 8.0 * (1.0 + 0.05 / 0.7),
+                boost::test_tools::tolerance(1e-9));
+        }
+}
+
 // A chain held at one end: omega^2 = 4 K sin^2((2j - 1) pi/(4 n + 2)), K = kappa along it and F by the length of a
 // drawn link across it, which the tension alone keeps straight.
 BOOST_AUTO_TEST_CASE(modes_of_a_chain_under_tension) {

@@ -178,6 +178,16 @@ BOOST_AUTO_TEST_CASE(shares_of_the_leading_tangent) {
     BOOST_TEST(found.windows.size() == times.size());
 }
 
+// Intervals are shorter than asked for where the duration would have too few of them.
+BOOST_AUTO_TEST_CASE(short_spectra_have_windows_and_errors) {
+    SoftDisks disks(3);
+    const auto found =
+        lyapunov_spectrum<2>(disks.model, disks.y, {.method = "leapfrog", .dt = 0.005},
+                             {.duration = 1.0, .interval = 0.1, .window = 0.5, .discarded = 0.6});
+    BOOST_TEST(found.windows.size() == 2U);
+    BOOST_TEST(std::isfinite(found.errors.front()));
+}
+
 // A bath takes volume of phase space away: the sum of all exponents is the mean trace of J.
 BOOST_AUTO_TEST_CASE(the_sum_of_exponents_is_the_trace) {
     SoftDisks disks(3);

@@ -87,6 +87,7 @@ def work_precision(f, y0, t_end, *, methods=("rk4", "arkode:DORMAND_PRINCE_7_4_5
     a guard stops are left out. Returns a WorkPrecision.
     """
     known = _core.methods()
+    methods = [m.replace("arkode:ARKODE_", "arkode:", 1) if isinstance(m, str) else m for m in methods]
     steps = [round(16 * 2 ** (k / 2)) for k in range(13)] if steps is None else list(steps)
     tolerances = [10.0**-k for k in range(2, 12)] if tolerances is None else list(tolerances)
     for method in methods:

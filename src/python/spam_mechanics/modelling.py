@@ -29,7 +29,7 @@ def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, sp
     """
     material = ElasticSolid.triangular_lattice() if material is None else material
     return smooth_particles(x, material, Scheme() if scheme is None else scheme, mass,
-                            _density(density, mass, spacing, x, box), spacing, list(box or ()), list(externals))
+                            _density(density, mass, spacing, x, box), spacing, _periods(box), list(externals))
 
 
 def TotalLagrangian(x, *, material=None, density=None, range=None, penalty=0.1, kernel="lucy", viscosity=0.0,
@@ -57,9 +57,10 @@ def Springs(x, *, kappa=1.0, rest_length=None, closest_approach=0.0, mass=1.0, s
     """Molecular dynamics: harmonic springs kappa between neighbours nearer than 1.2 spacings in x (N, D);
     closest_approach as of Scheme."""
     rest_length = spacing if rest_length is None else rest_length
-    return remembering(x, "springs", ElasticSolid.triangular_lattice(kappa), kappa, rest_length, mass,
+    like = _of_bonds(lambda: kappa * spacing**2, spacing, x)
+    return remembering(x, "springs", like, kappa, rest_length, mass,
                        _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
-                       list(box or ()), list(externals))
+                       _periods(box), list(externals))
 
 
 def Elements(x, corners, *, material=None, density=1.0, which=None, temperature=0.0, hourglass_viscosity=0.0,
@@ -86,6 +87,19 @@ def Elements(x, corners, *, material=None, density=1.0, which=None, temperature=
     return elements(x, _whole("corners", corners, (-1, 4)), materials,
                     [] if which is None else _whole("which", which, (-1,)), spacing, list(externals),
                     _whole("held_x", held_x, (-1,)), _whole("held_y", held_y, (-1,)))
+
+
+def _periods(box):
+    return [] if box is None else list(box)
+
+
+def _of_bonds(energy, length, x):
+    """The solid whose moduli, energies by volume, are those of bonds: what scales of fields are taken from."""
+    try:
+        modulus = float(energy()) / float(length) ** np.shape(x)[1]
+    except (IndexError, TypeError, ValueError, ArithmeticError):
+        modulus = 1.0  # what is wrong with them is said where the model is made
+    return ElasticSolid.triangular_lattice(modulus if modulus > 0 else 1.0)
 
 
 def _one_each(name, given, several):
@@ -124,9 +138,10 @@ def Molecules(x, *, energy=1.0, length=None, closest_approach=0.0, mass=1.0, spa
     """Molecular dynamics: all pairs of x (N, D) repel each other below `length` (default: spacing) and attract each
     other up to sqrt(2) of it, energy (q^8 - 2 q^4) with q = 2 - r^2/length^2, [HH07] 13; others as of Springs()."""
     length = spacing if length is None else length
-    return remembering(x, "molecules", ElasticSolid.triangular_lattice(), energy, length, mass,
+    like = _of_bonds(lambda: energy, length, x)
+    return remembering(x, "molecules", like, energy, length, mass,
                        _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
-                       list(box or ()), list(externals))
+                       _periods(box), list(externals))
 
 
 def molecular_fields(model, state, places, *, kernel="lucy", range=None):
@@ -147,7 +162,7 @@ def _solid(kind, x, material, density, range, penalty, kernel, viscosity, closes
     material = ElasticSolid.triangular_lattice() if material is None else material
     return remembering(x, kind, material, 1.0, 1.0, mass, _density(density, mass, spacing, x, box),
                        3.0 * spacing if range is None else range, penalty, kernel, viscosity, closest_approach,
-                       spacing, list(box or ()), list(externals))
+                       spacing, _periods(box), list(externals))
 
 
 def _density(density, mass, spacing, x, box):
@@ -172,7 +187,7 @@ def _is_triangular(x, spacing, box):
     """Whether one of 64 particles, spread over x, has six neighbours within 1.2 spacings in the plane."""
     if x.shape[1] != 2 or len(x) == 0:
         return False
-    periods = np.array([float(length) or np.inf for length in box or (0.0, 0.0)])
+    periods = np.array([float(length) or np.inf for length in _periods(box) or (0.0, 0.0)])
     golden = (math.sqrt(5.0) - 1.0) / 2.0  # no step through rows and columns
     some = np.unique((np.arange(64) * golden % 1.0 * len(x)).astype(int)) if len(x) > 64 else np.arange(len(x))
     for k in some:

@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 
 from .errors import GuardStop, InputError, OutputError, SetUpError, one_line
@@ -48,7 +49,7 @@ def _arguments(options):
         elif isinstance(value, (list, tuple)):
             arguments += [flag, ",".join(str(one) for one in value)]
         else:
-            arguments += [flag, repr(value) if isinstance(value, float) else str(value)]
+            arguments += [flag, repr(float(value)) if isinstance(value, float) else str(value)]
     return arguments
 
 
@@ -66,8 +67,10 @@ def _ends(problem, status, text):
         raise OutputError(line)
     if status == 5:
         raise SetUpError(line)
-    if status in (130, 143) or status < 0:
+    if status in (129, 130, 143, -signal.SIGHUP, -signal.SIGINT, -signal.SIGTERM):
         raise KeyboardInterrupt
+    if status < 0:
+        line = f"{problem} was ended by signal {-status} ({signal.Signals(-status).name})"
     raise RuntimeError(line)
 
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 namespace spam {
@@ -60,6 +61,8 @@ class OtherPartners {
         const auto received = parts.exchange(std::move(messages), Parts::Content::images);
         for (std::size_t p = 0; p < parts.count(); ++p) {
             const auto theirs = Parts::values_of<Value>(received[p]);
+            if (theirs.size() != taken[p].size())
+                throw std::logic_error("parts disagree on what they exchange");
             for (std::size_t n = 0; n < taken[p].size(); ++n) take(taken[p][n], theirs[n]);
         }
     }
