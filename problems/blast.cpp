@@ -41,8 +41,8 @@ void report(Session& session, const Parameters& p, const Gas& gas, const RunReco
     const double t = run.statistics.t_end, R = gas.radius(t);
     const bool known = session.when_default({"gamma", "radius", "finer", "viscosity", "density",
                                              "kernel", "range"}) &&
-                       p.scheme.work == Work::own && p.ratio >= 1e4 && run.complete && R > 0.6 &&
-                       R < 0.9;
+                       session.when_default(p.sides->names()) && p.scheme.work == Work::own &&
+                       p.ratio >= 1e4 && run.complete && R > 0.6 && R < 0.9;
     // A weight that is steep at its edge may leave no peak to follow: no failure where nothing is claimed.
     const bool claimed = known && gas.cells >= 48;
     if (const double found = front(*gas.model, run.y); claimed || std::isfinite(found))

@@ -88,7 +88,8 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Drop& drop) {
     using State = std::span<const double>;
     Plan<2> plan;
     plan.t_end = session.end(3.0 / drop.rate, 0.15 / drop.rate);
-    if (p.compare) plan.step = step_of(drop.rate);
+    if (p.compare)
+        plan.step = step_of(drop.rate) * step_of_short_range(p.range, Parameters{}.range);
     plan.record(
         {{"pieces",
           [](const Model<2>& model, State y) {

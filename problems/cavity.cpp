@@ -155,8 +155,8 @@ void draw(Session& session, const Parameters& p, const std::vector<Flow>& flows,
 void run(Session& session, const Parameters& p) {
     auto flows = by_size(p.cells, p.compare,
                          [&](int cells) { return make_flow(p, cells, session.common().dry_run); });
-    const int fewest = static_cast<int>(flows.front().L);
-    session.prefer_step(stirred::step_of(p, p.viscosity(fewest), flows.front().model->box()));
+    const int most = static_cast<int>(flows.back().L);
+    session.prefer_step(stirred::step_of(p, p.viscosity(most), flows.back().model->box()));
     const auto runs =
         run_all(session, flows, [&](Flow& flow) { return plan_of(session, p, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);

@@ -129,7 +129,9 @@ int main(int argc, char** argv) {
         for (std::size_t k = 0; k < runs.size(); ++k) {
             const History& h = runs[k].history;
             const Scheme& scheme = pairs[k].model->scheme();
-            const bool kept = scheme.balance == Balance::body &&
+            const auto& steps = session.integrator();
+            const bool kept = steps.method == "rk4" && steps.dt.value_or(HUGE_VAL) <= 0.25 &&
+                              scheme.balance == Balance::body &&
                               scheme.angular_momentum != AngularMomentum::gauss;
             const double tolerance = scheme.angular_momentum == AngularMomentum::torque_pair &&
                                              scheme.transport != Transport::plain

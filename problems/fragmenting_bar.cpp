@@ -71,11 +71,20 @@ Plan<2> plan_of(const Session& session, const Parameters& p, Bar& bar, double ro
                           breaking::piece_sizes(m, y, least_particles).size());
                   }}});
     BodyLedger& ledger = *bar.ledger;
-    plan.observe({.revise =
-                      [&ledger, row_interval](double t, Model<2>& m, std::span<double> y) {
-                          return ledger.find_bodies(t, m, y, row_interval);
-                      },
-                  .memory = [&ledger](Archive& archive) { archive(ledger); }});
+    plan.observe(
+        {.revise = [&ledger, row_interval](
+                       double t, Model<2>& m,
+                       std::span<double> y) { return ledger.find_bodies(t, m, y, row_interval); },
+         .memory =
+             [&ledger, row_interval](Archive& archive) {
+                 double interval = row_interval;
+                 archive(interval, ledger);
+                 if (interval < row_interval)  // until then others may have come too near
+                     throw InputError(fmt::format(
+                         "output-every: {:g}, but bodies have been looked for every {:g} so far, far "
+                         "enough ahead for that; give no more",
+                         row_interval, interval));
+             }});
     bar.drawn = p.compare ? states_at<2>({0.2, 0.5}, plan.t_end)
                           : states_at<2>({0.0, 0.15, 0.5, 1.0}, plan.t_end);
     plan.observe(keep_nearest<2>(bar.drawn));
@@ -110,7 +119,7 @@ void compute(Session& session, const Parameters& p) {
         bars = compared(p, session.scheme());
     else
         bars.push_back(make_bar(p, session.scheme(), p.vectors()));
-    for (Bar& bar : bars) bar.ledger->find_bodies(0.0, *bar.model, bar.y0, row_interval);
+    for (Bar& bar : bars) bar.ledger->find_bodies(0.0, *bar.model, bar.y0, 0.0);
     const auto runs =
         run_all(session, bars, [&](Bar& bar) { return plan_of(session, p, bar, row_interval); });
     for (std::size_t k = 0; k < runs.size(); ++k) {

@@ -149,7 +149,8 @@ void report(Session& session, const Parameters& p, const Experiment& e, const Ru
     const bool mixed = p.speed >= 0.1;
     if (found.rounding && found.moved)
         findings.claim("divergence_rate", found.rounding->slope, found.moved->slope,
-                       0.15 * found.moved->slope, "rounding grows at the Lyapunov exponent", mixed);
+                       0.15 * found.moved->slope, "rounding grows at the Lyapunov exponent",
+                       mixed && p.perturbation <= 1e-6);
 }
 
 Curve fitted(const History& h, const char* column, const std::optional<LineFit>& fit, int like) {

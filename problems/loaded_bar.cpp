@@ -132,6 +132,10 @@ void report_modes(Session& session, RunStatistics& statistics, Bar& bar, int cou
 
 void compute(Session& session, const Parameters& p) {
     Bar bar = make_bar(p);
+    const auto free = 2 * std::count(bar.held.begin(), bar.held.end(), false);
+    if (p.modes > free)
+        refuse("modes: {} is more than the {} motions of the free particles; give fewer", p.modes,
+               free);
     RunStatistics& statistics =
         session.begin_analysis({fmt::format("bar         {} x {} particles, load {:g} in {} steps",
                                             p.columns, p.rows, p.load, p.steps)});
@@ -155,7 +159,8 @@ void compute(Session& session, const Parameters& p) {
     statistics.rhs_evaluations += evaluations;
     const Findings findings(session);
     const double tip = bar.tip(bar.y);
-    const bool known = p.columns == 40 && p.rows == 6 && p.load == 0.002;
+    const bool known =
+        p.columns == 40 && p.rows == 6 && p.load == 0.002 && p.tolerance == Parameters{}.tolerance;
     findings.claim("tip", tip, 0.23645, 1e-5, "another program", known);
     findings.check("largest_force", rest.largest_force, 0.0, p.tolerance, "as asked for");
     findings.claim("newton_steps", static_cast<double>(rest.newton_steps), 0.0, 6.0, "at most",
@@ -179,7 +184,8 @@ void compute(Session& session, const Parameters& p) {
                        static_cast<double>(evaluations) / static_cast<double>(best.rhs_evaluations),
                        0.0, 0.4, "right-hand sides by those of the best friction",
                        known && p.steps == 1);
-        findings.check("damped_tip", best.tip, tip, 1e-4, "the equilibrium");
+        findings.claim("damped_tip", best.tip, tip, 1e-4, "the equilibrium",
+                       p.tolerance <= Parameters{}.tolerance);
     }
     if (session.plots()) {
         CurvePanel panel =

@@ -123,7 +123,7 @@ void report_periods(Session& session, const Parameters& p, const Ringing<Dim>& o
             one.transverse() ? 0.2 : 8.0,
             "measured with five seeds, by the size A of the perturbation",
             // a longitudinal wave by itself ends before its neighbours have parted
-            run.complete && *p.perturb <= 1e-3 &&
+            run.complete && std::isfinite(run.history.largest("distance")) && *p.perturb <= 1e-3 &&
                 (one.transverse() || !session.given("polarization")) &&
                 session.when_default({"cells", "amplitude", "dimension", "t-end", "kernel", "range",
                                       "transport", "density", "mean-density", "angular-momentum",
@@ -184,6 +184,7 @@ void compare_sizes(Session& session, const std::vector<Ringing<Dim>>& all,
     CurvePanel panel{"period against linear elasticity", "k²", "T / T_continuum - 1", false, {}};
     for (const auto polarization : {Polarization::transverse, Polarization::longitudinal}) {
         std::vector<double> k, k2, error, falling;
+        bool measured = true;  // as many zeros as a period takes, in every run
         for (std::size_t n = 0; n < runs.size(); ++n) {
             const Ringing<Dim>& one = all[n];
             if (one.wave.polarization != polarization) continue;
@@ -191,6 +192,7 @@ void compare_sizes(Session& session, const std::vector<Ringing<Dim>>& all,
             const double period = period_of_zeros(h.column("t"), h.column("wave_velocity"));
             // Sums in place of integrals err for the longest waves too: only the rest can fall.
             const double limit = one.wave.frequency() * 1e-3 / one.omega_lattice(1e-3) - 1.0;
+            measured = measured && period > 0.0;
             k.push_back(one.wave.k);
             k2.push_back(one.wave.k * one.wave.k);
             error.push_back(period / one.period_continuum() - 1.0);
@@ -198,8 +200,9 @@ void compare_sizes(Session& session, const std::vector<Ringing<Dim>>& all,
         }
         if (k.size() < 3) continue;
         const std::string name(to_string(polarization));
-        session.check({name + "_error_order", observed_order(k, falling), 2.0, 0.2,
-                       "sums over neighbours smooth a wave by (k h)^2"});
+        session.claim({name + "_error_order", observed_order(k, falling), 2.0, 0.2,
+                       "sums over neighbours smooth a wave by (k h)^2"},
+                      measured);
         session.measure(name + "_error_of_long_waves", error[0] - falling[0]);
         panel.curves.push_back({name, k2, error});
     }

@@ -180,7 +180,7 @@ void report(Session& session, const Star& one, const RunRecord& rest, const RunR
     const Findings findings(session, one.prefix);
     const bool known = rest.complete && !session.common().smoke && one.y0.size() >= 6 * 1200 &&
                        session.at_default({"kernel", "range", "softening", "damping",
-                                           "relaxation-time", "amplitude", "periods"});
+                                           "relaxation-time", "amplitude", "periods", "t-end"});
     const auto [W, U] = energies_of(one, rest.y);
     const std::string source = "exact";
     findings.claim("density_error", profile_of(one, rest.y).error, 0.0, 0.03,

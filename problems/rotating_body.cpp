@@ -101,8 +101,9 @@ void report_flips(Session& session, const Parameters& p, const Body& body, const
     const Findings findings(session, body.prefix);
     const auto times = flips(run.history);
     const bool lagrangian = (p.solid.lagrangian() || p.compare) && body.smooth == nullptr;
-    const bool known = lagrangian && run.complete && !session.common().smoke &&
-                       session.at_default({"size", "range", "penalty", "kernel", "turns"});
+    const bool known = lagrangian && run.complete && !session.common().smoke && body.speed <= 0.1 &&
+                       resolves(run.history.column("t"), 2.0 * body.top().quarter()) &&
+                       session.at_default({"size", "range", "penalty", "kernel", "turns", "t-end"});
     findings.claim("flips", static_cast<double>(times.size()), 3.0, 0.0, "of a rigid block", known);
     for (std::size_t k = 0; k < times.size(); ++k)
         findings.measure(fmt::format("flip_{}", k + 1), times[k] * body.omega[1],
@@ -139,7 +140,7 @@ void compute(Session& session, const Parameters& p) {
                                    p.solid.lagrangian() ? of_lagrangian : of_updated));
         // L by it is conserved to round-off, for a quarter of the right-hand sides.
         if (p.solid.remembers() && undamped(of_lagrangian))
-            session.prefer_leapfrog(step_of_leapfrog(speed));
+            session.prefer_leapfrog(step_of_leapfrog(speed) * p.solid.relative_step());
         else if (p.block())
             session.prefer_step(0.1);
     }

@@ -45,6 +45,12 @@ struct SolidChoice {
         return penalty.value_or(lagrangian() ? 0.1 : MaterialVectorScheme::default_penalty);
     }
 
+    /// By what a step for the usual penalty is multiplied: a larger one is stiffer.
+    double relative_step() const {
+        if (lagrangian()) return relative_step_of_strength(1.0 + kappa(), 1.0 + 0.1);
+        return vectors() ? relative_step_of_strength(kappa(), MaterialVectorScheme::default_penalty)
+                         : 1.0;
+    }
     double alpha() const { return viscosity.value_or(remembers() ? 0.0 : usual_viscosity); }
     bool damped() const { return alpha() > 0.0; }
 

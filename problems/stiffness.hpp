@@ -16,6 +16,11 @@ inline double relative_step(const ContactScheme& one, const ContactScheme& usual
     return std::min(1.0, one.range / usual.range * std::sqrt(usual.energy / one.energy));
 }
 
+/// The same for a strength (an energy) that is usually this.
+inline double relative_step_of_strength(double strength, double usual) {
+    return strength > usual ? std::sqrt(usual / strength) : 1.0;
+}
+
 /// The same where something meets with this speed, and usually with no more than that.
 inline double relative_step(double speed, double usual) { return std::min(1.0, usual / speed); }
 

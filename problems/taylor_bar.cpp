@@ -58,12 +58,16 @@ Plan<3> plan_of(const Session& session, const Parameters& p, const Bar& bar,
     return plan;
 }
 
+/// Whether it is the bar of the elements.
+bool is_known(const Session& session, const RunRecord& run) {
+    return session.when_default({"aspect", "radius", "speed", "young", "yield-stress", "hardening",
+                                 "poisson", "density", "range", "penalty"}) &&
+           run.complete && run.statistics.t_end >= 79.0;
+}
+
 void report(Session& session, const Bar& bar, const RunRecord& run) {
     const Findings findings(session, bar.prefix);
-    const bool known =
-        session.when_default({"aspect", "radius", "speed", "young", "yield-stress", "hardening",
-                              "poisson", "density", "range", "penalty"}) &&
-        run.complete && run.statistics.t_end >= 79.0 && bar.spacing <= 0.65;
+    const bool known = is_known(session, run) && bar.spacing <= 0.65;
     findings.claim("length", run.history.last("length"), known_length, 0.02 * known_length,
                    elements, known);
     findings.claim("foot", run.history.last("foot"), known_foot, 0.06 * known_foot, elements,
@@ -82,9 +86,13 @@ void draw(Session& session, const std::vector<Drawn>& drawn, const RunRecord& ru
             {fmt::format("t = {:.3g} µs", one.t), one.section.position, one.section.strain, {}});
     draw_configurations(
         session, "plastic_strain",
-        fmt::format("Taylor's bar, a section: length {:.2f} mm (elements {:.2f}), foot {:.2f} mm "
-                    "(elements {:.2f})",
-                    run.history.last("length"), known_length, run.history.last("foot"), known_foot),
+        is_known(session, run)
+            ? fmt::format(
+                  "Taylor's bar, a section: length {:.2f} mm (elements {:.2f}), foot {:.2f} mm "
+                  "(elements {:.2f})",
+                  run.history.last("length"), known_length, run.history.last("foot"), known_foot)
+            : fmt::format("Taylor's bar, a section: length {:.2f} mm, foot {:.2f} mm",
+                          run.history.last("length"), run.history.last("foot")),
         panels, panels.size(), "plastic strain");
 }
 
@@ -117,7 +125,8 @@ void compute(Session& session, const Parameters& p) {
         return plan_of(session, p, bar, drawn[static_cast<std::size_t>(&bar - bars.data())]);
     });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, bars[k], runs[k]);
-    if (runs.size() == bars.size() && p.compare) compare(session, bars, runs);
+    if (runs.size() == bars.size() && p.compare && is_known(session, runs.back()))
+        compare(session, bars, runs);
     if (session.plots() && runs.size() == bars.size()) draw(session, drawn.back(), runs.back());
 }
 

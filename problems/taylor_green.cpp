@@ -69,7 +69,7 @@ void run(Session& session, const Parameters& p) {
     std::vector<Flow> flows = flows_of(p);
     // Disorder goes away fast at first.
     session.prefer_step((p.disorder > 0.0 ? 0.25 : 1.0) *
-                        stirred::step_of(p, flows.front().exact.nu, flows.front().model->box()));
+                        stirred::step_of(p, flows.back().exact.nu, flows.back().model->box()));
     const auto runs = run_all(session, flows, [&](Flow& flow) { return plan_of(session, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, p, flows[k], runs[k]);
     if (p.compare && flows.front().known)

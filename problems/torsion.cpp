@@ -99,7 +99,8 @@ void compute(Session& session, const Parameters& p) {
     std::vector<Bar> bars;
     for (const int n : p.compare ? std::vector{4, 6, 8} : std::vector{p.columns})
         bars.push_back(make_bar(p, scheme, n));
-    if (p.solid.remembers() && undamped(scheme)) session.prefer_leapfrog(0.4);
+    if (p.solid.remembers() && undamped(scheme))
+        session.prefer_leapfrog(0.4 * p.solid.relative_step());
     const auto runs = run_all(session, bars, [&](Bar& bar) {
         Plan<3> plan;
         plan.t_end = session.common().t_end.value_or(p.periods * 2.0 * std::numbers::pi /
@@ -121,7 +122,8 @@ void compute(Session& session, const Parameters& p) {
         const double error = 100.0 * (2.0 * std::numbers::pi / T / bars[k].saint_venant() - 1.0);
         sizes.push_back(1.0 / bars[k].columns);
         errors.push_back(std::abs(error));
-        const auto other = usual && runs[k].complete ? known(p, bars[k].columns) : std::nullopt;
+        const bool told = usual && runs[k].complete && resolves(h.column("t"), T);
+        const auto other = told ? known(p, bars[k].columns) : std::nullopt;
         findings.check("frequency_error_percent", error, other, p.solid.lagrangian() ? 1.0 : 1.5,
                        "of Saint-Venant's; expected: another program");
         if (!p.solid.lagrangian()) continue;
@@ -129,7 +131,7 @@ void compute(Session& session, const Parameters& p) {
             100.0 *
             (std::sqrt(rigidity_of_columns(bars[k].columns, scheme.kernel, scheme.range)) - 1.0);
         findings.claim("less_than_derived_percent", error - derived, 0.0, 0.5,
-                       "derived for columns (torsion/section.hpp)", usual && runs[k].complete);
+                       "derived for columns (torsion/section.hpp)", told);
     }
     if (p.compare && errors.size() == 3)
         session.measure("order", observed_order(sizes, errors), "of the error with the spacing");

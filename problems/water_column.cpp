@@ -249,8 +249,10 @@ int main(int argc, char** argv) {
         session.smoke_default("relaxation-time", p.relaxation_time, 8.0);
         refuse_impossible(p);
         const Parameters usual;
-        session.prefer_step(0.025 *
-                            relative_step({p.core, p.core_range}, {usual.core, usual.core_range}));
+        session.prefer_step(
+            0.025 * std::min(relative_step({p.core, p.core_range}, {usual.core, usual.core_range}),
+                             relative_step_of_strength(1.0 + p.surface_tension,
+                                                       1.0 + usual.surface_tension)));
         compute(session, p);
     });
 }

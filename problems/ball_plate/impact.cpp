@@ -69,9 +69,7 @@ double step_of(const Parameters& p) {
     double step = molecules ? 0.0025 : kind == MatterKind::embedded_atom ? 0.0125 : 0.05;
     const Parameters usual;
     if (const auto contact = p.repulsion()) step *= relative_step(*contact, usual.contact);
-    if (!molecules && kind != MatterKind::elements)
-        step *= relative_step({p.matter.core, p.matter.core_range},
-                              {usual.matter.core, usual.matter.core_range});
+    step *= breaking::relative_step(p.matter);
     return step * (p.compare ? 1.0 : relative_step(p.speed, molecules ? 20.0 : 2.0));
 }
 

@@ -77,8 +77,9 @@ void report_elements(Session& session, const Parameters& p, const Impact<2>& imp
     const Findings findings(session, impact.prefix);
     const History& h = run.history;
     const bool known =
-        run.complete && session.when_default({"radius", "columns", "rows", "gap", "contact",
-                                              "yield-stress", "hardening"});
+        run.complete &&
+        session.when_default({"radius", "columns", "rows", "gap", "contact", "contact-energy",
+                              "contact-range", "yield-stress", "hardening"});
     const KnownElements* found = nullptr;
     for (const KnownElements& one : known_elements)
         if (one.speed == impact.speed && one.ends == p.ends &&

@@ -55,6 +55,24 @@ Material<Dim> yielding_solid(const Matter& matter) {
         failure);
 }
 
+}  // namespace
+
+double relative_step(const Matter& matter) {
+    const Matter usual;
+    double step = 1.0;
+    if (matter.kind != MatterKind::pair_md && matter.kind != MatterKind::elements)
+        step *=
+            spam::relative_step({matter.core, matter.core_range}, {usual.core, usual.core_range});
+    if (matter.kind == MatterKind::embedded_atom)
+        step *= std::min(relative_step_of_strength(matter.strength, usual.strength),
+                         relative_step_of_strength(matter.surface_tension, usual.surface_tension));
+    if (matter.kind == MatterKind::material_vectors)
+        step *= relative_step_of_strength(matter.penalty, usual.penalty);
+    return step;
+}
+
+namespace {
+
 FlowingSolid flowing_solid(const Matter& matter) {
     const double yield_stress = matter.yield_stress.value_or(usual_yield_stress);
     return {PolynomialSolid::like(ElasticSolid::triangular_lattice()), yield_stress,

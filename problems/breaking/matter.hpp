@@ -61,6 +61,9 @@ void disturb(Points<Dim>& position, const Matter& matter) {
     displace(position, matter.disorder, matter.seed);
 }
 
+/// By what a step that resolves the usual constants is multiplied for these (stiffness.hpp).
+double relative_step(const Matter& matter);
+
 /// Bodies one after the other, stored in this order. With `contact` they act on each other by that alone,
 /// else as particles of one body do. Throws InputError where the constants make no sense.
 template <int Dim = 2>

@@ -84,7 +84,14 @@ Observer<2> CentreLine::observer(bool known) {
              [this](const Model<2>&, std::span<const double>) { return off_ghia(latest_); }},
             {"off_converged_now",
              [this](const Model<2>&, std::span<const double>) { return off_converged(latest_); }}};
-    observer.memory = [this](Archive& archive) { archive(sum_, rows_); };
+    // A run that goes on to a later end takes its mean over a later part.
+    observer.memory = [this](Archive& archive) {
+        double since = since_;
+        archive(since, sum_, rows_);
+        if (since == since_) return;
+        sum_.assign(heights_.size(), 0.0);
+        rows_ = 0;
+    };
     return observer;
 }
 

@@ -110,7 +110,7 @@ void run(Session& session, const Parameters& p, Drive drive) {
     for (int a = 0; a < 2; ++a)
         for (const bool upper : {false, true})
             rigid = rigid || box.wall(a, upper).kind == WallKind::rigid;
-    session.prefer_step(std::min(rigid ? 0.125 : 0.25, 0.4 / flows.front().exact.nu));
+    session.prefer_step(std::min(rigid ? 0.125 : 0.25, 0.4 / flows.back().exact.nu));
     const auto runs = run_all(session, flows, [&](Flow& flow) { return plan_of(session, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
     if (runs.size() == 3 && flows.front().known)

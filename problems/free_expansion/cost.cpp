@@ -39,16 +39,19 @@ std::vector<Gas<Dim>> gases_of(const Parameters& p, bool smoke) {
     return gases;
 }
 
-void draw_cost(Session& session, const LogLogCurve& seconds, int dim) {
+void draw_cost(Session& session, const Parameters& p, const LogLogCurve& seconds) {
     LogLogCurve linear{1, true, seconds.x, {}};
     for (const double n : seconds.x) linear.y.push_back(seconds.y.back() * n / seconds.x.back());
-    draw_log_log(session, "cost",
-                 {"What a unit of time costs",
-                  {{"", "particles", "processor seconds", {seconds, linear}}},
-                  1,
-                  {"measured", "proportional to N"},
-                  dim == 3 ? "RK4, dt = 0.2: 20 right-hand sides; Lucy's weight, h = 4"
-                           : "RK4, dt = 0.25: 16 right-hand sides; Lucy's weight, h = 6"});
+    draw_log_log(
+        session, "cost",
+        {"What a unit of time costs",
+         {{"", "particles", "processor seconds", {seconds, linear}}},
+         1,
+         {"measured", "proportional to N"},
+         fmt::format(
+             "{}{}; weight {}, h = {:g}", session.integrator().method,
+             session.integrator().dt ? fmt::format(", dt = {:g}", *session.integrator().dt) : "",
+             p.kernel, p.range)});
 }
 
 }  // namespace
@@ -86,7 +89,7 @@ void measure_cost(Session& session, const Parameters& p) {
         session.measure(gases[k].prefix + "nanoseconds_per_pair", 1e9 * seconds * s.t_end / pairs);
         add_point(curve, n, seconds);
     }
-    if (session.plots()) draw_cost(session, curve, Dim);
+    if (session.plots()) draw_cost(session, p, curve);
 }
 
 template void measure_cost<2>(Session&, const Parameters&);

@@ -71,8 +71,9 @@ void report_balance(const Findings& findings, const Molecules& one, const Parame
                     const RunRecord& run, bool known) {
     const Points<2> x = ConstState<2>(one.model->layout(), run.y).position();
     const auto balance = balance_at(one, run.y, p.weight(), random_places(x, p.range, 100, p.seed));
-    findings.check("balance_error", balance.error(), 0.0, 1e-6,
-                   "exact: the largest of 100, by d(rho u)/dt");
+    findings.claim("balance_error", balance.error(), 0.0, 1e-6,
+                   "exact: the largest of 100, by d(rho u)/dt",
+                   p.kernel != Kernel::w2);  // whose slope jumps
     findings.claim("halves_error", balance.halves_error(), 0.13, 0.04,
                    "half of each bond at each molecule; another program, at one place", known);
 }

@@ -28,7 +28,8 @@ struct Parameters {
 
 struct Molecules : Variant<2> {
     System system;
-    int draws = 0;  ///< of velocities, after the first ones
+    int draws = 0;          ///< of velocities, after the first ones
+    double drawn_at = 0.0;  ///< when the latest was due
 };
 
 /// The true temperature, and at several ranges what fields say and what they should say.

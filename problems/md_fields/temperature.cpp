@@ -81,7 +81,8 @@ std::vector<Column<2>> columns_of(const Molecules& one, const Parameters& p) {
 Observer<2> draw_velocities(Molecules& one, int seed, double interval) {
     return {.revise =
                 [&one, seed, interval](double t, Model<2>& model, std::span<double> y) {
-                    if (t < (one.draws + 1) * interval - 1e-9) return false;
+                    if (t < one.drawn_at + interval - 1e-9) return false;
+                    one.drawn_at += interval;
                     const ::spam::State<2> state(model.layout(), y);
                     Points<2> v = Points<2>::Zero(2, state.velocity().cols());
                     displace<2>(v, 1.0, seed + ++one.draws);
@@ -89,7 +90,7 @@ Observer<2> draw_velocities(Molecules& one, int seed, double interval) {
                     state.velocity() = state.velocity().norm() / v.norm() * v;
                     return true;
                 },
-            .memory = [&one](Archive& archive) { archive(one.draws); }};
+            .memory = [&one](Archive& archive) { archive(one.draws, one.drawn_at); }};
 }
 
 void report_temperature(const Findings& findings, const RunRecord& run, bool known) {

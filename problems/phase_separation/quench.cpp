@@ -298,7 +298,7 @@ void draw(Session& session, const Parameters& p, const std::vector<Quench>& all,
         draw_curves(session, "temperature", "Van der Waals fluid, isolated",
                     {over_time("", runs.front().history, "temperature",
                                {{"mean", "temperature"},
-                                {"largest less smallest", "temperature_deviation"}})});
+                                {"root mean square deviation", "temperature_deviation"}})});
     else if (p.damping > 0.0)
         draw_coexistence(session, p, all, runs);
 }

@@ -34,7 +34,9 @@ Observer<Dim> distance_from(Track<Dim>& track, double perturb) {
                                           std::span<const double>) { return track.distance; }}},
         .on_row = [&track, perturb](double t, const Model<Dim>& model, std::span<const double> y) {
             std::size_t row = 0;
-            while (row + 1 < track.t.size() && track.t[row] < t) ++row;
+            while (row + 1 < track.t.size() && track.t[row] < t * (1.0 - 1e-9)) ++row;
+            track.distance = std::nan("");  // where a run goes on with rows at other times
+            if (std::abs(track.t[row] - t) > 1e-9 * t) return;
             const Points<Dim> apart = ConstState<Dim>(model.layout(), y).position() - track.x[row];
             track.distance = std::sqrt(apart.colwise().squaredNorm().mean()) / perturb;
         }};

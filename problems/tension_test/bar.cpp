@@ -142,11 +142,7 @@ PulledBar<Dim> make_bar(const Session& session, const Parameters& p, const Matte
     // The stress in the middle is as load times length.
     const double shorter = (Dim == 2 ? 60.0 : 30.0) / p.columns;
     const double rate = p.load_rate.value_or(shorter * known.load_rate);
-    const Matter usual;
-    const bool cores = matter.kind != MatterKind::pair_md && matter.kind != MatterKind::elements;
-    const double step = known.step * (cores ? relative_step({matter.core, matter.core_range},
-                                                            {usual.core, usual.core_range})
-                                            : 1.0);
+    const double step = known.step * breaking::relative_step(matter);
     PulledBar<Dim> bar{{}, matter.kind, rate, step, shorter * known.largest_load / rate};
     bar.model = make_model<Dim>(session, matter, {tapered_block<Dim>(p)});
     add_load(*bar.model, p, rate, p.damping.value_or(known.damping));

@@ -44,6 +44,11 @@ double period_of_zeros(std::span<const double> t, std::span<const double> value)
     return zero.size() < 3 ? 0.0 : 2.0 * fit_line(number, zero).slope;
 }
 
+bool resolves(std::span<const double> t, double period) {
+    return t.size() > 1 &&
+           t.back() - t.front() <= static_cast<double>(t.size() - 1) * period / 20.0;
+}
+
 double observed_order(std::span<const double> step, std::span<const double> error) {
     std::vector<double> log_step, log_error;
     for (const double h : step) log_step.push_back(std::log(h));

@@ -12,6 +12,22 @@
 
 namespace spam {
 
+namespace {
+
+/// What a run remembers beside its motion.
+template <int Dim>
+void remember_all(Archive& archive, const Plan<Dim>& plan, Recorder<Dim>& recorder,
+                  DriftGuard& guard, std::vector<std::pair<double, Remark>>& remarks,
+                  std::vector<double>& snapshot_times) {
+    recorder.remember(archive);
+    archive(guard);
+    archive(remarks, snapshot_times);
+    for (const Observer<Dim>& observer : plan.observers)
+        if (observer.memory) observer.memory(archive);
+}
+
+}  // namespace
+
 template <int Dim>
 Run<Dim>::Run(Case<Dim>& one, const IntegratorOptions& options, const RunFolder* folder,
               Parts& processes)
@@ -72,11 +88,18 @@ void Run<Dim>::recall_cost(const CostOfRates& before) {
 
 template <int Dim>
 void Run<Dim>::remember_records(Archive& archive) {
-    recorder_.remember(archive);
-    archive(guard_);
-    archive(record_.remarks, snapshot_times_);
-    for (const Observer<Dim>& observer : one_.plan.observers)
-        if (observer.memory) observer.memory(archive);
+    remember_all(archive, one_.plan, recorder_, guard_, record_.remarks, snapshot_times_);
+}
+
+template <int Dim>
+void check_records(const Case<Dim>& one, const CaseMemory& memory) {
+    Recorder<Dim> recorder(*one.model, one.plan, nullptr);
+    DriftGuard guard(one.plan.guard);
+    std::vector<std::pair<double, Remark>> remarks;
+    std::vector<double> snapshot_times;
+    Archive records(memory.records);
+    remember_all(records, one.plan, recorder, guard, remarks, snapshot_times);
+    records.expect_end();
 }
 
 template <int Dim>
@@ -293,8 +316,9 @@ RunRecord run_in_memory(Case<Dim> one, const IntegratorOptions& integrator) {
 }
 
 SPAM_COMPILED(template class Run);
-template RunRecord run_in_memory(Case<1>, const IntegratorOptions&);
-template RunRecord run_in_memory(Case<2>, const IntegratorOptions&);
-template RunRecord run_in_memory(Case<3>, const IntegratorOptions&);
+#define SPAM_INSTANTIATE(D)                                         \
+    template void check_records(const Case<D>&, const CaseMemory&); \
+    template RunRecord run_in_memory(Case<D>, const IntegratorOptions&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

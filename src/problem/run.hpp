@@ -92,6 +92,11 @@ class Run {
     bool resumed_ = false;
 };
 
+/// Reads what rows and observers remember, as Run::recall() will. Throws InputError where that is of another case: to
+/// be asked before anything is written.
+template <int Dim>
+void check_records(const Case<Dim>& one, const CaseMemory& memory);
+
 /// The step of a method that keeps an energy of its own: those that advance velocity and position in turn.
 inline std::optional<double> symplectic_step(const IntegratorOptions& options) {
     return integration_method(options.method).separable ? options.dt : std::nullopt;

@@ -208,6 +208,7 @@ void Session::check_restart(std::vector<Case<Dim>>& cases) const {
                             earlier->label, cases[k].label));
         revive(cases[k], *earlier);
         state_of(*earlier, *cases[k].model);
+        check_records(cases[k], *earlier);
         if (earlier->t > cases[k].plan.t_end)
             throw InputError(
                 fmt::format("t-end: {} lies before the checkpoint's t = {}; give a later "

@@ -22,6 +22,9 @@ double best_factor(std::span<const double> of, std::span<const double> to);
 /// changes sign (linear between rows; a zero in row 0 does not count). 0 with fewer than three.
 double period_of_zeros(std::span<const double> t, std::span<const double> value);
 
+/// Whether rows at these times are close enough to tell such a period: twenty of them or more.
+bool resolves(std::span<const double> t, double period);
+
 /// Observed order of convergence: slope of log error against log step.
 double observed_order(std::span<const double> step, std::span<const double> error);
 
