@@ -27,6 +27,8 @@ class StripSort {
 
     /// order()[slot] is the particle's number. Ties keep the lower number first.
     std::span<const std::uint32_t> order() const { return order_; }
+    /// The share of space of a particle, roughly.
+    double volume() const { return volume_; }
 
   private:
     using Int = std::int32_t;
