@@ -304,9 +304,25 @@ BOOST_AUTO_TEST_CASE(velocities_that_were_reversed_halfway_have_no_later_end) {
                         "--quiet", "--out", "out"}));
     const auto rows = contents_of(folder / "out/invariants.csv");
     const Outcome outcome = run_in(folder, "gas_cloud", {"--restart", "out", "--t-end", "4"});
-    BOOST_TEST(outcome.status == 3);  // as whatever fails once results exist
+    BOOST_TEST(outcome.status == 2);
     BOOST_TEST(outcome.err.find("reversed at t = 1") != std::string::npos, outcome.err);
     BOOST_TEST(contents_of(folder / "out/invariants.csv") == rows);
+}
+
+/// Bodies are looked for at rows, far enough ahead for the next one.
+BOOST_AUTO_TEST_CASE(rows_that_bodies_were_looked_for_at_stay_as_close) {
+    const Scratch folder;
+    require_ran(run_in(folder, "fragmenting_bar",
+                       {"--smoke", "--output-every", "0.1", "--t-end", "1", "--no-plots", "--quiet",
+                        "--out", "out"}));
+    const auto rows = contents_of(folder / "out/invariants.csv");
+    const Words later{"--restart", "out", "--t-end", "2", "--no-plots", "--quiet"};
+    const Outcome outcome =
+        run_in(folder, "fragmenting_bar", with(later, {"--output-every", "0.5"}));
+    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(outcome.err.find("output-every: 0.5") != std::string::npos, outcome.err);
+    BOOST_TEST(contents_of(folder / "out/invariants.csv") == rows);
+    require_ran(run_in(folder, "fragmenting_bar", with(later, {"--output-every", "0.05"})));
 }
 
 /// case.toml names it so.
