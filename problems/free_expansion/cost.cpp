@@ -51,7 +51,7 @@ void draw_cost(Session& session, const Parameters& p, const LogLogCurve& seconds
          fmt::format(
              "{}{}; weight {}, h = {:g}", session.integrator().method,
              session.integrator().dt ? fmt::format(", dt = {:g}", *session.integrator().dt) : "",
-             p.kernel, p.range)});
+             spam::to_string(p.kernel), p.range)});
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ log_of() { printf '%s/build/%s/spam-%s.log' "$root" "$preset" "$1"; }
 follow() { # log, title, pattern
     local log=$1 title=$2 pattern=$3 line announced='' columns=80 start=$SECONDS
     if [[ -t 2 ]]; then read -r _ columns < <(stty size <&2) || true; fi
+    ((columns > 3)) || columns=80
     while IFS= read -r line; do
         printf '%s\n' "$line" >&3
         [[ $line =~ $pattern ]] || continue
@@ -72,6 +73,7 @@ followed() { # title, pattern, command...
 step() { # name, title, pattern, command...: the command, in the root; its status is returned
     local name=$1
     step_log=$(log_of "$name")
+    mkdir -p -- "${step_log%/*}"
     step_command=${*:4}
     if [[ $name == packages ]]; then
         followed "${@:2}" # sudo may ask for a password, and dpkg must not be ended half-way

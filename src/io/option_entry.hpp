@@ -26,5 +26,7 @@ struct Options::Entry {
 
 /// As a TOML value.
 std::string toml_string(const std::string& text);
+/// Whether TOML can hold it: it is UTF-8.
+bool fits_toml(const std::string& text);
 
 }  // namespace spam

@@ -105,6 +105,10 @@ Options::Added Options::text(std::string name, std::string& target, std::string 
     entry.is_text = true;
     entry.set = [&entry, &target](const std::string& text) {
         if (text.empty()) throw InputError(fmt::format("{}: must not be empty", entry.name));
+        if (entry.in_case && !fits_toml(text))
+            throw InputError(fmt::format(
+                "{}: is not UTF-8, and case.toml could not hold it; give it another name",
+                entry.name));
         target = text;
     };
     if (target.empty()) entry.unset = [&target] { target.clear(); };

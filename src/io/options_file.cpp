@@ -56,12 +56,21 @@ std::string toml_string(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
-        if (static_cast<unsigned char>(c) < 0x20)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
             out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
         else
             out += c;
     }
     return out + "\"";
+}
+
+bool fits_toml(const std::string& text) {
+    try {
+        static_cast<void>(toml::parse("text = " + toml_string(text)));
+        return true;
+    } catch (const toml::parse_error&) {
+        return false;
+    }
 }
 
 void Options::case_from(std::string option, std::function<std::string(const std::string&)> read,

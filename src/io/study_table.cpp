@@ -132,11 +132,15 @@ void StudyTable::refuse(int line, const std::string& why) const {
 void StudyTable::append(const Row& row) {
     const std::string line = csv_line(sealed(row));
     const int file = open(part().c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    const off_t end = file >= 0 ? lseek(file, 0, SEEK_END) : 0;
     const bool written =
         file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
         fsync(file) == 0;
+    // The next row would be glued to half a one.
+    const bool taken_back = written || file < 0 || ftruncate(file, end) == 0;
     if (file >= 0) close(file);
-    if (!written) throw OutputError(fmt::format("cannot write '{}' (disk full?)", part().string()));
+    if (!written || !taken_back)
+        throw OutputError(fmt::format("cannot write '{}' (disk full?)", part().string()));
     rows_[row.front()] = row;
 }
 
@@ -161,7 +165,7 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
                 const auto cells = open_tasks[k]->compute();
                 const std::lock_guard lock(mutex);
                 interrupted = !cells || error;
-                if (!cells) continue;
+                if (interrupted) continue;
                 Row row{open_tasks[k]->name};
                 row.insert(row.end(), cells->begin(), cells->end());
                 append(row);

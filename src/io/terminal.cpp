@@ -54,6 +54,8 @@ std::string wrap(std::string_view text, std::size_t width) {
         while (column + piece.size() > width) {  // a word longer than a line
             std::size_t room = width > column ? width - column : 0;
             while (room > 0 && (static_cast<unsigned char>(piece[room]) & 0xc0) == 0x80) --room;
+            if (room == 0 && column <= indent)  // no letter begins in it
+                room = std::min(piece.size(), width - indent);
             out += piece.substr(0, room);
             out += '\n' + std::string(indent, ' ');
             piece.remove_prefix(room);

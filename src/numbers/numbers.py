@@ -161,11 +161,14 @@ def main(argv):
         return error.status
     if asked.write:
         lists = {number.source: number.source.read_text(encoding="utf-8") for number in listed.numbers()}
+        found = [(place, documents.find(place, texts[place.document])) for place in listed.places]
+        lost = [told_apart(place, texts[place.document], times) for place, (match, times) in found if not match]
         changed = write(listed, texts, lists, measured)
         for file, text in [*((asked.root / name, text) for name, text in texts.items()), *lists.items()]:
-            file.write_text(text, encoding="utf-8")
-        say("\n".join(changed) if changed else "numbers: nothing to write")
-        return 0
+            if file.read_text(encoding="utf-8") != text:
+                file.write_text(text, encoding="utf-8")
+        say("\n".join(lost + changed) if lost or changed else "numbers: nothing to write")
+        return 1 if lost else 0
     wrong = list(differences(listed, texts, measured))
     for line in wrong:
         say(line)

@@ -25,7 +25,8 @@ class Store:
     """`programs`: a folder of problem executables; None: ./spam builds them, in build/release/problems."""
 
     def __init__(self, root, programs=None, front_door=()):
-        self.root, self.programs, self.front_door = root, programs, list(front_door)
+        self.root, self.front_door = root, list(front_door)
+        self.programs = programs.resolve() if programs else None
         self.folder = root / "build" / "numbers"
         self.versions = {}
 

@@ -70,7 +70,7 @@ bool draw_bars(const RunFolder& folder, std::string_view name, std::string_view 
     std::string data, script = gnuplot::preamble(name, width, height);
     script += gnuplot::line_styles;
     script += fmt::format(
-        "set title \"{}\" font ',15'\nset xlabel \"{}\"\nset xrange [{:g}:{:g}]\n"
+        "set title \"{}\" font ',15'\nset xlabel \"{}\"\nset xrange [{:.12g}:{:.12g}]\n"
         "set yrange [{}.5:-0.5]\n"
         "set border 3\nset xtics nomirror\nset ytics scale 0 nomirror ()\nunset key\n"
         "set grid xtics back lt 1 lw 1 lc rgb '#e4e4e4'\nset style fill solid 0.85 noborder\n{}",

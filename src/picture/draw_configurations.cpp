@@ -58,7 +58,9 @@ Shared shared_by(const std::vector<ConfigurationPanel>& panels) {
         e.spacing = std::max(e.spacing, typical_spacing(panel.position));
     }
     if (e.empty()) e.x[0] = e.x[1] = e.y[0] = e.y[1] = 0.0;
-    if (!(e.high > e.low)) e.high = e.low + 1.0;
+    // So close to each other that their colours would be one.
+    if (!(e.high - e.low > 1e-9 * std::max(std::abs(e.low), std::abs(e.high))))
+        e.high = e.low + std::max(1.0, 1e-3 * std::abs(e.low));
     // A margin all around, and the same scale both ways whatever the frame's shape.
     e.add_margin(std::max({0.06 * e.across(), 0.6 * e.spacing, 1e-12}));
     e.widen(0.34 * e.across());
@@ -68,9 +70,9 @@ Shared shared_by(const std::vector<ConfigurationPanel>& panels) {
 /// Each sign with its own colours, whatever the range of the other.
 std::string about_zero(const Shared& e) {
     return fmt::format(
-        "set palette defined ({0:g} '#8c2d04', {1:g} '#e6550d', -1e-9 '#fdae6b', 0 '#9ecae1', {2:g} "
+        "set palette defined ({0:g} '#8c2d04', {1:g} '#e6550d', {4:g} '#fdae6b', 0 '#9ecae1', {2:g} "
         "'#2171b5', {3:g} '#08306b')\n",
-        e.low, 0.5 * e.low, 0.5 * e.high, e.high);
+        e.low, 0.5 * e.low, 0.5 * e.high, e.high, 1e-6 * e.low);
 }
 
 std::string particle_block(const ConfigurationPanel& panel) {
@@ -140,7 +142,7 @@ bool draw_configurations(const RunFolder& folder, std::string_view name, std::st
     script += scale == ColourScale::about_zero ? about_zero(e) : std::string(gnuplot::palette);
     script += fmt::format(
         "set multiplot title \"{}\" font ',15' offset 0,-0.2\n"
-        "set cbrange [{:g}:{:g}]\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
+        "set cbrange [{:.12g}:{:.12g}]\nset xrange [{:.12g}:{:.12g}]\nset yrange [{:.12g}:{:.12g}]\n"
         "unset tics\nunset key\nset border lc rgb '#bbbbbb'\nset style fill solid 1 noborder\n",
         escaped(title), e.low, e.high, e.x[0], e.x[1], e.y[0], e.y[1] + title_room);
     int block = 0;

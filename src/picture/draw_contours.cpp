@@ -137,10 +137,10 @@ std::string plot_of(const ContourPanel& panel, std::string_view name, std::size_
         return fmt::format(
             "plot '{}.dat' index {} using 1:2:({:.5g}) with circles fc rgb '#000000'\n", name,
             block, 0.5 * panel.dot);
-    const std::string colours = panel.colours
-                                    ? fmt::format("{}set cbrange [{:g}:{:g}]\n", gnuplot::palette,
-                                                  panel.colours->low, panel.colours->high)
-                                    : std::string("set palette gray\nset cbrange [0:9]\n");
+    const std::string colours =
+        panel.colours ? fmt::format("{}set cbrange [{:.12g}:{:.12g}]\n", gnuplot::palette,
+                                    panel.colours->low, panel.colours->high)
+                      : std::string("set palette gray\nset cbrange [0:9]\n");
     // Axes that count pixels: to compute the place of each takes gnuplot ten times as long as to draw it.
     return colours + fmt::format(
                          "set x2range [-0.5:{}]\nset y2range [-0.5:{}]\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
 #include "panel_grid.hpp"
+#include <spam/core/text.hpp>
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -91,7 +92,7 @@ std::string look_of(const CurvePanel& panel, std::size_t k) {
 
 /// One curve as a block of the data file; a curve without points keeps its place in the key.
 std::string curve_block(const CurvePanel& panel, const Curve& curve) {
-    std::string block = fmt::format("# {}: {}\n", panel.title, curve.title);
+    std::string block = fmt::format("# {}: {}\n", one_line(panel.title), one_line(curve.title));
     bool any = false;
     for (std::size_t k = 0; k < curve.x.size(); ++k) {
         const double y = panel.log_y ? std::abs(curve.y[k]) : curve.y[k];
@@ -115,7 +116,8 @@ std::string ranges(const CurvePanel& panel) {
     if (!(low <= high)) return "set xrange [0:1]\nset yrange [0.1:1]\n";
     const bool degenerate =
         !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))) || high - low < 1e-290;
-    return (degenerate ? fmt::format("set xrange [{:g}:{:g}]\n", low - 1.0, high + 1.0)
+    const double room = std::max(1.0, 1e-3 * std::abs(low));
+    return (degenerate ? fmt::format("set xrange [{:.12g}:{:.12g}]\n", low - room, high + room)
                        : std::string("set autoscale x\nset autoscale xfix\n")) +
            "set autoscale y\n";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnuplot_script.hpp"
 #include "panel_grid.hpp"
+#include <spam/core/text.hpp>
 #include <spam/picture/draw.hpp>
 
 #include <fmt/format.h>
@@ -107,7 +108,7 @@ std::string key(const LogLogPicture& picture, double width, double height, std::
 std::string data_of(const LogLogPanel& panel) {
     std::string data;
     for (const auto& curve : panel.curves) {
-        data += fmt::format("# {}, entry {} of the key\n", panel.title, curve.key + 1);
+        data += fmt::format("# {}, entry {} of the key\n", one_line(panel.title), curve.key + 1);
         bool any = false;
         for (std::size_t k = 0; k < curve.x.size(); ++k) {
             if (!shown(curve.x[k], curve.y[k])) continue;

@@ -67,7 +67,7 @@ bool draw_paths(const RunFolder& folder, std::string_view name, std::string_view
     std::string data, script = gnuplot::preamble(name, grid.width(), grid.height());
     script += fmt::format(
         "set label 100 \"{}\" at screen 0.5,{:.5f} center font ',15'\nset multiplot\n"
-        "set xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n"
+        "set xrange [{:.12g}:{:.12g}]\nset yrange [{:.12g}:{:.12g}]\n"
         "unset tics\nunset key\nset border lc rgb '#bbbbbb'\n",
         escaped(title), 1.0 - 24.0 / grid.height(), e.x[0], e.x[1], e.y[0], e.y[1]);
     for (std::size_t k = 0; k < panels.size(); ++k) {

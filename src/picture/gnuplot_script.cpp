@@ -38,7 +38,8 @@ std::string escaped(std::string_view text) {
         }
         if (c == '_' || c == '^' || c == '{' || c == '}' || c == '@' || c == '&' || c == '~')
             out += "\\\\";
-        if (c == '"' || c == '\\') out += '\\';
+        if (c == '"' || c == '\\' || c == '`')
+            out += '\\';  // gnuplot runs what stands in backquotes
         out += c;
     }
     return out;

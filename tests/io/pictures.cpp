@@ -18,7 +18,7 @@ using spam::test::Scratch;
 namespace {
 
 const double missing = std::nan("");
-const std::string awkward = "a_b^c {d} \"e\" 'f' \\ @ & ~ ⟨v⟩ %g $x";
+const std::string awkward = "a_b^c {d} \"e\" 'f' \\ @ & ~ ⟨v⟩ %g $x `touch ran` \n two";
 
 std::size_t big_endian(const std::string& bytes, std::size_t at) {
     std::size_t number = 0;

@@ -21,6 +21,8 @@ BOOST_AUTO_TEST_CASE(lines_wrap_under_their_text) {
     BOOST_TEST(wrap("a_word_longer_than_the_line b", 10) ==
                "a_word_lon\n  ger_than\n  _the_lin\n  e b");
     BOOST_TEST(wrap("", 10).empty());
+    const std::string no_letters(100, '\x80');  // bytes that only go on with one
+    BOOST_TEST(wrap("key     " + no_letters, 22).size() > no_letters.size());
     const std::string text =
         "promise     mass exact, momentum exact, angular momentum to integrator error";
     for (std::size_t width = 30; width < 90; ++width) {

@@ -336,4 +336,13 @@ BOOST_AUTO_TEST_CASE(a_file_of_corners_is_found_from_any_folder) {
     require_ran(Child(problem("relaxation", {"--restart", "../out", "--t-end", "4", "--no-plots"}),
                       {folder / "elsewhere"})
                     .finish(Child::Seconds(240)));
+    // And by any name that case.toml can hold.
+    const std::string odd = "corners\x7f.csv", latin = "corners\xe9.csv";
+    for (const std::string& name : {odd, latin}) fs::copy_file(folder / "shape.csv", folder / name);
+    const Words shaped{"--smoke", "--no-plots", "--particles", "60", "--t-end", "2", "--outline"};
+    require_ran(run_in(folder, "relaxation", with(shaped, {odd, "--out", "odd"})));
+    require_ran(run_in(folder, "relaxation", {"--restart", "odd", "--t-end", "3", "--no-plots"}));
+    const Outcome refused = run_in(folder, "relaxation", with(shaped, {latin, "--out", "latin"}));
+    BOOST_TEST(refused.status == 2);
+    BOOST_TEST(refused.err.find("outline: is not UTF-8") != std::string::npos, refused.err);
 }

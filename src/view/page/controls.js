@@ -164,7 +164,7 @@ const ways = {
 };
 
 function describeTime(how) {
-  byId('time').textContent = 't = ' + (Math.abs(state.t) < 1e-12 ? 0 : Number(state.t.toPrecision(5))) + unit('time');
+  byId('time').textContent = 't = ' + (Math.abs(state.t) < 1e-12 * (lastTime - firstTime) ? 0 : Number(state.t.toPrecision(5))) + unit('time');
   byId('slider').value = (state.t - firstTime) / (lastTime - firstTime || 1);
   const words = [...how].map(h => ways[h]);
   const text = how.size > 1 && how.has('velocities') ? 'cubic; where velocities do not lead along it, through positions' : words.join('; ');

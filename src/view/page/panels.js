@@ -12,7 +12,7 @@ const extent = bounds.low.map((low, a) => bounds.high[a] - low);
 const largestRadius = Math.max(...cases.map(c => c.radius));
 // What must be seen of the world: a turned body of any side, a line with a graph of its field above it.
 function worldSize() {
-  if (dims === 3) { const d = 0.92 * Math.hypot(...extent); return [d, d]; }
+  if (dims === 3) { const d = 0.92 * Math.hypot(...extent) + 2 * largestRadius; return [d, d]; }
   if (dims === 1) return [extent[0] + 2 * largestRadius, extent[0] * 0.45];
   return [extent[0] + 3 * largestRadius, extent[1] + 3 * largestRadius];
 }
@@ -132,8 +132,10 @@ class Panels {
     const radius = this.discRadius(p), colour = values || (p.nothing ||= new Float32Array(n).fill(NaN));
     if (dims === 3) {
       const far = 0.5 * Math.hypot(...extent), scale = high > low ? 255.999 / (high - low) : 0;
-      for (let i = 0; i < n; ++i) p.colours[i] = Math.max(0, Math.min(255, (colour[i] - low) * scale)) | 0;
-      spheres(this.raster, p.x, p.y, p.depth, n, radius, p.colours, state.shaded, -far, far, p);
+      for (let i = 0; i < n; ++i)
+        p.colours[i] = colour[i] === colour[i] ? Math.max(0, Math.min(255, (colour[i] - low) * scale)) | 0 : noStep;
+      const shaded = state.field === 'body' ? bodyShaded : state.shaded;
+      spheres(this.raster, p.x, p.y, p.depth, n, radius, p.colours, shaded, -far, far, p);
       return;
     }
     coloursOf(colour, n, low, high, table, p.colours);
@@ -154,11 +156,11 @@ class Panels {
     const p = this.at(px, py);
     if (!p || !p.frame) return null;
     const reach = Math.max(this.discRadius(p), 7 * this.ratio) ** 2;
-    let best = -1, least = reach;
+    let best = -1, least = dims === 3 ? Infinity : reach;
     for (let i = 0; i < p.frame.n; ++i) {
       let d = (p.x[i] - px) ** 2 + (p.y[i] - py) ** 2;
       if (d > reach) continue;
-      if (dims === 3) d = -p.depth[i] - 1e6;  // the nearest of those that are under it
+      if (dims === 3) d = -p.depth[i];  // the nearest of those that are under it
       if (d < least) { least = d; best = i; }
     }
     return best < 0 ? null : numbers(p.c.snapshots[p.frame.k].id)[best];

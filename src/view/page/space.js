@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Particles in space: turned, drawn from the farthest to the nearest, darker behind.
 const levels = 32;  // of brightness
+const noStep = 256, shades = noStep + 1;  // of a table: what is no number has one of its own
 
 function turnedBy(turn, angleX, angleY) {
   const cx = Math.cos(angleX), sx = Math.sin(angleX), cy = Math.cos(angleY), sy = Math.sin(angleY);
@@ -31,18 +32,22 @@ function order(depth, n, low, high, keep) {
 
 // A colour at every brightness.
 function shadedTable(table) {
-  const out = new Uint32Array(levels * 256);
+  const out = new Uint32Array(levels * shades);
   for (let l = 0; l < levels; ++l) {
     const light = 0.25 + 0.75 * (l + 1) / levels;
-    for (let i = 0; i < 256; ++i)
-      out[l * 256 + i] = word((table[i] & 255) * light, ((table[i] >> 8) & 255) * light, ((table[i] >> 16) & 255) * light);
+    for (let i = 0; i < shades; ++i) {
+      const c = i === noStep ? nowhere : table[i];
+      out[l * shades + i] = word((c & 255) * light, ((c >> 8) & 255) * light, ((c >> 16) & 255) * light);
+    }
   }
   return out;
 }
 
+const bodyShaded = shadedTable(bodyTable);
+
 // Pixels of a sphere about its middle, and how bright the normal makes each.
 function sphereMask(radius, width) {
-  const rows = Math.max(0, Math.round(radius - 0.25)), right = [], down = [], light = [];
+  const rows = Math.max(0, Math.min(4000, Math.round(radius - 0.25))), right = [], down = [], light = [];
   for (let r = -rows; r <= rows; ++r)
     for (let s = -rows; s <= rows; ++s) {
       const q = (r * r + s * s) / Math.max(radius * radius, 0.25);
@@ -68,7 +73,7 @@ function spheres(raster, x, y, depth, n, radius, steps, shaded, low, high, keep)
     for (let m = 0; m < count; ++m) {
       if (!inside && !raster.holds(px + mask.right[m], py + mask.down[m])) continue;
       const level = near * light[m] | 0;
-      pixels[at + offset[m]] = shaded[(level > last ? last : level) << 8 | step];
+      pixels[at + offset[m]] = shaded[(level > last ? last : level) * shades + step];
     }
   }
 }
