@@ -94,7 +94,8 @@ void run_one(Session& session, const Parameters& p) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Problem problem("plastic_block", "a free block that bends, yields and keeps its energy", 0.25);
+    Problem problem("plastic_block", "a free block that bends, yields and keeps its energy", 0.25,
+                    "0.25, less with --yield smooth");
     problem.units(lattice_units());
     Parameters p;
     auto& options = problem.options();
