@@ -285,7 +285,7 @@ BOOST_AUTO_TEST_CASE(adaptive_steps_stay_as_long_whatever_settles) {
         const auto steps_with = [&](bool settles) {
             Ode ode = oscillators();
             if (settles) ode.settle = [](double, std::span<double>) { return true; };
-            Run run({.method = method, .rtol = 1e-6}, ode);
+            Run run({.method = method, .dt = {}, .rtol = 1e-6}, ode);
             return run.to(20.0).steps;
         };
         BOOST_TEST(steps_with(true) <= steps_with(false) + 5U);

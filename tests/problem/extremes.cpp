@@ -182,3 +182,35 @@ BOOST_AUTO_TEST_CASE(every_weight_function_keeps_what_is_promised) {
               Words{"monaghan", "w2", "w4", "w5", "w6", "w7", "w8"}[random() % 7], 1);
     });
 }
+
+// What is known of a default is not claimed where an option makes it another case, and default steps follow what
+// options make stiffer.
+BOOST_AUTO_TEST_CASE(no_check_must_fail_for_a_legal_option) {
+    const std::vector<std::pair<std::string, Words>> all{
+        {"counter_rotating", {"--smoke", "--dt", "0.3"}},
+        {"plastic_block", {"--smoke", "--yield", "smooth"}},
+        {"sheared_square", {"--smoke", "--viscosity", "10"}},
+        {"isomorphism", {"--smoke", "--law", "lucy", "--perturbation", "1e-2"}},
+        {"lattice_stability",
+         {"--smoke", "--potential", "density", "--kernel", "w2", "--range", "2"}},
+        {"md_fields", {"--smoke", "--system", "impact", "--kernel", "w2"}},
+        {"loaded_bar", {"--tolerance", "1e-3"}},
+        {"stability", {"--stress", "0", "--range", "2.5"}},
+        {"diffusion_waves", {"--smoke", "--wave", "shear", "--range", "2.2"}},
+        {"cantilever", {"--smoke", "--penalty", "100", "--t-end", "0.002"}},
+        {"torsion", {"--columns", "3", "--penalty", "100", "--periods", "0.1"}},
+        {"ball_plate", {"--smoke", "--model", "embedded_atom", "--strength", "10"}},
+        {"gas_cloud", {"--dimension", "2", "--ranges", "ellipses", "--size", "4"}},
+        {"couette", {"--compare", "--reynolds", "1", "--dry-run"}},
+        {"taylor_green", {"--compare", "--reynolds", "1", "--dry-run"}},
+        {"cavity", {"--compare", "--reynolds", "1", "--dry-run"}},
+    };
+    for (const auto& [program, options] : all) {
+        const Scratch folder;
+        Words words = options;
+        words.emplace_back("--no-plots");
+        const auto outcome = run(problem(program, words), {folder.path()});
+        BOOST_TEST(outcome.status == 0,
+                   program << " " << options.front() << ": " << outcome.out << outcome.err);
+    }
+}
