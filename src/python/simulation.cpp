@@ -192,8 +192,8 @@ void Simulation<Dim>::prepare(const RezoningChoice& choice) {
     plan_.rezone(std::move(how));
 }
 
-/// As Run::rezone: what goes on is what a checkpoint would hold. Without the interpreter where rates may be found: other
-/// threads of a right-hand side wait for it.
+/// As Run::rezone: what goes on is what a checkpoint would hold. Without the interpreter where rates may be found:
+/// other threads of a right-hand side wait for it.
 template <int Dim>
 void Simulation<Dim>::rezone(double t, Turn& turn) {
     auto next = plan_.rezoning->change(*held()->model, now_->motion.y());

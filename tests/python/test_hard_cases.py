@@ -208,8 +208,7 @@ import spam_mechanics as spam
 x = spam.triangular_hexagon(20)
 def make(x): return spam.Simulation(spam.SmoothParticles(x), dt=0.1, threads=2)
 model = spam.SmoothParticles(x)
-y = model.start()
-if {first}: make(x).step()
+if {first}: make(x).step(); y = model.start()
 child = os.fork()
 if child == 0:
     try:

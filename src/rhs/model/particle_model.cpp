@@ -76,20 +76,12 @@ void ParticleModel<Dim>::take(std::unique_ptr<Term<Dim>> term) {
 template <int Dim>
 void ParticleModel<Dim>::add(std::shared_ptr<External<Dim>> external) {
     if (const std::size_t known = external->particles();
-        known != 0 && known != this->particles().size())
+        known != 0 && Parts::here().numbers().empty() && known != this->particles().size())
         throw InputError(
             fmt::format("external: {} was made for {} particles, and the model has {}; give one "
                         "value for each particle",
                         external->describe(), known, this->particles().size()));
     take(std::move(external));
-}
-
-/// An external of the whole is one of each part, and finds its particles there by their numbers in the whole.
-template <int Dim>
-void ParticleModel<Dim>::take(std::shared_ptr<External<Dim>> external) {
-    again_.push_back([external](ParticleModel& part, auto) { part.take(external); });
-    externals_.push_back(std::move(external));
-    add_accounts();
 }
 
 template <int Dim>

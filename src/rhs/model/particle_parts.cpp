@@ -24,6 +24,14 @@ ParticleModel<Dim>::Own::Own(std::span<const std::uint32_t> numbers, std::size_t
         if (i < from + count) among.push_back(static_cast<std::uint32_t>(i - from));
 }
 
+/// An external of the whole is one of each part, and finds its particles there by their numbers in the whole.
+template <int Dim>
+void ParticleModel<Dim>::take(std::shared_ptr<External<Dim>> external) {
+    again_.push_back([external](ParticleModel& part, auto) { part.take(external); });
+    externals_.push_back(std::move(external));
+    add_accounts();
+}
+
 template <int Dim>
 void ParticleModel<Dim>::refuse_parts() {
     throw InputError(
@@ -35,6 +43,7 @@ void ParticleModel<Dim>::refuse_parts() {
     template std::unique_ptr<ParticleModel<D>> ParticleModel<D>::part(                             \
         std::span<const std::uint32_t>) const;                                                     \
     template ParticleModel<D>::Own::Own(std::span<const std::uint32_t>, std::size_t, std::size_t); \
+    template void ParticleModel<D>::take(std::shared_ptr<External<D>>);                            \
     template void ParticleModel<D>::refuse_parts();
 SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
