@@ -207,8 +207,10 @@ import numpy as np
 import spam_mechanics as spam
 x = spam.triangular_hexagon(20)
 def make(x): return spam.Simulation(spam.SmoothParticles(x), dt=0.1, threads=2)
-model = spam.SmoothParticles(x)
-if {first}: make(x).step(); y = model.start()
+if {first}:
+    make(x).step()
+    model = spam.SmoothParticles(x)
+    y = model.start()
 child = os.fork()
 if child == 0:
     try:
