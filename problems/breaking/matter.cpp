@@ -189,9 +189,10 @@ void add_matter_options(Problem& problem, Matter& matter, const std::vector<Matt
         of_vectors.insert(of_vectors.end(), {"tension-limit", "penalty"});
         only_of(of_vectors, {MatterKind::material_vectors}, "it is of material vectors");
     }
-    options.number("strength", matter.strength,
-                   "strength s_c of the curvature, which makes embedded atoms a solid",
-                   between(1e-6, 1e3));
+    options.number(
+        "strength", matter.strength,
+        "strength s_c of the curvature, which makes embedded atoms a solid",
+        between(1e-6, 1.0));  // of larger ones no step of RK4 keeps the energy as promised
     options.number("surface-tension", matter.surface_tension,
                    "strength s_g of the surface tension of embedded atoms; 0 for none",
                    between(0.0, 100.0));

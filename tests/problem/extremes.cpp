@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(no_check_must_fail_for_a_legal_option) {
         {"diffusion_waves", {"--smoke", "--wave", "shear", "--range", "2.2"}},
         {"cantilever", {"--smoke", "--penalty", "100", "--t-end", "0.002"}},
         {"torsion", {"--columns", "3", "--penalty", "100", "--periods", "0.1"}},
-        {"ball_plate", {"--smoke", "--model", "embedded_atom", "--strength", "2"}},
+        {"ball_plate", {"--smoke", "--model", "embedded_atom", "--strength", "1"}},
         {"gas_cloud", {"--dimension", "2", "--ranges", "ellipses", "--size", "4"}},
         {"couette", {"--compare", "--reynolds", "1", "--dry-run"}},
         {"taylor_green", {"--compare", "--reynolds", "1", "--dry-run"}},
