@@ -20,10 +20,10 @@ function(spam_add_sweeps target)
     endif()
     # Scheduling before registers are given out, with an eye on how many there are, spares a twelfth of
     # the instructions of a pair.
-    # Clang contracts products and sums as its expressions say (on): in its back end (fast) copies of one loop differ,
-    # and with them the bits of a run on several ranks.
+    # Clang contracts products and sums otherwise in copies of one loop, and the bits of a run would depend on its
+    # ranks: there they stay apart.
     target_compile_options(${objects} PRIVATE -fno-math-errno
-      -ffp-contract=$<IF:$<CXX_COMPILER_ID:Clang,AppleClang>,on,fast>
+      -ffp-contract=$<IF:$<CXX_COMPILER_ID:Clang,AppleClang>,off,fast>
       "$<$<CXX_COMPILER_ID:GNU>:-fschedule-insns;-fsched-pressure;-fno-gcse>")
     # What is compiled for the sanitizers (-O1) spends most of its time here.
     target_compile_options(${objects} PRIVATE $<$<CONFIG:Debug>:-O2>

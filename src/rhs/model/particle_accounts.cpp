@@ -166,12 +166,19 @@ bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
 template <int Dim>
 bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
     const std::size_t before = reflections_;
+    // Whose motion is prescribed altogether passes.
+    const auto held = [&](Eigen::Index i) {
+        const std::size_t number = Parts::here().number(static_cast<std::size_t>(i));
+        return std::ranges::any_of(externals_, [&](const auto& external) {
+            return external->prescribed_axes(number) == Dim;
+        });
+    };
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         const auto x = state.position(), v = state.velocity();
         const bool folds = wall.has_images() && !neighbours_for_good();
         std::vector<Given> turned;
         for (Eigen::Index i = 0; i < x.cols(); ++i) {
-            if (!(upper ? x(a, i) > wall.at : x(a, i) < wall.at)) continue;
+            if (!(upper ? x(a, i) > wall.at : x(a, i) < wall.at) || held(i)) continue;
             if (folds)
                 turned.push_back(fold_back(state, i, a, upper));
             else if (upper ? v(a, i) > 0.0 : v(a, i) < 0.0)

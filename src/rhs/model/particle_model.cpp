@@ -182,8 +182,10 @@ std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const
     rho.resize(known.size());
     for (const auto& term : terms_) {
         const std::size_t first = term->among().first();
-        if (of_term[first]) continue;
-        const auto found = term->density(y);
+        const Parts::Among numbers(Parts::here(), first);
+        const auto found =
+            term->density(y);  // a call of all parts, also of one without its particles
+        if (found.empty() || of_term[first]) continue;
         for (std::size_t k = 0; k < found.size(); ++k) {
             rho[first + k] = found[k];
             known[first + k] = of_term[first + k] = true;

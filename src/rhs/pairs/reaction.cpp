@@ -53,6 +53,7 @@ Reaction<Dim>::Reaction(const Selection<Dim>& among, const ReactionScheme& schem
     this->nature_.fields = {field_kind::concentration};
     this->nature_.reach = scheme_.range;
     this->nature_.potential = false;
+    this->nature_.own_heat = scheme_.heat != 0.0;  // what has not reacted is no energy of particles
     this->nature_.sums_density = true;
 }
 

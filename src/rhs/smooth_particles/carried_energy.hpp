@@ -39,8 +39,8 @@ template <int Dim>
 double speed_of_fall(Model<Dim>& model, const std::vector<double>& y) {
     std::vector<double> y_dot(y.size());
     model.rates(0.0, y, y_dot);
-    const double a = Parts::here().most(
-        ConstState<Dim>(model.layout(), y_dot).velocity().colwise().norm().maxCoeff());
+    const auto v_dot = ConstState<Dim>(model.layout(), y_dot).velocity();
+    const double a = Parts::here().most(v_dot.cols() > 0 ? v_dot.colwise().norm().maxCoeff() : 0.0);
     return a > 0.0 ? std::sqrt(a * model.particles().spacing) : 1.0;
 }
 

@@ -31,6 +31,7 @@ void GaussForces<Dim>::constrain(const Groups& groups, const double* x, const do
     means_.clear();
     for (const auto& s : first) {
         Means& mean = means_.emplace_back();
+        mean.mass = s[0];
         for (std::size_t a = 0; a < Dim; ++a) {
             mean.centre.c[a] = s[1 + a] / s[0];
             mean.transport.c[a] = s[1 + Dim + a] / s[0];
@@ -42,6 +43,9 @@ void GaussForces<Dim>::constrain(const Groups& groups, const double* x, const do
     };
     const auto moments = moments_.of(groups.group, groups.count, [&](std::size_t i) {
         const Means& mean = means_of(i);
+        // A particle alone is its own centre, where (m x)/m may be beside x by rounding: nothing is to be kept.
+        if (mean.mass == groups.mass[i])
+            return Law::terms(mean.mass, {}, {}, {}, vector_at<Dim>(v_dot, i));
         return Law::terms(groups.mass[i], vector_at<Dim>(x, i) - mean.centre,
                           vector_at<Dim>(u, i) - mean.transport,
                           vector_at<Dim>(v, i) - mean.velocity, vector_at<Dim>(v_dot, i));

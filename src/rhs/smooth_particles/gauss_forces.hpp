@@ -22,6 +22,7 @@ class GaussForces {
   private:
     using Law = GaussLaw<Dim>;
     struct Means {
+        double mass;
         Vec<Dim> centre, transport, velocity;  ///< of x, u and v, by mass
     };
 
