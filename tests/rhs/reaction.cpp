@@ -125,4 +125,17 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
                               ReactionScheme{.diffusivity = 0.0, .rate = 0.0},
                               ReactionScheme{.heat = 1.0}, ReactionScheme{.range = 0.5}})
         BOOST_CHECK_THROW(model.add_term<Reaction<2>>(wrong), InputError);
+    // What has not reacted is no energy that a wall could account for.
+    Box<2> box;
+    box.set_wall(0, false, {WallKind::no_slip, -20.0});
+    for (const double heat : {0.0, 1.0}) {
+        ParticleModel<2> walled(jittered_particles<2>(8, 34), box);
+        walled.add_term<SmoothParticles<2>>(Fluid{GammaGas{2.0}},
+                                            Scheme{.density = Density::summed});
+        const ReactionScheme scheme{.heat = heat};
+        if (heat > 0.0)
+            BOOST_CHECK_THROW(walled.add_term<Reaction<2>>(scheme), InputError);
+        else
+            walled.add_term<Reaction<2>>(scheme);
+    }
 }

@@ -4,6 +4,7 @@
 #include "support/random_state.hpp"
 #include "support/refusal.hpp"
 #include <spam/diagnostics/invariants.hpp>
+#include <spam/external/clamp.hpp>
 #include <spam/external/gravity.hpp>
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
@@ -130,6 +131,18 @@ BOOST_AUTO_TEST_CASE(one_particle_is_turned_back) {
     // Where it is at the end of the step in which it has passed: at most that far off the exact path.
     const double exact = 1.0 - 0.25 * (8.0 - 2.0);
     BOOST_TEST(std::abs(state.position()(0, 0) - exact) <= 2.0 * 0.25 * 0.25);
+
+    // One that is driven passes.
+    ParticleModel<2> driven(one, box);
+    driven.add(std::make_shared<Clamp<2>>(
+        Group{}, [](double) { return Point<2>(0.25, 0.5); },
+        [](double) { return Point<2>(Point<2>::Zero()); }));
+    y.resize(driven.layout().size(), 0.0);
+    Motion<2> through(driven, y, {.method = "rk4", .dt = 0.25});
+    through.advance_to(8.0);
+    BOOST_TEST((through.state().velocity().col(0) == Point<2>(0.25, 0.5)));
+    BOOST_TEST(through.state().position()(0, 0) == 2.5);
+    BOOST_TEST(driven.reflections() == 0U);
 }
 
 BOOST_AUTO_TEST_CASE(bodies_bounce_and_keep_what_they_promise) {
