@@ -30,14 +30,9 @@ double closest_pair(const Points<Dim>& position, double reach, const Box<Dim>& b
     for (int a = 0; a < Dim; ++a)
         if (box.periodic(a)) extent = std::min(extent, 0.499 * box.length(a));
     const auto look_at = [&](std::size_t i, std::size_t j) {
-        double r2 = 0.0;
-        for (int a = 0; a < Dim; ++a) {
-            double s = position(a, static_cast<Eigen::Index>(i)) -
-                       position(a, static_cast<Eigen::Index>(j));
-            if (box.periodic(a)) s -= box.length(a) * std::round(s / box.length(a));
-            r2 += s * s;
-        }
-        closest2 = std::min(closest2, r2);
+        const Point<Dim> r = box.nearest(position.col(static_cast<Eigen::Index>(i)) -
+                                         position.col(static_cast<Eigen::Index>(j)));
+        closest2 = std::min(closest2, r.squaredNorm());
     };
     for (double look = std::min(reach, extent); n > 1; look = std::min(2.0 * look, extent)) {
         const PairList<Dim> list(position, look, box);

@@ -8,8 +8,8 @@ namespace spam {
 
 /// Hooke's law between the strain and the stress of the reference configuration:
 ///     E = (F^t F - 1)/2,   energy = lambda tr(E)^2/2 + eta E:E,   P = F (lambda tr(E) 1 + 2 eta E).
-/// For small strains the elastic solid of [HHM04] II. Softens under strong compression: no force is
-/// left where a bar is squeezed to 1/sqrt(3) of its length.
+/// For small strains the elastic solid of [HHM04] II. Softens under strong compression: no
+/// stiffness is left where a bar is squeezed to 1/sqrt(3) of its length.
 struct StVenantKirchhoff {
     double lambda;  ///< first Lame constant
     double eta;     ///< second Lame constant (shear modulus)
