@@ -68,6 +68,8 @@ int drive(const std::function<Integrator&()>& integrator, const Schedule& schedu
           const Observers& observers) {
     Once output(observers.output), snapshot(observers.snapshot);
     Stops stops(schedule);
+    // Before the first row: a signal between it and the first snapshot would leave half a file.
+    InterruptWatch::complete_results();
     bool at_checkpoint = schedule.resumed;  // whether (t, y) is that of the latest checkpoint
     const auto finish = [&](double t) {
         if (!at_checkpoint && observers.last) observers.last(t);
@@ -84,7 +86,6 @@ int drive(const std::function<Integrator&()>& integrator, const Schedule& schedu
         output(integrator().t());
         snapshot(integrator().t());
     }
-    InterruptWatch::complete_results();
     try {
         // Parts meet here, so that one that ends between steps (an observer throws) ends no step of others half-way.
         while (integrator().t() < schedule.t_end && InterruptWatch::agreed() == 0) {

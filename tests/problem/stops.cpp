@@ -117,6 +117,20 @@ BOOST_AUTO_TEST_CASE(two_signals_at_once_are_one) {
     check_complete(folder, "signal 15");
 }
 
+/// Many particles, so that the first snapshot is still being written when the first row is there.
+BOOST_AUTO_TEST_CASE(between_the_first_row_and_the_first_snapshot) {
+    for (int k = 0; k < 3; ++k) {
+        const Scratch folder;
+        Words arguments = long_run;
+        arguments.insert(arguments.end(), {"--size", "80"});
+        Child child(problem("rotating_hexagon", arguments), {folder.path()});
+        BOOST_REQUIRE(wait_for_rows(child, folder / "out/invariants.csv", 1));
+        child.send(SIGTERM);
+        BOOST_TEST(child.finish().status == 143);
+        check_complete(folder, "signal 15");
+    }
+}
+
 BOOST_AUTO_TEST_CASE(the_comparison_interrupted) {
     const Scratch folder;
     Child child(
