@@ -22,9 +22,7 @@ void place(const Eigen::Ref<const Points<Dim>>& x, const Box<Dim>& box, MadeOf<D
     const Point<Dim> first = x.col(static_cast<Eigen::Index>(parts.front().particle));
     Point<Dim> away = Point<Dim>::Zero();
     for (auto& part : parts) {
-        Point<Dim> r = x.col(static_cast<Eigen::Index>(part.particle)) - first;
-        for (int a = 0; a < Dim; ++a)
-            if (box.periodic(a)) r[a] -= box.length(a) * std::round(r[a] / box.length(a));
+        const Point<Dim> r = box.nearest(x.col(static_cast<Eigen::Index>(part.particle)) - first);
         away += part.share * (r + part.offset);
         part.offset = -r;
     }
@@ -107,6 +105,12 @@ Change<Dim> change_of(const Model<Dim>& model, std::span<const double> y,
     for (std::size_t k = 0; k < change.parts.size(); ++k) {
         auto& parts = change.parts[k];
         const auto& part = parts.front();
+        for (int a = 0; a < Dim && remembers && parts.size() > 1; ++a)
+            if (population.periods[a] != model.box().length(a))
+                throw InputError(fmt::format(
+                    "population: particle {} is merged with others in another box than the model's, where other "
+                    "images are the nearest; give Repopulation the model, or its box",
+                    change.id[part.particle]));
         if (remembers && parts.size() == 1) {
             // A law that remembers places in the material would store another strain there.
             using Square = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;

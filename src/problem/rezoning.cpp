@@ -101,7 +101,7 @@ void Rezoning<Dim>::check(const Model<Dim>& model) const {
 template <int Dim>
 std::optional<Population<Dim>> Rezoning<Dim>::looked_at(Model<Dim>& model,
                                                         std::span<const double> y) const {
-    Repopulation<Dim> change(model.particles(), model.deformation_gradients(y));
+    Repopulation<Dim> change(model, y);
     if (!Candidates<Dim>(*this, model, y).apply(change)) return {};
     return change.finish(memory->next_id);
 }

@@ -4,9 +4,9 @@
 
 #include "reach_in.hpp"
 #include <spam/core/error.hpp>
-#include <spam/core/population.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/problem/remake.hpp>
+#include <spam/problem/repopulation.hpp>
 #include <spam/problem/rezoning.hpp>
 
 #include <Eigen/Eigenvalues>

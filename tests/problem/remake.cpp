@@ -3,6 +3,7 @@
 // angular momentum too, with what merged ones had about their centre in the accounts), balances go on without a
 // jump, and motion goes on from an archive bit for bit, with every kind of integrator.
 #include "support/element_mesh.hpp"
+#include "support/refusal.hpp"
 #include "support/turned_body.hpp"
 #include <spam/core/archive.hpp>
 #include <spam/core/error.hpp>
@@ -11,8 +12,10 @@
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/problem/remake.hpp>
+#include <spam/problem/repopulation.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/smooth_particles.hpp>
+#include <spam/rhs/total_lagrangian.hpp>
 #include <spam/setup/initial_state.hpp>
 #include <spam/setup/lattices.hpp>
 
@@ -171,7 +174,7 @@ void check_vectors(const Box<Dim>& box) {
     };
     auto first = make(test::jittered_particles<Dim>(Dim == 2 ? 8 : 6, 3, 0.05, box));
     const auto y = test::moved<Dim>(first, 0.1, 5);
-    Repopulation<Dim> change(first.particles(), first.deformation_gradients(y));
+    Repopulation<Dim> change(first, y);
     Points<Dim> two = Points<Dim>::Zero(Dim, 2);
     two.col(0) << 0.1, Point<Dim - 1>::Constant(0.15);
     two.col(1) = -two.col(0);
@@ -191,6 +194,51 @@ BOOST_AUTO_TEST_CASE(vectors_in_boxes_and_in_space) {
     check_vectors<2>({});
     check_vectors<2>(Box<2>({8.0, 8.0 * std::sqrt(0.75)}));
     check_vectors<3>({});
+}
+
+/// A crystal at rest stores nothing, wherever two of its particles become one: places in the material are averaged by
+/// nearest images, as those in space are.
+template <int Dim>
+void check_merged_across_a_border(const Box<Dim>& box, int cells) {
+    const auto make = [&](Particles<Dim> particles) {
+        return TotalLagrangianModel<Dim>(std::move(particles), PolynomialSolid{0.43, 0.43},
+                                         {1.2, 2.4, 0.1}, box);
+    };
+    auto first = make(test::jittered_particles<Dim>(cells, 3, 0.05, box));
+    const auto& X = first.particles().reference_position;
+    std::vector<double> y(first.layout().size(), 0.0);
+    State<Dim>(first.layout(), y).position() = X;
+    Eigen::Index across = 1;  // of those beyond the border, the nearest to the first
+    for (Eigen::Index j = 1; j < X.cols(); ++j) {
+        const Point<Dim> r = X.col(j) - X.col(0);
+        if ((box.nearest(r) - r).norm() > 1.0 &&
+            (across == 1 || box.nearest(r).norm() < box.nearest(X.col(across) - X.col(0)).norm()))
+            across = j;
+    }
+    BOOST_REQUIRE(box.nearest(X.col(across) - X.col(0)).norm() < 1.5);
+    const auto j = static_cast<std::size_t>(across);
+    Repopulation<Dim> change(first, y);
+    change.merge({0, j});
+    const auto population = change.finish();
+    auto second = make(population.particles);
+    const auto remade = remake<Dim>(first, y, population, second);
+    BOOST_TEST(remade.before.energy < 1e-25);
+    BOOST_TEST(remade.after.energy < 1e-25);
+    Repopulation<Dim> without_box(first.particles(), first.deformation_gradients(y));
+    without_box.merge({0, j});
+    const auto averaged = without_box.finish();
+    auto third = make(averaged.particles);
+    BOOST_TEST(test::refusal([&] {
+                   remake<Dim>(first, y, averaged, third);
+               }).starts_with("population: particle 0 is merged with others in another box"));
+    std::vector<double> there(third.layout().size(), 0.0);
+    std::ranges::copy(remade.y, there.begin());
+    BOOST_TEST(third.internal_energy(there) > 1e-3);  // what the refusal saves from
+}
+
+BOOST_AUTO_TEST_CASE(merged_across_a_border) {
+    check_merged_across_a_border<2>(Box<2>({8.0, 8.0 * std::sqrt(0.75)}), 8);
+    check_merged_across_a_border<3>(Box<3>({6.0, 6.0, 6.0}), 6);
 }
 
 /// Another box, another external: what moves is the same, and accounts begin anew.

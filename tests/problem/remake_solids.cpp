@@ -11,6 +11,7 @@
 #include <spam/material/yielding_solid.hpp>
 #include <spam/problem/motion.hpp>
 #include <spam/problem/remake.hpp>
+#include <spam/problem/repopulation.hpp>
 #include <spam/rhs/material_vectors.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
@@ -99,7 +100,7 @@ Population<2> split(const Particles<2>& particles, std::vector<Mat<2>> F) {
 enum class Kind { split, merge, all };
 Population<2> changed(const Model<2>& model, std::span<const double> y, Kind kind) {
     if (kind == Kind::split) return split(model.particles(), model.deformation_gradients(y));
-    Repopulation<2> change(model.particles(), model.deformation_gradients(y));
+    Repopulation<2> change(model, y);
     change.merge({30, 31});
     change.merge({40, 48, 49});
     if (kind == Kind::merge) return change.finish();

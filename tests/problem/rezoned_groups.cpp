@@ -4,6 +4,7 @@
 #include "support/refusal.hpp"
 #include <spam/material/gamma_gas.hpp>
 #include <spam/problem/remake.hpp>
+#include <spam/problem/repopulation.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
 #include <boost/test/unit_test.hpp>

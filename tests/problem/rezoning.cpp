@@ -8,6 +8,7 @@
 #include <spam/material/harmonic_spring.hpp>
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/problem/remake.hpp>
+#include <spam/problem/repopulation.hpp>
 #include <spam/problem/run_in_memory.hpp>
 #include <spam/rhs/density_potentials.hpp>
 #include <spam/rhs/material_vectors.hpp>

@@ -158,7 +158,6 @@ BOOST_AUTO_TEST_CASE(sums_over_particles_are_exact) {
                                        "src/integrate/error_shares.cpp",
                                        "src/core/exact_sum_digits.lanes.cpp",
                                        "include/spam/core/parallel.hpp",
-                                       "src/core/population.cpp",
                                        "src/diagnostics/outline.cpp",
                                        "src/study/example_systems.cpp",
                                        "include/spam/setup/lattices.hpp"};

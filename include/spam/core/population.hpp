@@ -33,6 +33,8 @@ struct Population {
     Particles<Dim> particles;
     std::vector<std::vector<Part>> parts;  ///< by new particle; shares of each sum to 1
     std::vector<std::uint32_t> removed;    ///< old particles that none is made of
+    /// Of the periodic box by whose nearest images reference positions of merged particles were averaged; 0: none.
+    Point<Dim> periods = Point<Dim>::Zero();
 };
 
 /// F^-1, which takes a way in space to one in the material; 1 where it has no meaning (|det F| <= 1e-3).
@@ -43,50 +45,5 @@ Mat<Dim> into_material(const Mat<Dim>& F) {
     for (int a = 0; a < Dim; ++a) one(a, a) = 1.0;
     return one;
 }
-
-/// Splits, merges and removes particles, each of them at most once. Particles that nothing is said of stay
-/// as they are; the order in memory is kept, children take their parent's place. Ids stay with those
-/// that stay; a merged particle has the first one's, children have numbers that were not there.
-template <int Dim>
-class Repopulation {
-  public:
-    /// Of `before`, which must outlive it. `deformation`: F of each, Model::deformation_gradients() of the state in
-    /// which they are split; empty where the model remembers no places in the material.
-    explicit Repopulation(const Particles<Dim>& before, std::vector<Mat<Dim>> deformation = {});
-
-    /// Particle i in offsets.cols() >= 2 of equal mass, at these places d (Dim x children) from its own, and
-    /// F^-1 d from its reference position; their sum must be zero (then momentum and angular momentum are
-    /// kept), or InputError.
-    void split(std::size_t i, const Points<Dim>& offsets);
-    /// Two or more particles in one, at their centre of mass, now and in the reference positions. Throws InputError
-    /// for different materials or bodies.
-    void merge(const std::vector<std::size_t>& particles);
-    /// Three or more particles in two of equal mass, at d and -d from their centre of mass (Rezoning says which d is
-    /// best): they turn about each other so that the angular momentum is kept. Throws InputError as the other.
-    void merge(const std::vector<std::size_t>& particles, const Point<Dim>& d);
-    /// Takes particle i away. Throws InputError where it is split, merged or removed already.
-    void remove(std::size_t i);
-
-    /// The new set, and what each of its particles is made of; remake() carries a state over. Children have numbers
-    /// from `first_new` on, or above all that there are: a run that does so often keeps the numbers of those gone free.
-    Population<Dim> finish(std::int64_t first_new = 0) const;
-
-  private:
-    struct Change {
-        std::vector<std::size_t> merged{};
-        Points<Dim> offsets{};
-        bool removed = false;
-        Point<Dim> apart = Point<Dim>::Zero();  ///< of two that are made of more
-    };
-    Change& change_of(std::size_t i);
-
-    const Particles<Dim>& before_;
-    std::vector<Mat<Dim>> deformation_;
-    std::vector<int>
-        change_;  ///< by particle, place in changes_; -1: none; -2: goes into another one
-    std::vector<Change> changes_;
-};
-
-SPAM_COMPILED(extern template class Repopulation);
 
 }  // namespace spam

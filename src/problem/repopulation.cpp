@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
-#include <spam/core/population.hpp>
+#include <spam/problem/repopulation.hpp>
 
 #include <fmt/format.h>
 
@@ -10,9 +10,15 @@
 namespace spam {
 
 template <int Dim>
-Repopulation<Dim>::Repopulation(const Particles<Dim>& before, std::vector<Mat<Dim>> deformation)
+Repopulation<Dim>::Repopulation(const Model<Dim>& model, std::span<const double> y)
+    : Repopulation(model.particles(), model.deformation_gradients(y), model.box()) {}
+
+template <int Dim>
+Repopulation<Dim>::Repopulation(const Particles<Dim>& before, std::vector<Mat<Dim>> deformation,
+                                const Box<Dim>& box)
     : before_(before),
       deformation_(std::move(deformation)),
+      box_(box),
       change_(before.size(), -1) {
     if (!deformation_.empty() && deformation_.size() != before.size())
         throw InputError(
@@ -101,6 +107,7 @@ Population<Dim> Repopulation<Dim>::finish(std::int64_t first_new) const {
     Population<Dim> after;
     Particles<Dim>& p = after.particles;
     p.spacing = before_.spacing;
+    for (int a = 0; a < Dim; ++a) after.periods[a] = box_.length(a);
     std::int64_t next_id = first_new;
     for (const auto id : before_.id) next_id = std::max(next_id, id + 1);
     std::vector<Point<Dim>> reference;
@@ -139,11 +146,15 @@ Population<Dim> Repopulation<Dim>::finish(std::int64_t first_new) const {
         } else {
             double mass = 0.0;
             for (const std::size_t j : change.merged) mass += before_.mass[j];
-            Point<Dim> centre = Point<Dim>::Zero();
+            const auto X_of = [&](std::size_t j) -> Point<Dim> {
+                return before_.reference_position.col(static_cast<Eigen::Index>(j));
+            };
+            const Point<Dim> first = X_of(change.merged.front());
+            Point<Dim> centre = first;
             std::vector<Part> parts;
             for (const std::size_t j : change.merged) {
                 const double share = before_.mass[j] / mass;
-                centre += share * before_.reference_position.col(static_cast<Eigen::Index>(j));
+                centre += share * box_.nearest(X_of(j) - first);
                 parts.push_back({static_cast<std::uint32_t>(j), share, Point<Dim>::Zero()});
             }
             if (change.apart.isZero()) {
