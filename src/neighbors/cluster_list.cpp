@@ -192,11 +192,23 @@ std::size_t ClusterList<Dim>::search() {
         bits > 0 ? parallel_threshold : 0);
 }
 
+/// Behind particles whose slots are known. Entries are slots times the stride, in 32 bits.
+template <int Dim>
+void ClusterList<Dim>::build_images() {
+    ghosts_.build(box_, reach(), place(), slot_of_, order_.size(), x_);
+    const std::uint64_t numbers = std::uint64_t{slots()} * stride_, most = std::uint64_t{1} << 32U;
+    if (numbers > most)
+        throw InputError(fmt::format(
+            "neighbours: {} particles with images, of {} numbers each, are more than the {} that a list can point "
+            "to; take fewer particles, or more processes (--ranks)",
+            slots(), stride_, most));
+}
+
 /// Of an infinite range.
 template <int Dim>
 void ClusterList<Dim>::list_all() {
     gather_in_order();
-    ghosts_.build(box_, reach(), place(), slot_of_, order_.size(), x_);
+    build_images();
     cells_.load({boxes_, ghosts_, place(), order_, slot_of_, x_, static_cast<std::size_t>(width_),
                  0.0, reach(), 0.0});
     parts_.assign(1, {{}});
@@ -214,7 +226,7 @@ void ClusterList<Dim>::build(const Eigen::Ref<const Points<Dim>>& position) {
     motion_.begin(position);
     if (std::isinf(range_)) return list_all();
     sort();
-    ghosts_.build(box_, reach(), place(), slot_of_, order_.size(), x_);
+    build_images();
     entries_.resize(boxes_.size());
     const std::size_t found = search();
     // Each pair was found from both ends, each particle found itself.

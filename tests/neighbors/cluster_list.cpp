@@ -230,6 +230,17 @@ BOOST_AUTO_TEST_CASE(boxes_too_narrow_are_refused) {
     BOOST_CHECK_NO_THROW(PairList<2>(x, 3.0, Box<2>({6.01, 20.0})));
 }
 
+// Offsets of records have 32 bits: beyond them neighbours would be others.
+BOOST_AUTO_TEST_CASE(more_records_than_a_list_can_point_to_are_refused) {
+    const Points<2> x = random_points<2>(64, 8.0, 3);
+    for (const double range : {1.0, HUGE_VAL}) {
+        ClusterList<2> most(range, 0.0, {}, 1, std::size_t{1} << 26U);
+        BOOST_CHECK_NO_THROW(most.build(x));
+        ClusterList<2> beyond(range, 0.0, {}, 1, (std::size_t{1} << 26U) + 1);
+        BOOST_CHECK_THROW(beyond.build(x), InputError);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(serves_until_someone_moved_half_the_skin) {
     Points<2> x = random_points<2>(100, 8.0, 3);
     ClusterList<2> list(1.0, 0.2, {}, 4);

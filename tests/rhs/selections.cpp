@@ -2,6 +2,7 @@
 // Terms among parts of the particles: each part moves as it would alone, to the last bit, and together they
 // do what a further term among all of them says.
 #include "support/random_state.hpp"
+#include "support/refusal.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/invariants.hpp>
 #include <spam/external/friction.hpp>
@@ -9,6 +10,8 @@
 #include <spam/material/elastic_solid.hpp>
 #include <spam/material/ideal_gas.hpp>
 #include <spam/problem/motion.hpp>
+#include <spam/rhs/ellipses.hpp>
+#include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/pair_potentials.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 #include <spam/rhs/springs.hpp>
@@ -166,4 +169,22 @@ BOOST_AUTO_TEST_CASE(what_does_not_go_together_and_what_does) {
          {std::pair<std::size_t, std::size_t>{0, 0}, {3 * n, 1}, {1, 3 * n}, {std::size_t(-1), 2}})
         BOOST_CHECK_THROW((model.add_term_among<Springs<2>>(first, count, HarmonicSpring{})),
                           InputError);
+}
+
+BOOST_AUTO_TEST_CASE(the_start_of_a_fluid_is_that_of_a_whole_model) {
+    const auto particles = all_three();
+    const auto& x = particles.reference_position;
+    const auto v = Points<2>(Points<2>::Zero(2, x.cols()));
+    ParticleModel<2> model(particles), by_density(particles), of_ellipses(particles);
+    auto& gases = model.add_term_among<SmoothParticles<2>>(n, n, gas, Scheme{.range = 2.6});
+    auto& ranges = by_density.add_term_among<OwnRanges<2>>(n, n, gas, VariableRangeScheme{});
+    auto& ellipses = of_ellipses.add_term_among<Ellipses<2>>(n, n, gas, EllipseScheme{});
+    for (const std::string& said :
+         {refusal([&] { gases.start(x, v, 1.0); }), refusal([&] { ranges.start(x, v, 1.0); }),
+          refusal([&] { ellipses.start(x, v, 1.0); })})
+        BOOST_TEST((said.starts_with("start: '") && said.find("some of the particles") < 100),
+                   said);
+    FluidModel<2> all(particles, gas, Scheme{.range = 2.6});
+    BOOST_TEST(refusal([&] { all.state(x, v.leftCols(5)); }) ==
+               "start: there are 243 positions and 5 velocities of 243 particles");
 }

@@ -39,7 +39,8 @@ class ClusterList {
     void set_skin(double skin) { skin_ = skin; }
     double skin() const { return skin_; }
 
-    /// Builds the list for positions Dim x N (finite, not necessarily wrapped).
+    /// Builds the list for positions Dim x N (finite, not necessarily wrapped). Throws InputError where records of all
+    /// particles and images have more than 2^32 numbers.
     void build(const Eigen::Ref<const Points<Dim>>& position);
 
     /// Whether the list still serves these positions: no particle has moved more than half the skin
@@ -96,6 +97,7 @@ class ClusterList {
     void gather();
     void gather_in_order();
     void gather_strips();
+    void build_images();
     /// Every how many clusters neighbours are looked for particle by particle, and counted; around the
     /// others everything near their bounds is listed. One where the list is not in strips.
     std::size_t counted_each() const { return !in_order_ && boxes_.size() >= 256 ? 8 : 1; }

@@ -94,7 +94,8 @@ class SmoothParticles final : public Term<Dim> {
     std::vector<double> pressure(std::span<const double> y) const;
     /// N; NaN outside the law. Precondition: the law is thermal.
     std::vector<double> temperature(std::span<const double> y) const;
-    /// FluidModel::state()
+    /// FluidModel::state(). Throws InputError among some of the particles, and for other than N positions or
+    /// velocities.
     std::vector<double> start(const Points<Dim>& position, const Points<Dim>& velocity, double T);
 
   private:

@@ -278,6 +278,7 @@ void Ellipses<Dim>::shorten_along_gradient(std::span<double> y,
 template <int Dim>
 std::vector<double> Ellipses<Dim>::start(const Points<Dim>& position, const Points<Dim>& velocity,
                                          double T) {
+    expect_start<Dim>(*this, position, velocity);
     std::vector<double> y(this->layout().size(), 0.0);
     const State<Dim> state(this->layout(), y);
     state.position() = position;

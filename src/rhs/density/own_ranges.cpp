@@ -280,6 +280,7 @@ std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position)
 template <int Dim>
 std::vector<double> OwnRanges<Dim>::start(const Points<Dim>& position, const Points<Dim>& velocity,
                                           double T) {
+    expect_start<Dim>(*this, position, velocity);
     return fluid_start<Dim>(
         this->model(), [&](std::size_t) -> const AnyEquationOfState& { return fluid_.state; },
         position, velocity, solve_densities(position), T);

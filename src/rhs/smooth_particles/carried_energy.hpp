@@ -6,7 +6,7 @@
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parts.hpp>
 #include <spam/material/fluid.hpp>
-#include <spam/rhs/model.hpp>
+#include <spam/rhs/term.hpp>
 
 #include <fmt/format.h>
 
@@ -42,6 +42,21 @@ double speed_of_fall(Model<Dim>& model, const std::vector<double>& y) {
     const auto v_dot = ConstState<Dim>(model.layout(), y_dot).velocity();
     const double a = Parts::here().most(v_dot.cols() > 0 ? v_dot.colwise().norm().maxCoeff() : 0.0);
     return a > 0.0 ? std::sqrt(a * model.particles().spacing) : 1.0;
+}
+
+/// start() makes the state of a whole model, of as many particles as there are.
+template <int Dim>
+void expect_start(const Term<Dim>& law, const Points<Dim>& position, const Points<Dim>& velocity) {
+    const std::size_t n = law.among().particles().size();
+    if (!law.among().whole())
+        throw InputError(fmt::format(
+            "start: '{}' acts among some of the particles only; fill the fields of the state in place of it",
+            law.nature().description));
+    if (static_cast<std::size_t>(position.cols()) != n ||
+        static_cast<std::size_t>(velocity.cols()) != n)
+        throw InputError(
+            fmt::format("start: there are {} positions and {} velocities of {} particles",
+                        position.cols(), velocity.cols(), n));
 }
 
 /// y of fluids at `position` with these velocities and densities `rho` (N), and the energies of

@@ -47,6 +47,7 @@ std::vector<double> SmoothParticles<Dim>::temperature(std::span<const double> y)
 template <int Dim>
 std::vector<double> SmoothParticles<Dim>::start(const Points<Dim>& position,
                                                 const Points<Dim>& velocity, double T) {
+    expect_start<Dim>(*this, position, velocity);
     const auto& fluids = dynamic_cast<const FluidConstitution<Dim>&>(*constitution_);
     const auto sum = best_sweeps([&](auto level) {
         Scheme summed = scheme_;
