@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/parts.hpp>
 #include <spam/rhs/selection.hpp>
 
 #include <cmath>
@@ -56,18 +57,16 @@ class Term {
         if (what == Ask::neighbour_forces) return {std::abs(energy(y)) / particles().spacing};
         return {};
     }
-    double energy(std::span<const double> y) const { return answer(Ask::energy, y).number; }
+    double energy(std::span<const double> y) const { return ask(Ask::energy, y).number; }
     std::vector<double> density(std::span<const double> y) const {
-        return answer(Ask::density, y).density;
+        return ask(Ask::density, y).density;
     }
     double neighbour_forces(std::span<const double> y) const {
-        return answer(Ask::neighbour_forces, y).number;
+        return ask(Ask::neighbour_forces, y).number;
     }
-    double fastest_damping(std::span<const double> y) const {
-        return answer(Ask::damping, y).number;
-    }
+    double fastest_damping(std::span<const double> y) const { return ask(Ask::damping, y).number; }
     std::vector<Mat<Dim>> deformation_gradients(std::span<const double> y) const {
-        return answer(Ask::deformation, y).deformation;
+        return ask(Ask::deformation, y).deformation;
     }
 
     /// What a law is beside what it finds. Constant, but for the reach of ranges that follow the state.
@@ -151,6 +150,12 @@ class Term {
     }
 
   private:
+    /// A call of all parts of a run, by the numbers of the term's particles.
+    Answer ask(Ask what, std::span<const double> y) const {
+        const Parts::Among numbers(Parts::here(), among_.first());
+        return answer(what, y);
+    }
+
     Selection<Dim> among_;
     std::vector<Neighbourhood<Dim>*> neighbourhoods_;
 };

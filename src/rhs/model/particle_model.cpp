@@ -158,10 +158,7 @@ void ParticleModel<Dim>::find_rates(double t, std::span<const double> y, std::sp
 template <int Dim>
 double ParticleModel<Dim>::internal_energy(std::span<const double> y) const {
     double energy = 0.0;
-    for (const auto& term : terms_) {
-        const Parts::Among numbers(Parts::here(), term->among().first());
-        energy += term->energy(y);
-    }
+    for (const auto& term : terms_) energy += term->energy(y);
     for (const auto& external : externals_)
         if (has_energy(*external))
             energy += external->energy(this->particles(), {this->layout(), y});
@@ -182,7 +179,6 @@ std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const
     rho.resize(known.size());
     for (const auto& term : terms_) {
         const std::size_t first = term->among().first();
-        const Parts::Among numbers(Parts::here(), first);
         const auto found =
             term->density(y);  // a call of all parts, also of one without its particles
         if (found.empty() || of_term[first]) continue;
