@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/symmetric_eigen.hpp>
 #include <spam/problem/remake.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +15,15 @@ template <int Dim>
 using MadeOf = std::vector<typename Population<Dim>::Part>;
 template <int Dim>
 using SquareMatrix = Eigen::Matrix<double, Dim, Dim>;
+
+/// Along which `spread` is largest, or least.
+template <int Dim>
+Point<Dim> axis_of(const SquareMatrix<Dim>& spread, bool longest = true) {
+    SymTensor<Dim> A;
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b) A(a, b) = spread(a, b);
+    return Point<Dim>(principal_axis(symmetric_eigen(A), longest).c.data());
+}
 
 /// Sets the offsets of the parts to their centre of mass, by the images nearest to the first.
 template <int Dim>
@@ -60,7 +69,7 @@ struct InnerMotion {
             if (l.norm() > 1e-12 * std::sqrt(2.0 * energy * spread.trace()))
                 l.normalize();
             else
-                l = Eigen::SelfAdjointEigenSolver<SquareMatrix<3>>(spread).eigenvectors().col(0);
+                l = axis_of<3>(spread, false);
             plane -= l * l.transpose();
         }
         return plane;
@@ -204,10 +213,8 @@ Point<Dim> twin_offset(const Model<Dim>& model, std::span<const double> y,
     place<Dim>(state.position(), model.box(), parts);
     const InnerMotion<Dim> inner(state, parts, mean,
                                  [](const auto& part) -> Point<Dim> { return -part.offset; });
-    using Eigensystem = Eigen::SelfAdjointEigenSolver<SquareMatrix<Dim>>;
     const SquareMatrix<Dim> across = inner.across(), spread = across * inner.spread * across;
-    return std::sqrt(std::max(0.0, spread.trace())) *
-           Eigensystem(spread).eigenvectors().col(Dim - 1);
+    return std::sqrt(std::max(0.0, spread.trace())) * axis_of<Dim>(spread);
 }
 
 template <int Dim>

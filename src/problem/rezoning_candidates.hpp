@@ -4,14 +4,14 @@
 
 #include "reach_in.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/symmetric_eigen.hpp>
 #include <spam/neighbors/pair_list.hpp>
 #include <spam/problem/remake.hpp>
 #include <spam/problem/repopulation.hpp>
 #include <spam/problem/rezoning.hpp>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -20,14 +20,6 @@
 #include <vector>
 
 namespace spam {
-
-// Of any size: one instance of these solvers, each of which takes seconds to compile.
-inline Eigen::MatrixXd least_squares(const Eigen::MatrixXd& moments, const Eigen::MatrixXd& sums) {
-    return moments.completeOrthogonalDecomposition().solve(sums);
-}
-inline Eigen::VectorXd least_axis(const Eigen::MatrixXd& symmetric) {
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);
-}
 
 /// What is known of all particles before any is changed.
 template <int Dim>
@@ -84,10 +76,8 @@ class Candidates {
   private:
     /// From j to i.
     Point<Dim> way(std::size_t i, std::size_t j) const {
-        Point<Dim> r = x_.col(static_cast<Eigen::Index>(i)) - x_.col(static_cast<Eigen::Index>(j));
-        for (int a = 0; a < Dim; ++a)
-            if (const double L = model_.box().length(a); L > 0.0) r[a] -= L * std::round(r[a] / L);
-        return r;
+        return model_.box().nearest(x_.col(static_cast<Eigen::Index>(i)) -
+                                    x_.col(static_cast<Eigen::Index>(j)));
     }
 
     struct Votes {
@@ -115,31 +105,49 @@ class Candidates {
         return votes;
     }
 
-    /// The slopes that fit the differences of the neighbours' values best, by w = (1 - u)^2: d value_b/d x_a.
+    /// The slopes that fit the differences of the neighbours' values best, by w = (1 - u)^2: d value_b/d x_a. None
+    /// across a line or a plane in which all neighbours are.
     template <int Values, class ValueOf>
-    Eigen::Matrix<double, Dim, Values> slopes(std::size_t i, const ValueOf& value_of) const {
-        Eigen::Matrix<double, Dim, Dim> moments = Eigen::Matrix<double, Dim, Dim>::Zero();
-        Eigen::Matrix<double, Dim, Values> sums = Eigen::Matrix<double, Dim, Values>::Zero();
-        const Eigen::Matrix<double, Values, 1> own = value_of(i);
+    std::array<Vec<Dim>, Values> slopes(std::size_t i, const ValueOf& value_of) const {
+        SymTensor<Dim> moments;
+        std::array<Vec<Dim>, Values> sums{}, slopes{};
+        const auto own = value_of(i);
         for (const std::uint32_t j : near_.neighbours(i)) {
             const Point<Dim> r = way(j, i);
-            const double w = std::pow(1.0 - r.norm() / range_, 2);
-            moments += w * r * r.transpose();
-            sums += w * r * (value_of(j) - own).transpose();
+            const double u = r.norm() / range_, w = (1.0 - u) * (1.0 - u);
+            const auto other = value_of(j);
+            for (int a = 0; a < Dim; ++a) {
+                for (int b = a; b < Dim; ++b) moments(a, b) += w * r[a] * r[b];
+                for (std::size_t k = 0; k < Values; ++k)
+                    sums[k][a] += w * r[a] * (other[k] - own[k]);
+            }
         }
-        return least_squares(moments, sums);
+        const auto eigen = symmetric_eigen(moments);
+        double most = 0.0;
+        for (int a = 0; a < Dim; ++a) most = std::max(most, eigen.value[a]);
+        for (int a = 0; a < Dim; ++a) {
+            if (!(eigen.value[a] > 1e-13 * most)) continue;
+            for (std::size_t k = 0; k < Values; ++k) {
+                double along = 0.0;
+                for (int b = 0; b < Dim; ++b) along += eigen.vectors(b, a) * sums[k][b];
+                for (int b = 0; b < Dim; ++b)
+                    slopes[k][b] += eigen.vectors(b, a) * along / eigen.value[a];
+            }
+        }
+        return slopes;
     }
     double steepness(std::size_t i) const {
-        const auto rho = [&](std::size_t j) { return Point<1>(rho_[j]); };
-        return slopes<1>(i, rho).norm() * range_ / rho_[i];
+        const auto rho = [&](std::size_t j) { return std::array{rho_[j]}; };
+        const Vec<Dim> slope = slopes<1>(i, rho)[0];
+        return std::sqrt(dot(slope, slope)) * range_ / rho_[i];
     }
     /// Whether the matter around it becomes thinner.
     bool expands(std::size_t i) const {
-        const auto v = ConstState<Dim>(model_.layout(), y_).velocity();
-        const auto velocity = [&](std::size_t j) -> Point<Dim> {
-            return v.col(static_cast<Eigen::Index>(j));
-        };
-        return slopes<Dim>(i, velocity).trace() > 0.0;
+        const double* const v = ConstState<Dim>(model_.layout(), y_).velocity().data();
+        const auto slope = slopes<Dim>(i, [&](std::size_t j) { return v + Dim * j; });
+        double trace = 0.0;
+        for (int a = 0; a < Dim; ++a) trace += slope[static_cast<std::size_t>(a)][a];
+        return trace > 0.0;
     }
 
     Points<Dim> children(std::size_t i) const {
@@ -158,13 +166,15 @@ class Candidates {
 
     /// In which the nearest neighbours are farthest.
     Point<Dim> sparse_direction(std::size_t i) const {
-        Eigen::Matrix<double, Dim, Dim> near = Eigen::Matrix<double, Dim, Dim>::Zero();
+        SymTensor<Dim> near;
         for (const std::uint32_t j : near_.neighbours(i)) {
             const Point<Dim> r = way(j, i);
-            if (r.squaredNorm() > 0.0)
-                near += r * r.transpose() / std::pow(r.squaredNorm(), 0.5 * Dim + 2.0);
+            if (!(r.squaredNorm() > 0.0)) continue;
+            const double share = std::pow(r.squaredNorm(), -0.5 * Dim - 2.0);
+            for (int a = 0; a < Dim; ++a)
+                for (int b = a; b < Dim; ++b) near(a, b) += r[a] * r[b] * share;
         }
-        return least_axis(near);
+        return Point<Dim>(principal_axis(symmetric_eigen(near), false).c.data());
     }
 
     /// Whether the place of a particle, or the middle of a group, with these offsets is beyond a wall: now, or in the

@@ -55,6 +55,17 @@ inline SymmetricEigen<Dim> symmetric_eigen(SymTensor<Dim> A) {
     return e;
 }
 
+/// n_a of the largest value, or of the least.
+template <int Dim>
+inline Vec<Dim> principal_axis(const SymmetricEigen<Dim>& e, bool of_largest) {
+    int found = 0;
+    for (int a = 1; a < Dim; ++a)
+        if (of_largest ? e.value[a] > e.value[found] : e.value[a] < e.value[found]) found = a;
+    Vec<Dim> n;
+    for (int a = 0; a < Dim; ++a) n[a] = e.vectors(a, found);
+    return n;
+}
+
 /// sum_a value[a] n_a n_a
 template <int Dim>
 inline SymTensor<Dim> from_eigen(const Vec<Dim>& value, const Mat<Dim>& vectors) {
