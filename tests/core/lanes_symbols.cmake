@@ -7,11 +7,14 @@
 set(foreign "")
 set(early "")
 foreach(object IN LISTS OBJECTS)
-  execute_process(COMMAND ${NM} -C ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL "[^\n]* [WVu] [^\n]*" shared "${symbols}")
-  list(FILTER shared EXCLUDE REGEX "InstructionSet|lanes_(sse4|avx2|avx512)|DW[.]ref[.]")
+  execute_process(COMMAND ${NM} ${object}
+    COMMAND awk "/ [WVu] / && !/InstructionSet|lanes_(sse4|avx2|avx512)|DW[.]ref[.]/"
+    COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE shared)
+  string(REGEX MATCHALL "[^\n]+" shared "${shared}")
   list(APPEND foreign ${shared})
-  string(REGEX MATCHALL "_GLOBAL__sub_I_[^\n]*" begins "${symbols}")
+  execute_process(COMMAND ${NM} ${object} COMMAND awk "/_GLOBAL__sub_I_/ { print $NF }"
+    COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE begins)
+  string(REGEX MATCHALL "[^\n]+" begins "${begins}")
   foreach(begin IN LISTS begins)
     execute_process(COMMAND ${OBJDUMP} -d --no-show-raw-insn --disassemble=${begin} ${object}
       OUTPUT_VARIABLE code COMMAND_ERROR_IS_FATAL ANY)
