@@ -4,10 +4,10 @@
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/symmetric_eigen.hpp>
 #include <spam/physics/lagrangian_record.hpp>
 #include <spam/rhs/total_lagrangian.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
@@ -167,10 +167,11 @@ void TotalLagrangian<Dim>::find_corrections() {
     for (std::size_t slot = 0; slot < near_.list().size(); ++slot) {
         double* const record = near_.record(slot);
         const Tensor<Dim> A = Eigen::Map<const Tensor<Dim>>(record + F_at<Dim>);
-        Eigen::SelfAdjointEigenSolver<Tensor<Dim>> modes;
-        modes.computeDirect(A, Eigen::EigenvaluesOnly);  // good to 1e-8 of the largest
-        const auto& strength = modes.eigenvalues();
-        if (!(strength[0] > 1e-6 * strength[Dim - 1]))
+        SymTensor<Dim> moments;
+        for (int a = 0; a < Dim; ++a)
+            for (int b = a; b < Dim; ++b) moments(a, b) = A(b, a);
+        const auto [least, most] = std::ranges::minmax(symmetric_eigen(moments).value.c);
+        if (!(least > 1e-6 * most))
             throw InputError(fmt::format(
                 "range: particle {} has too few neighbours within {} spacings for a deformation "
                 "gradient; widen --range",
