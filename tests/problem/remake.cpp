@@ -208,29 +208,29 @@ void check_merged_across_a_border(const Box<Dim>& box, int cells) {
     const auto& X = first.particles().reference_position;
     std::vector<double> y(first.layout().size(), 0.0);
     State<Dim>(first.layout(), y).position() = X;
-    Eigen::Index across = 1;  // of those beyond the border, the nearest to the first
-    for (Eigen::Index j = 1; j < X.cols(); ++j) {
-        const Point<Dim> r = X.col(j) - X.col(0);
-        if ((box.nearest(r) - r).norm() > 1.0 &&
-            (across == 1 || box.nearest(r).norm() < box.nearest(X.col(across) - X.col(0)).norm()))
-            across = j;
-    }
-    BOOST_REQUIRE(box.nearest(X.col(across) - X.col(0)).norm() < 1.5);
-    const auto j = static_cast<std::size_t>(across);
+    std::vector<std::size_t> pair{0, 0};  // the nearest of all across a border
+    double nearest = 1.5;
+    for (Eigen::Index i = 0; i < X.cols(); ++i)
+        for (Eigen::Index j = i + 1; j < X.cols(); ++j) {
+            const Point<Dim> r = X.col(j) - X.col(i), image = box.nearest(r);
+            if ((image - r).norm() < 1.0 || image.norm() >= nearest) continue;
+            nearest = image.norm();
+            pair = {static_cast<std::size_t>(i), static_cast<std::size_t>(j)};
+        }
+    BOOST_REQUIRE(nearest < 1.5);
     Repopulation<Dim> change(first, y);
-    change.merge({0, j});
+    change.merge(pair);
     const auto population = change.finish();
     auto second = make(population.particles);
     const auto remade = remake<Dim>(first, y, population, second);
     BOOST_TEST(remade.before.energy < 1e-25);
     BOOST_TEST(remade.after.energy < 1e-25);
     Repopulation<Dim> without_box(first.particles(), first.deformation_gradients(y));
-    without_box.merge({0, j});
+    without_box.merge(pair);
     const auto averaged = without_box.finish();
     auto third = make(averaged.particles);
-    BOOST_TEST(test::refusal([&] {
-                   remake<Dim>(first, y, averaged, third);
-               }).starts_with("population: particle 0 is merged with others in another box"));
+    const std::string said = test::refusal([&] { remake<Dim>(first, y, averaged, third); });
+    BOOST_TEST(said.find("merged with others in another box") != std::string::npos, said);
     std::vector<double> there(third.layout().size(), 0.0);
     std::ranges::copy(remade.y, there.begin());
     BOOST_TEST(third.internal_energy(there) > 1e-3);  // what the refusal saves from
