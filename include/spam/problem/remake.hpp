@@ -39,8 +39,8 @@ struct Remade {
 /// Throws InputError where `next` has other laws; where a particle of a law that remembers places in the material
 /// was split without its deformation, or merged without the model's box; where springs, which have one length, or
 /// corners of elements, of which there are four, are split or merged; where particles that have broken are merged with
-/// others, or of different bodies that have material vectors; where material vectors would be merged into two; where the
-/// energy of a fluid or a potential is a function of the density or the places and nothing can pay for its change.
+/// others, or of different bodies that have material vectors; where material vectors would be merged into two; where
+/// the energy of a fluid or a potential is a function of the density or the places and nothing can pay for its change.
 template <int Dim>
 Remade<Dim> remake(Model<Dim>& model, std::span<const double> y, const Population<Dim>& population,
                    Model<Dim>& next);
