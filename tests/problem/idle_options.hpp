@@ -144,7 +144,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"shock_tube", {}},
     {"shock_tube", {"--toro", "5", "--work", "mean"}},
     {"blast",
-     {"--work", "mean", "--ratio", "10", "--range", "2.5", "--finer", "2", "--cells", "12"}},
+     {"--work", "mean", "--ratio", "10", "--range", "2.5", "--finer", "2", "--cells", "16"}},
     {"rayleigh_benard", {"--density", "continuity"}},
     {"water_column", {"--width", "5"}},
     {"water_column", {"--width", "5", "--range", "2.5", "--model", "both"}},
