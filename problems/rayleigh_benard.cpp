@@ -14,7 +14,8 @@
 // Plates are no-slip walls of given temperature: images of the particles behind them. They may be mirrors, at
 // which the gas slips, and the sides may be walls too. Heat through each of
 // them is integrated with y (heat_bottom, heat_top in invariants.csv): its mean over the second half of the
-// run is what result.json tells. Beside the particles the same equations with the same coefficients are
+// run, which takes 80 L (less where the lower plate is hotter, and sound quicker), is what result.json
+// tells. Beside the particles the same equations with the same coefficients are
 // solved by finite differences on a fixed grid of L cells from plate to plate (rayleigh_benard/grid.hpp).
 //
 //     --height 50        5,000 particles, as in the lecture
