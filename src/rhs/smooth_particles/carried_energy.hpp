@@ -50,7 +50,8 @@ void expect_start(const Term<Dim>& law, const Points<Dim>& position, const Point
     const std::size_t n = law.among().particles().size();
     if (!law.among().whole())
         throw InputError(fmt::format(
-            "start: '{}' acts among some of the particles only; fill the fields of the state in place of it",
+            "start: '{}' acts among some of the particles only, and start() makes the state of all; write their "
+            "fields into a state yourself",
             law.nature().description));
     if (static_cast<std::size_t>(position.cols()) != n ||
         static_cast<std::size_t>(velocity.cols()) != n)
