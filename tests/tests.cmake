@@ -124,6 +124,7 @@ spam_test(drift/material_vector_matter drift)
 spam_test(drift/material_vector_bodies drift)
 spam_test(io/text unit)
 spam_test(io/option_rules unit)
+spam_test(core/parallel unit)
 spam_test(core/threads unit)
 spam_test(io/study_table unit)
 spam_test(io/pictures unit)
@@ -155,10 +156,6 @@ if(NOT SPAM_SANITIZE)  # the sanitizers' functions are in the program
 endif()
 add_executable(test.builds.load_module builds/load_module.cpp)
 target_link_libraries(test.builds.load_module PRIVATE spam_test_main spam_flags ${CMAKE_DL_LIBS})
-if(SPAM_SANITIZE)  # clang adds libraries of its own, which lie beside the one of OpenMP
-  find_package(OpenMP REQUIRED COMPONENTS CXX)
-  target_link_libraries(test.builds.load_module PRIVATE OpenMP::OpenMP_CXX)
-endif()
 target_compile_definitions(test.builds.load_module PRIVATE
                            SPAM_MODULE="$<TARGET_FILE:spam_module>")
 add_dependencies(test.builds.load_module spam_module)

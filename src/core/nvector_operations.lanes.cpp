@@ -4,6 +4,7 @@
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/instruction_set.hpp>
 #include <spam/core/lanes.hpp>
+#include <spam/core/parallel.hpp>
 #include <spam/core/parts.hpp>
 
 #include <nvector/nvector_serial.h>
@@ -18,7 +19,8 @@ namespace spam {
 namespace {
 
 constexpr std::size_t most_blocks = 512;
-constexpr std::size_t threads_from = 16384;  // below, fork and join cost more than the loop
+constexpr std::size_t threads_from =
+    16384;  // below, to tell other threads of it costs more than the loop
 
 /// Blocks fit the first-level cache as long as there are not too many of them; they depend on the
 /// length alone, so that sums over blocks do.
@@ -36,12 +38,9 @@ Span of(N_Vector v) { return {NV_DATA_S(v), static_cast<std::size_t>(NV_LENGTH_S
 template <class Body>
 void for_blocks(std::size_t n, const Body& body) {
     const std::size_t size = block_size(n), blocks = (n + size - 1) / size;
-    if (n < threads_from) {
-        for (std::size_t b = 0; b < blocks; ++b) body(b * size, std::min(n, (b + 1) * size));
-        return;
-    }
-#pragma omp parallel for schedule(static)
-    for (std::size_t b = 0; b < blocks; ++b) body(b * size, std::min(n, (b + 1) * size));
+    parallel_for(
+        blocks, [&](std::size_t b) { body(b * size, std::min(n, (b + 1) * size)); },
+        n < threads_from ? 0 : size);
 }
 
 /// z[k] = f(k) for all k.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spam/core/error.hpp>
-#include <spam/core/parallel.hpp>
 #include <spam/core/text.hpp>
 #include <spam/core/threads.hpp>
 
@@ -11,29 +9,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <latch>
 #include <set>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace spam {
 namespace {
-
-/// Why not: as many at once as OpenMP will want. Empty where they could be started.
-std::string why_not(int threads) {
-    std::latch all_there(1);
-    std::vector<std::jthread> trial;
-    std::string reason;
-    try {
-        for (int k = 1; k < threads; ++k) trial.emplace_back([&] { all_there.wait(); });
-    } catch (const std::system_error& error) {
-        reason = fmt::format("only {} ({})", trial.size() + 1, error.code().message());
-    }
-    all_there.count_down();
-    return reason;
-}
 
 /// Processors of which no two are threads of one core. Where nothing is said of cores, every processor is
 /// one.
@@ -74,18 +56,6 @@ int worthwhile_threads(std::size_t particles, int cores) {
     constexpr std::size_t worth_a_thread = 2000;
     return static_cast<int>(std::clamp<std::size_t>(particles / worth_a_thread, 1,
                                                     static_cast<std::size_t>(std::max(1, cores))));
-}
-
-void start_threads(int threads) {
-    if (const auto reason = why_not(threads); !reason.empty())
-        throw InputError(fmt::format(
-            "threads: {} cannot be started, {}; give fewer, or raise the limits on processes and "
-            "memory (ulimit -u, -v)",
-            threads, reason));
-    set_threads(threads);
-    const auto n = static_cast<std::size_t>(threads);
-    parallel_for(
-        n, [](std::size_t) {}, parallel_threshold);  // OpenMP keeps its threads
 }
 
 }  // namespace spam

@@ -2,12 +2,14 @@
 #include "separable.hpp"
 
 #include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
 
 #include <fmt/format.h>
 
 namespace spam {
 namespace {
-constexpr std::size_t threads_from = 16384;  // below, fork and join cost more than the loop
+constexpr std::size_t threads_from =
+    16384;  // below, to tell other threads of it costs more than the loop
 }
 
 SeparableBlocks separable_blocks(const Ode& ode, const std::string& method) {
@@ -34,8 +36,15 @@ SeparableBlocks separable_blocks(const Ode& ode, const std::string& method) {
 
 void advance_block(std::span<const double> in, double c, std::span<const double> rate,
                    std::span<double> out) {
-#pragma omp parallel for simd schedule(static) if (out.size() >= threads_from)
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = in[k] + c * rate[k];
+    const double *const x = in.data(), *const v = rate.data();
+    double* const z = out.data();
+    parallel_ranges(
+        out.size(),
+        [=](std::size_t first, std::size_t last) {
+#pragma GCC ivdep  // in and out may be the same: entry by entry that is no hindrance
+            for (std::size_t k = first; k < last; ++k) z[k] = x[k] + c * v[k];
+        },
+        out.size() < threads_from ? 0 : 1);
 }
 
 }  // namespace spam

@@ -156,7 +156,7 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
     std::size_t working = static_cast<std::size_t>(std::max(1, threads));
     std::exception_ptr error;
     const auto work = [&] {
-        set_threads(1);  // of OpenMP, within this thread
+        set_threads(1);  // of loops within this thread
         bool interrupted = false;
         while (!interrupted && InterruptWatch::received() == 0) {
             const std::size_t k = next++;

@@ -48,7 +48,6 @@ void set_unless_given(const char* name, const char* value) { setenv(name, value,
     // Longer messages wait for two answers, each of which needs the core of another process.
     set_unless_given("OMPI_MCA_btl_vader_eager_limit", "65536");
     set_unless_given("OMPI_MCA_rmaps_base_oversubscribe", "1");
-    set_unless_given("OMP_WAIT_POLICY", "passive");
     if (geteuid() == 0) {  // a container, most often; mpirun would refuse
         set_unless_given("OMPI_ALLOW_RUN_AS_ROOT", "1");
         set_unless_given("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");

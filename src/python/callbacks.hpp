@@ -15,8 +15,8 @@
 
 namespace spam::python {
 
-/// The first exception of functions that are called where none may be thrown (in a right-hand side, in threads of
-/// OpenMP): kept, and raised again when the library has come back. Until then rates are NaN and nobody is asked.
+/// The first exception of functions that are called where none may be thrown (in a right-hand side, in other
+/// threads): kept, and raised again when the library has come back. Until then rates are NaN and none is called.
 class Pending {
   public:
     bool failed() const { return failed_; }

@@ -2,7 +2,6 @@
 // Room rhs: plane finite elements of solids and fluids.
 #include "bindings.hpp"
 #include "held_model.hpp"
-#include "process.hpp"
 #include <spam/core/error.hpp>
 #include <spam/external/clamp.hpp>
 #include <spam/rhs/elements.hpp>
@@ -108,7 +107,6 @@ py::object make_elements(const py::object& x,
         throw InputError(fmt::format("which: has {} numbers, and there are {} elements",
                                      which.size(), corners.size()));
     MeshedBodies bodies = nodes_of(mesh_of(x, corners), matter, which, spacing);
-    enter(bodies.nodes.size(), 0);
     std::vector<Elements::Material> materials;
     for (const auto& one : matter) materials.push_back(material_of_elements(one, pending));
     auto model = std::make_shared<ParticleModel<2>>(std::move(bodies.nodes));
@@ -139,7 +137,6 @@ py::object make_elements(const py::object& x,
 py::dict fields_of_elements(HeldModel<2>& self, const py::object& given) {
     const std::vector<double> y = self.checked(given);
     const typename HeldModel<2>::Use use(self);
-    enter(self.size(), 0);
     const auto* const elements = self.model->term<Elements>();
     if (elements == nullptr)
         throw InputError("model: it has no elements; give one made by Elements()");

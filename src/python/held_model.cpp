@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "held_model.hpp"
 
-#include "process.hpp"
 #include <spam/core/error.hpp>
 
 #include <fmt/format.h>
@@ -40,7 +39,6 @@ std::vector<double> HeldModel<Dim>::start(const py::object& velocity, double tem
             v.col(i) = given.col(model->particles().id[static_cast<std::size_t>(i)]);
     }
     const Use use(*this);
-    enter(size(), 0);
     std::vector<double> y;
     {
         const py::gil_scoped_release
@@ -74,7 +72,6 @@ Doubles HeldModel<Dim>::rates(double t, const py::object& given) {
     Doubles y_dot(static_cast<py::ssize_t>(size_of_y));
     const std::span<const double> from(y.data(), size_of_y);
     const std::span<double> to(y_dot.mutable_data(), size_of_y);
-    enter(size(), 0);
     {
         const Use use(*this);
         if (size() > 256) {

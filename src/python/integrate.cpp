@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Room integrate: any ordinary differential equation by any method.
 #include "bindings.hpp"
-#include "process.hpp"
 #include "simulation.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/nvector.hpp>
@@ -86,7 +85,6 @@ py::dict integrate(const py::function& f, const py::object& y0, double t0,
     check_times(times, t0);
     const IntegratorOptions options = options_of(method, given);
     const auto n = static_cast<std::size_t>(start.size());
-    enter(n, 0);
     PythonOde python(f, n, options.atol);
     python.ode.time_scale = std::min(1.0, times.back() - t0);
     const SundialsContext context;

@@ -2,7 +2,6 @@
 // Room rhs: models of particles, one class for each number of dimensions.
 #include "bindings.hpp"
 #include "held_model.hpp"
-#include "process.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/shape.hpp>
 #include <spam/material/polynomial_solid.hpp>
@@ -64,7 +63,6 @@ Particles<Dim> particles_of(const Common& common, const Box<Dim>& box) {
         if (!(mass.data()[i] > 0.0))
             throw InputError(
                 fmt::format("mass: {} is not allowed; use positive numbers", mass.data()[i]));
-    enter(static_cast<std::size_t>(x.cols()), 0);
     auto particles = make_particles<Dim>(x, mass.data()[0], common.spacing, box);
     if (mass.ndim() != 0)
         for (std::size_t i = 0; i < particles.size(); ++i)
@@ -253,7 +251,6 @@ void bind(py::module_& module, const char* name) {
             [](Model& self, const py::object& y) {
                 const std::vector<double> checked = self.checked(y);
                 const typename Model::Use use(self);
-                enter(self.size(), 0);
                 return array_of(self.model->density(checked));
             },
             "y"_a, "(N,); empty for a model without.")
@@ -266,7 +263,6 @@ void bind(py::module_& module, const char* name) {
                     throw InputError(
                         fmt::format("position: is of {} particles, and the model has {}",
                                     position.cols(), p.size()));
-                enter(p.size(), 0);
                 return shape_error<Dim>(p.reference_position, position, p.spacing);
             },
             "position"_a,
@@ -275,7 +271,6 @@ void bind(py::module_& module, const char* name) {
             "closest_pair",
             [](const Model& self, const py::object& x) {
                 const Points<Dim> position = points_of<Dim>(x, "position");
-                enter(static_cast<std::size_t>(position.cols()), 0);
                 return closest_pair<Dim>(position, self.model->particles().spacing,
                                          self.model->box());
             },

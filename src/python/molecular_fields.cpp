@@ -2,7 +2,6 @@
 // Room diagnostics: fields of molecules.
 #include "bindings.hpp"
 #include "held_model.hpp"
-#include "process.hpp"
 #include <spam/core/error.hpp>
 #include <spam/diagnostics/molecular_fields.hpp>
 
@@ -37,7 +36,6 @@ void bind(py::module_& module) {
             const std::vector<double> state = held.checked(y);
             const Points<Dim> at = points_of<Dim>(places, "places");
             const typename HeldModel<Dim>::Use use(held);
-            enter(held.size(), 0);
             const auto values =
                 MolecularFields<Dim>(weight_function<Dim>(kernel, h), *held.model, state).at(at);
             return py::dict("density"_a = rows_of(values.density, true),

@@ -4,15 +4,11 @@
 #include "bindings.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
-#include <spam/core/parallel.hpp>
 #include <spam/core/threads.hpp>
 #include <spam/processes/processes.hpp>
 
 #include <fmt/format.h>
-#include <omp.h>
-#include <pthread.h>
 
-#include <atomic>
 #include <memory>
 #include <stdexcept>
 
@@ -20,12 +16,6 @@ namespace py = pybind11;
 
 namespace spam::python {
 namespace {
-
-// Loops of fewer particles than a block of 512 are never parallel (core/parallel.hpp).
-constexpr std::size_t never_parallel = 256;
-
-std::atomic<bool> has_threads{false};  ///< of OpenMP, in this process or the one it was forked from
-std::atomic<bool> lost_threads{false};  ///< they stayed in the parent
 
 std::unique_ptr<Parts> joined;
 
@@ -37,20 +27,7 @@ void leave_processes() {
     joined.reset();
 }
 
-void note_fork() {
-    if (has_threads) lost_threads = true;
-}
-
 }  // namespace
-
-void enter(std::size_t particles, int threads) {
-    if (lost_threads && particles > never_parallel)
-        throw std::runtime_error(
-            "this process was forked after a parallel run, whose threads stayed behind; start it by "
-            "multiprocessing.get_context('spawn'), or fork before the first run");
-    const int used = threads > 0 ? set_threads(threads) : omp_get_max_threads();
-    if (used > 1 && particles > never_parallel) has_threads = true;
-}
 
 Parts& processes() {
     if (!joined && started_with_others()) {
@@ -75,7 +52,6 @@ void Signals::ask() {
 }
 
 void bind_process(py::module_& module) {
-    pthread_atfork(nullptr, nullptr, &note_fork);
     module.def("usable_cores", &usable_cores, "Cores that this process may use.");
     module.def(
         "rank", [] { return processes().own(); },

@@ -8,15 +8,10 @@
 #include <chrono>
 #include <cstddef>
 
-/// What a module shares with the process that has loaded it: threads, signals, forks.
+/// What a module shares with the process that has loaded it: threads, signals, other processes.
 namespace spam::python {
 
-/// Before every computation over so many particles: threads of OpenMP for the calling thread (0: the runtime's
-/// own number; it counts them per thread). After a fork the threads of the parent are gone and a parallel loop would
-/// wait for them for ever: then throws std::runtime_error, which says what to do.
-void enter(std::size_t particles, int threads);
-
-/// A number of threads that somebody asks for: 0 to 4096. Throws InputError.
+/// A number of threads that is asked for: 0 to 4096. Throws InputError.
 int checked_threads(int threads);
 
 /// The processes that share every run of this script where mpirun has started it several times: joined at the first

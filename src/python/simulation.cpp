@@ -3,6 +3,7 @@
 
 #include "../problem/run.hpp"
 #include <spam/core/error.hpp>
+#include <spam/core/parallel.hpp>
 #include <spam/problem/integrator_settings.hpp>
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ class Simulation<Dim>::Turn {
         if (simulation.held()->moved_by != &simulation)
             throw std::runtime_error(
                 "the model goes on in another Simulation, which was made of it later; make a model for each");
-        enter(simulation.held()->size(), simulation.threads_);
+        set_threads(simulation.threads_);
     }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;

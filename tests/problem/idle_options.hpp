@@ -47,7 +47,11 @@ inline const std::map<std::string, Words> beside{
 inline const std::map<std::pair<std::string, std::string>, Words> own_beside{
     {{"cantilever", "compare"}, {"--t-end", "0.005"}},
     {{"collapse", "compare"}, {"--t-end", "0.02"}},
+    {{"plane_wave", "dimension"}, {"--t-end", "3"}},
     {{"taylor_bar", "compare"}, {"--t-end", "0.02"}},
+    {{"tension_test", "closest-approach"}, {"--t-end", "20"}},
+    {{"tension_test", "dimension"}, {"--t-end", "20"}},
+    {{"tension_test", "dt"}, {"--t-end", "20"}},
     {{"tension_test", "load-rate"}, {"--t-end", "20"}},  // else as long as it lasts
     {{"water_column", "compare"},
      {"--width", "4", "--samples", "1", "--relaxation-time", "0.5", "--t-end", "0.5"}},
@@ -117,7 +121,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"diffusion_waves", {"--density", "continuity"}},
     {"diffusion_waves",
      {"--wave", "shear", "--equation-of-state", "van_der_waals", "--density", "continuity"}},
-    {"turns_survived", {}},
+    {"turns_survived", {"--turns", "0.2"}},
     {"string_phase", {"--t-end", "4"}},
     {"string_phase", {"--core", "0"}},
     {"drop", {}},

@@ -105,7 +105,6 @@ BOOST_AUTO_TEST_CASE(files_of_options_from_elsewhere) {
     }
 }
 
-/// OpenMP would end the program, with the status of a check that fails.
 BOOST_AUTO_TEST_CASE(too_many_threads_for_the_limits) {
 #if SPAM_SANITIZED
     return;  // the sanitizer needs terabytes of addresses

@@ -37,8 +37,6 @@ def main():
         skip("; ".join(sorted({reason for _, reason in result.skipped})))
 
 
-# Threads of OpenMP that wait leave the processor to other tests.
-os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 # A sanitizer that was loaded for the extension is in this process; programs that tests start have their own.
 if "LD_PRELOAD" in os.environ:
     os.environ["SPAM_PRELOAD"] = os.environ.pop("LD_PRELOAD")  # for compiled.python_processes

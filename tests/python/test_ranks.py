@@ -17,7 +17,7 @@ script = pathlib.Path(__file__).parent / "ranks.py"
 
 
 def started(count, *words, program=(script,)):
-    more = {"OMPI_MCA_rmaps_base_oversubscribe": "1", "OMP_WAIT_POLICY": "passive", "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    more = {"OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     with compiled.python_processes():
         return subprocess.run(["mpirun", "-n", str(count), "--bind-to", "none", sys.executable, "-B", *program, *words],

@@ -3,6 +3,7 @@
 // fixed steps and adaptive ones. No number of a law, a limit, a tolerance or an estimate has a unit.
 #include "rhs/more_laws.hpp"
 #include "rhs/walled.hpp"
+#include "support/effort.hpp"
 #include <spam/integrate/methods.hpp>
 #include <spam/material/gamma_gas.hpp>
 
@@ -225,8 +226,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, UnitsIn) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, UnitsIn) {
     constexpr int Dim = In::value;
     int ran = 0;
+    Spread due(1, 8);
     for (const auto& [law, build] : with_scheme<Dim>()) {
         for_each_scheme([&, name = law, &build = build](const Scheme& scheme) {
+            if (!due.next()) return;
             BOOST_TEST_CONTEXT(name << ", " << scheme.describe())
             ran += check<Dim>({.law = build, .scheme = scheme}).ran;
         });
@@ -237,7 +240,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, UnitsI
             check<Dim>({.law = build, .scheme = {.mean_density = mean, .kernel = kernel}}).ran);
     }
     BOOST_TEST_MESSAGE(ran << " schemes ran");
-    BOOST_TEST(ran > 150);
+    BOOST_TEST(ran > effort(150, 15));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_wall_and_a_period, In, UnitsIn) {

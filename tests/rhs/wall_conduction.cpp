@@ -2,6 +2,7 @@
 // Walls of fixed temperature against exact answers: conduction between two plates, a linear profile and the flux
 // kappa dT/L through both; a sheared fluid between cold plates, whose friction heats it, a parabola. And what
 // the plates of a moving flow give, told apart: work of the one that moves, heat that leaves through both.
+#include "support/effort.hpp"
 #include <spam/core/parallel.hpp>
 #include <spam/diagnostics/fits.hpp>
 #include <spam/diagnostics/invariants.hpp>
@@ -57,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_layer_conducts_by_fouriers_law) {
     const double hot = 1.1, cold = 0.9, kappa = 2.0;
     double worst[2] = {0.0, 0.0};
     for (const bool by_pairs : {true, false})
-        for (const int k : {0, 1}) {
+        for (const int k : test::effort(std::vector{0, 1}, std::vector{0})) {
             const int cells = k == 0 ? 12 : 24;
             const WallKind kind = WallKind::no_slip;
             Between layer(cells, kappa, 2.0, by_pairs, {kind, 0.0, {0, 0}, hot},
@@ -97,7 +98,8 @@ BOOST_AUTO_TEST_CASE(a_layer_conducts_by_fouriers_law) {
             BOOST_TEST(std::abs(at(below) + at(above) - after.heat) < 1e-9 * before.energy);
             BOOST_TEST(after.work == 0.0);
         }
-    BOOST_TEST(worst[1] < worst[0]);
+    BOOST_TEST(worst[0] > 0.0);
+    if (test::effort(true, false)) BOOST_TEST(worst[1] < worst[0]);
 }
 
 /// Plates of one temperature, the upper one with V: T = T_w + eta V^2/(2 kappa) (y/L)(1 - y/L), and half of the

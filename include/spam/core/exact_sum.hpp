@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -73,14 +74,16 @@ std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
     if (n < threads_from) {
         for (std::size_t b = 0; b < blocks; ++b) add(b, sums);
     } else {
-#pragma omp parallel
-        {
-            std::array<ExactSum, K> part;
-#pragma omp for schedule(static)
-            for (std::size_t b = 0; b < blocks; ++b) add(b, part);
-#pragma omp critical(spam_exact_sums)
-            for (std::size_t k = 0; k < K; ++k) sums[k] += part[k];
-        }
+        std::mutex one_at_a_time;
+        parallel_ranges(
+            blocks,
+            [&](std::size_t from, std::size_t to) {
+                std::array<ExactSum, K> of_range;
+                for (std::size_t b = from; b < to; ++b) add(b, of_range);
+                const std::lock_guard lock(one_at_a_time);
+                for (std::size_t k = 0; k < K; ++k) sums[k] += of_range[k];
+            },
+            block);
     }
     add_other_parts(sums);
     std::array<double, K> values;

@@ -5,10 +5,6 @@
 
 namespace spam {
 
-/// Starts as many threads as later sweeps will use, and keeps them. Throws InputError where they cannot
-/// be had: OpenMP itself would end the program.
-void start_threads(int threads);
-
 /// Cores that this process may use: without the second thread of a core, without processors that its
 /// affinity or the quota of its control group (Linux) leave out; no more than OMP_NUM_THREADS, where that is
 /// a number. At least 1.

@@ -7,7 +7,7 @@
 readonly test_packages=(libboost-test-dev)
 # For the tests of style and of instruction counts; benchmarks are compiled, so that they go on to compile.
 readonly ci_packages=(clang-format valgrind shellcheck libbenchmark-dev)
-readonly sanitizer_packages=(clang libclang-rt-dev libomp-dev)
+readonly sanitizer_packages=(clang libclang-rt-dev)
 
 verb_test() { # [--no-install] [--preset P] [ctest options...]
     local options=() packages=("${test_packages[@]}") parts=(SPAM_BUILD_TESTS=ON "SPAM_LEVELS=$(every_level)") jobs status=0
