@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(a_hexagon_that_has_been_drawn_out_turns_without_drift) {
     state.velocity().row(1) = omega * X.row(0);
     Motion<2> motion(model, y, {.method = "leapfrog", .dt = 0.3});
     const auto start = measure_invariants(model, motion.y());
-    const int turns = effort(20, 2);
+    const int turns = effort(20, 8, 2);
     std::vector<double> shape(static_cast<std::size_t>(turns), 0.0);
     double closest = 1.0, L = 0.0, E = 0.0;
     for (int k = 1; k <= 20 * turns; ++k) {

@@ -2,6 +2,7 @@
 // Free expansion as a user runs it: small gases against what is known of them, the files of fields and
 // frames it leaves, and films, also where the program that makes them is missing or fails.
 #include "problem/result_files.hpp"
+#include "support/effort.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -50,8 +51,10 @@ const Words film{"--smoke", "--t-end", "2", "--output-every", "0.5", "--movie"};
 BOOST_AUTO_TEST_CASE(small_gases_gain_the_entropy_they_should) {
     const auto hundred = results_of({"--particles", "100"});
     BOOST_TEST(std::abs(hundred.at("entropy_sum_plateau") - 0.65) < 0.05);
-    const auto line = results_of({"--dimension", "1", "--cells", "1000"});
-    BOOST_TEST(std::abs(line.at("entropy_sum_plateau") - 0.47) < 0.02);
+    if (long_runs()) {
+        const auto line = results_of({"--dimension", "1", "--cells", "1000"});
+        BOOST_TEST(std::abs(line.at("entropy_sum_plateau") - 0.47) < 0.02);
+    }
     // Streaming is not entropy: before the gas meets the box there is none, and the wrong law has it.
     const auto early = results_of({"--cells", "40", "--t-end", "10"});
     BOOST_TEST(std::abs(early.at("entropy_sum")) < 0.03);

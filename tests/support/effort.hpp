@@ -17,6 +17,12 @@ T effort(const T& full, const T& less) {
 /// `./spam test -L long` asks (spam_long() in tests/CMakeLists.txt), and the ordinary suite does not.
 inline bool long_runs() { return !SPAM_SANITIZED && std::getenv("SPAM_LONG") != nullptr; }
 
+/// What the suite, and `less` under sanitizers, show as well as long runs do.
+template <class T>
+T effort(const T& in_long_runs, const T& usual, const T& less) {
+    return long_runs() ? in_long_runs : effort(usual, less);
+}
+
 /// Of many combinations that show one and the same: all of them in long runs, one of `usual` in the suite, one of
 /// `sanitized` under sanitizers. Multiples of the golden mean are spread evenly however many loops ask in turn.
 class Spread {
