@@ -50,6 +50,16 @@ const Laws<Dim>& without_scheme() {
                  return law.start(x, v, T);
              };
          }},
+        {"OwnRanges, friction and conduction by pairs",
+         [](Sample<Dim>& s, const Scheme&) {
+             Fluid fluid{IdealGas{Dim}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)},
+                         FourierConduction{s.viscosity(0.2)}};
+             fluid.by_pairs = true;
+             auto& law = add_term<OwnRanges<Dim>>(s, fluid, VariableRangeScheme{3.0, Kernel::w4});
+             s.fluid = [&law, T = s.temperature(0.2)](const Points<Dim>& x, const Points<Dim>& v) {
+                 return law.start(x, v, T);
+             };
+         }},
         {"DensityPotentialTerm",
          [](Sample<Dim>& s, const Scheme&) {
              add_term<DensityPotentialTerm<Dim>>(

@@ -4,6 +4,7 @@
 #include <spam/core/lanes.hpp>
 #include <spam/kernel/general_weight.hpp>
 #include <spam/neighbors/pair.hpp>
+#include <spam/physics/fluid_record.hpp>
 #include <spam/physics/pass_constants.hpp>
 #include <spam/physics/record.hpp>
 
@@ -17,6 +18,7 @@
 ///     v_dot_i   = -sum_j m_j (a_i grad_i w(r_ij; h_i) + a_j grad_i w(r_ij; h_j)),  a = P/(Omega rho^2)
 /// In terms of the weight function of range one, W(u), with -W'/u = S(u):
 ///     w(r; h) = W(r/h)/h^D,   grad_i w = S(r/h)/h^(D+2) r_ji,   dw/dh = (u^2 S - D W)/h^(D+1)
+/// Friction and conduction are those of pairs (pair_friction.hpp) with F_ij = (S(r/h_i)/h_i^(D+2) + S(r/h_j)/h_j^(D+2))/2.
 namespace spam {
 namespace column {
 
@@ -28,11 +30,21 @@ template <int Dim, class T>
 struct Pull {
     T pull{};  ///< a/h^(D+2)
 };
+template <int Dim, class T>
+struct HalfSlope {
+    T half_slope{};  ///< 1/(2 h^(D+2))
+};
 
 }  // namespace column
 
 template <int Dim, class T = double>
 using RangeRecord = typename MotionRecord<Dim, T>::template And<column::InverseRange, column::Pull>;
+
+/// Of a fluid with friction and conduction, which are those of pairs.
+template <int Dim, class T = double>
+using RubbingRangeRecord =
+    typename RangeRecord<Dim, T>::template And<column::HalfSlope, column::InverseDensity,
+                                               column::Temperature>;
 
 inline namespace SPAM_LANES {
 
@@ -86,6 +98,33 @@ struct BothRangesForce {
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
         to.set(to.out.v_dot, sums.v_dot);
+    }
+};
+
+/// A pass over pairs that all have one range, with the mean of the slopes of both weights in place of the one
+/// of the pair, which is the same seen from either.
+template <int Dim, class Pass>
+struct OfBothRanges {
+    GeneralWeight<Dim> unit;
+    Pass pass;
+    static OfBothRanges with(const PassConstants& c, const GeneralWeight<Dim>& unit) {
+        return {unit, Pass::with(c)};
+    }
+
+    template <class T>
+    using Sums = typename Pass::template Sums<T>;
+    template <class T, class Record>
+    void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
+        const T own = rounded(i.half_slope * unit.minus_slope_over_r(pair.r * i.inverse_range));
+        const T other = rounded(j.half_slope * unit.minus_slope_over_r(pair.r * j.inverse_range));
+        Pair<Dim, T> of_both = pair;
+        of_both.minus_slope = own + other;
+        of_both.grad_w = of_both.minus_slope * pair.r_ji;
+        pass.add(of_both, i, j, sums);
+    }
+    template <class To, class T>
+    static void store(const To& to, const Sums<T>& sums) {
+        Pass::store(to, sums);
     }
 };
 

@@ -9,6 +9,7 @@
 
 namespace spam {
 
+struct RestingBody;
 template <int Dim>
 struct Sweeps;
 template <int Dim>
@@ -25,15 +26,15 @@ struct VariableRangeScheme {
     std::string describe() const;
 };
 
-/// A fluid without friction whose particles have ranges that follow their densities
+/// A fluid whose particles have ranges that follow their densities
 /// (physics/variable_range.hpp): y = (x, v, rho, e). The density is part of y, summed at the start and
 /// then integrated, so that ranges are a function of y and no equation is solved in the rates. Keeps m, p
-/// and sum m (e + v^2/2) exactly, in open space L as well.
+/// and sum m (e + v^2/2) exactly, in open space L as well; friction by pairs takes L where its forces act across r_ij.
 template <int Dim>
 class OwnRanges final : public Term<Dim> {
   public:
-    /// Throws InputError where eta is so small that a particle would be its own only neighbour, and for a
-    /// law with friction or conduction.
+    /// Throws InputError where eta is so small that a particle would be its own only neighbour, and for friction or
+    /// conduction by gradients (Fluid::by_pairs).
     OwnRanges(const Selection<Dim>& among, const Fluid& fluid, const VariableRangeScheme& scheme);
     ~OwnRanges() override;
 
@@ -64,6 +65,8 @@ class OwnRanges final : public Term<Dim> {
     double most_range() const;
     std::string find_ranges(const ConstState<Dim>& state);
     std::size_t close_own_sums(const Now& now);
+    void load_friction(const Now& now);
+    double fastest_damping_in(std::span<const double> y) const;
     void make_room();
 
     Fluid fluid_;
@@ -71,7 +74,8 @@ class OwnRanges final : public Term<Dim> {
     GeneralWeight<Dim> unit_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
-    std::vector<double> range_, pressure_, pull_;
+    std::unique_ptr<const RestingBody> rest_;  ///< of friction and conduction
+    std::vector<double> range_, pressure_, pull_, temperature_;
 };
 
 SPAM_COMPILED(extern template class OwnRanges);

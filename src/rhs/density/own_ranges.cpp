@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../smooth_particles/carried_energy.hpp"
+#include "../smooth_particles/constitution.hpp"
 #include "../sweeps/packed_particles.hpp"
 #include "../sweeps/term_sweeps.hpp"
 #include <spam/core/error.hpp>
@@ -80,10 +81,11 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
       scheme_(scheme),
       unit_(scheme.kernel, 1.0),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
-          best_sweeps([](auto level) { return own_range_sweeps<Dim, level>(); }))),
+          best_sweeps([&](auto level) { return own_range_sweeps<Dim, level>(fluid.diffuses()); }))),
       range_(this->particles().size()),
       pressure_(range_.size()),
-      pull_(range_.size()) {
+      pull_(range_.size()),
+      temperature_(fluid.diffuses() ? range_.size() : 0) {
     const double least = std::pow(unit_.value(0.0), 1.0 / Dim);
     if (!(scheme.range > least) || !std::isfinite(scheme.range))
         throw InputError(
@@ -92,11 +94,16 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
                         "its range asks for; 2 to 4 are usual",
                         scheme.range, least, to_string(scheme.kernel)));
     valid_range<Dim>(scheme.range, 1.0, this->particles().size());  // in spacings
-    if (fluid.viscosity || fluid.conduction)
-        throw InputError(
-            "range: ranges that follow the density are for fluids without friction and conduction; "
-            "use "
-            "one range for all");
+    check_fluid(fluid, Dim);
+    if (fluid.diffuses()) {
+        if (!fluid.by_pairs)
+            throw InputError(
+                "friction: with ranges that follow the density friction and conduction are those of pairs; set "
+                "Fluid::by_pairs, or use one range for all");
+        rest_ = std::make_unique<const RestingBody>(resting_body(
+            this->particles(), this->box(),
+            GeneralWeight<Dim>(scheme.kernel, scheme.range * this->particles().spacing)));
+    }
     // How far it reaches is known with the first state.
     packed_ = std::make_unique<PackedParticles<Dim>>(
         GeneralWeight<Dim>(scheme.kernel, this->particles().spacing), ListUse::again_and_again,
@@ -107,6 +114,8 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
     this->nature_.fields = {Field::density, Field::energy};
     this->nature_.potential = false;
     this->nature_.sums_density = true;
+    this->nature_.conducts = fluid.conduction.has_value();
+    if (has_shear(fluid)) this->nature_.promises = Scheme{}.promises(Dim);
     if (fluid.state.cold) this->nature_.no_rezoning = rezoned_cold();
 }
 
@@ -192,14 +201,18 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     sweep_walls(*packed_, in, sweeps_->density);
     if (close_own_sums(now) > 0) {
         std::size_t i = 0;
-        while (std::isfinite(pressure_[i]) && i + 1 < n) ++i;
+        const auto cold = [&] { return fluid_.conduction && !(temperature_[i] >= 0.0); };
+        while (std::isfinite(pressure_[i]) && !cold() && i + 1 < n) ++i;
         return fmt::format(
             "density {} and energy {} of particle {} are outside the law ({}), or its "
             "range changes the wrong way",
             now.state.density().data()[i], now.state.energy().data()[i], this->particles().id[i],
             fluid_.state.describe());
     }
-    fill(R::template at<column::Pull>, [&](std::size_t i) { return pull_[i]; });
+    if (rest_)
+        load_friction(now);
+    else
+        fill(R::template at<column::Pull>, [&](std::size_t i) { return pull_[i]; });
     sweeps_->force(in, out);
     // As in close_own_sums(): e_dot = P/rho^2 rho_dot, of which each wall has its part.
     packed_->for_each_wall([&](BehindWall<Dim>& wall) {
@@ -207,6 +220,11 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
             wall.e_dot[wall.place[k]] *= -pull_[wall.particle[k]];
     });
     sweep_walls(*packed_, in, sweeps_->force);
+    if (!rest_) return {};
+    set_pair_constants(fluid_, in.constants);
+    out.e_dot = now.rate.energy().data();
+    sweeps_->second(in, out);
+    sweep_walls(*packed_, in, sweeps_->second);
     return {};
 }
 
@@ -219,6 +237,9 @@ std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
     parallel_blocks(n, [&](std::size_t first, std::size_t count) {
         fluid_.state.pressures(rho.subspan(first, count), e.subspan(first, count),
                                {pressure_.data() + first, count});
+        if (fluid_.conduction)
+            fluid_.state.temperatures(rho.subspan(first, count), e.subspan(first, count),
+                                      {temperature_.data() + first, count});
     });
     double* const spread = now.rate.energy().data();
     double* const approach = now.rate.density().data();
@@ -232,7 +253,8 @@ std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
         const double rho_dot = -approach[i] * per_range;
         approach[i] = rho_dot;
         spread[i] = P_rho2 * rho_dot;
-        return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0)};
+        const bool cold = fluid_.conduction && !(temperature_[i] >= 0.0);
+        return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0) || cold};
     });
 }
 
@@ -307,7 +329,7 @@ std::vector<double> OwnRanges<Dim>::ranges(std::span<const double> y) const {
 
 template <int Dim>
 auto OwnRanges<Dim>::answer(Ask what, std::span<const double> y) const -> Answer {
-    if (what == Ask::damping) return {};  // asked without a state, too
+    if (what == Ask::damping) return {fastest_damping_in(y)};  // asked without a state, too
     const ConstState<Dim> state = this->state_of(y);
     if (what == Ask::energy) return {carried_energy(this->particles(), state)};
     if (what == Ask::neighbour_forces)

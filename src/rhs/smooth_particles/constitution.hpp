@@ -17,8 +17,15 @@
 
 namespace spam {
 
-/// Throws InputError for friction or conduction by which entropy would decrease.
+/// Throws InputError for friction or conduction by which entropy would decrease, and for conduction without temperature.
 void check_fluid(const Fluid& fluid, int dim);
+/// Whether its forces have parts across r_ij.
+bool has_shear(const Fluid& fluid);
+/// For passes over pairs (physics/pair_friction.hpp).
+void set_pair_constants(const Fluid& fluid, PassConstants& constants);
+/// What the sum over F of pairs is multiplied by in the rate at which neighbours that move against each other, and what
+/// they differ in temperature, come to rest (physics/pair_friction.hpp), by 2/rho^2; 0 without.
+double pair_damping(const Fluid& fluid, int dim, double rho, double e);
 
 /// The materials of smooth particles, and what sweeps need of them.
 template <int Dim>

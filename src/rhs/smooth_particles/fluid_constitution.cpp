@@ -31,11 +31,6 @@ void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
     if (fluids.size() > 1)
         throw InputError(
             "friction: that of pairs is for one fluid, and several are given; take friction by gradients");
-    if (first.viscosity && std::abs(first.viscosity->lambda) > first.viscosity->eta * (1.0 + 1e-14))
-        throw InputError(fmt::format(
-            "friction: that of pairs needs -eta <= lambda <= eta, and eta = {:g}, lambda = {:g}; "
-            "choose another bulk viscosity",
-            first.viscosity->eta, first.viscosity->lambda));
 }
 
 void check_shifting(const std::vector<Fluid>& fluids, const Scheme& scheme) {
@@ -55,12 +50,6 @@ void check_work(const std::vector<Fluid>& fluids, const Scheme& scheme) {
         fluids.front().state.describe()));
 }
 
-/// Whether its forces have parts across r_ij.
-bool has_shear(const Fluid& fluid) {
-    const auto& newton = fluid.viscosity;
-    return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
-}
-
 /// <v> changes the angular momentum, and without shear the torques that are to make up for it are rounding
 /// errors.
 void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
@@ -72,7 +61,20 @@ void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
         to_string(scheme.angular_momentum)));
 }
 
+void check_temperature(const Fluid& fluid) {
+    if (fluid.state.thermal) return;
+    throw InputError(fmt::format(
+        "conduction: needs a temperature, and the law ({}) has none; use an ideal gas or van der "
+        "Waals, or leave the conductivity out",
+        fluid.state.describe()));
+}
+
 }  // namespace
+
+bool has_shear(const Fluid& fluid) {
+    const auto& newton = fluid.viscosity;
+    return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
+}
 
 void check_fluid(const Fluid& fluid, int dim) {
     const auto refuse_negative = [](const char* name, double value) {
@@ -85,8 +87,34 @@ void check_fluid(const Fluid& fluid, int dim) {
         const double bulk = fluid.viscosity->bulk_viscosity(dim);
         // lambda = -eta in the plane is exactly no bulk viscosity, up to rounding.
         if (std::abs(bulk) > 1e-14 * fluid.viscosity->eta) refuse_negative("bulk viscosity", bulk);
+        if (fluid.by_pairs &&
+            std::abs(fluid.viscosity->lambda) > fluid.viscosity->eta * (1.0 + 1e-14))
+            throw InputError(fmt::format(
+                "friction: that of pairs needs -eta <= lambda <= eta, and eta = {:g}, lambda = {:g}; "
+                "choose another bulk viscosity",
+                fluid.viscosity->eta, fluid.viscosity->lambda));
     }
-    if (fluid.conduction) refuse_negative("conductivity", fluid.conduction->kappa);
+    if (!fluid.conduction) return;
+    refuse_negative("conductivity", fluid.conduction->kappa);
+    check_temperature(fluid);
+}
+
+void set_pair_constants(const Fluid& fluid, PassConstants& constants) {
+    if (const auto& newton = fluid.viscosity) {
+        constants.shear = newton->eta;
+        constants.second_viscosity = newton->lambda;
+    }
+    if (fluid.conduction) constants.conductivity = fluid.conduction->kappa;
+}
+
+double pair_damping(const Fluid& fluid, int dim, double rho, double e) {
+    if (!fluid.by_pairs) return 0.0;
+    double most = 0.0;
+    if (const auto& newton = fluid.viscosity)
+        most = newton->eta - newton->lambda + (dim + 2.0) / dim * (newton->lambda + newton->eta);
+    if (fluid.conduction)
+        most = std::max(most, 2.0 * fluid.conduction->kappa / fluid.state.heat_capacity(rho, e));
+    return most;
 }
 
 template <int Dim>
@@ -101,11 +129,7 @@ FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,
     if (fluids_.empty()) throw InputError("material: none is given; give one at least");
     for (const Fluid& fluid : fluids_) {
         thermal_ = thermal_ && fluid.state.thermal;
-        if (conducts() && !fluid.state.thermal)
-            throw InputError(fmt::format(
-                "conduction: needs a temperature, and the law ({}) has none; use an ideal gas or van der "
-                "Waals, or leave the conductivity out",
-                fluid.state.describe()));
+        if (conducts()) check_temperature(fluid);
     }
 }
 
@@ -293,11 +317,7 @@ void FluidConstitution<Dim>::load_fluxes(PackedParticles<Dim>& packed) const {
 
 template <int Dim>
 void FluidConstitution<Dim>::set_constants(PassConstants& constants) const {
-    if (const auto& newton = first().viscosity) {
-        constants.shear = newton->eta;
-        constants.second_viscosity = newton->lambda;
-    }
-    if (first().conduction) constants.conductivity = first().conduction->kappa;
+    set_pair_constants(first(), constants);
 }
 
 template <int Dim>

@@ -75,20 +75,16 @@ double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, const R
                                        std::span<const double> e) const {
     const double k = steepest_wave<Dim>(weight);
     double diffusion = 0.0, of_pairs = 0.0;
-    for (const Fluid& fluid : fluids_) {
-        double& most = fluid.by_pairs ? of_pairs : diffusion;
-        if (const auto& newton = fluid.viscosity; newton && fluid.by_pairs)
-            most = std::max(most, newton->eta - newton->lambda +
-                                      (Dim + 2.0) / Dim * (newton->lambda + newton->eta));
-        else if (newton)
-            most = std::max({most, newton->eta, 2.0 * newton->eta + newton->lambda});
-    }
+    for (const Fluid& fluid : fluids_)
+        if (const auto& newton = fluid.viscosity; newton && !fluid.by_pairs)
+            diffusion = std::max({diffusion, newton->eta, 2.0 * newton->eta + newton->lambda});
     for (std::size_t i = 0; i < rho.size(); ++i) {
         const Fluid& fluid = of(i);
-        if (!fluid.conduction) continue;
-        const double per_heat = 1.0 / fluid.state.heat_capacity(rho[i], e[i]);
-        double& most = fluid.by_pairs ? of_pairs : diffusion;
-        most = std::max(most, per_heat * fluid.conduction->kappa * (fluid.by_pairs ? 2.0 : 1.0));
+        if (fluid.by_pairs)
+            of_pairs = std::max(of_pairs, pair_damping(fluid, Dim, rho[i], e[i]));
+        else if (fluid.conduction)
+            diffusion = std::max(diffusion,
+                                 fluid.conduction->kappa / fluid.state.heat_capacity(rho[i], e[i]));
     }
     return diffusion * k * k / rest.density +
            2.0 * of_pairs * rest.slope / (rest.density * rest.density);

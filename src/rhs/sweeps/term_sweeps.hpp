@@ -34,9 +34,9 @@ Sweeps<3> balanced_sweeps_in_space(const Scheme& scheme, Matter matter);
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> own_work_sweeps(const Scheme& scheme, Matter matter);
 
-/// Ranges that follow the density, of RangeRecord.
+/// Ranges that follow the density, of RangeRecord; with friction and conduction of RubbingRangeRecord.
 template <int Dim, InstructionSet Level>
-Sweeps<Dim> own_range_sweeps();
+Sweeps<Dim> own_range_sweeps(bool rubbing);
 
 /// Ellipses, of EllipseRecord.
 template <int Dim, InstructionSet Level>
