@@ -17,26 +17,30 @@ Point<2> on_disk(const Point<2>& x) {
     return r > 0.0 ? Point<2>(r / x.norm() * x) : x;
 }
 
-double area(const Points<2>& x, const Quadrilateral& corners) {
+double area(const Points<2>& x, const Quadrilateral& corners, const Box<2>& box) {
     std::array<Vec<2>, 4> at;
-    for (std::size_t c = 0; c < 4; ++c) at[c] = {{x(0, corners[c]), x(1, corners[c])}};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const Point<2> from_first = box.nearest(x.col(corners[c]) - x.col(corners[0]));
+        at[c] = {{from_first[0], from_first[1]}};
+    }
     return QuadrilateralShape<>(at).area;
 }
 
 }  // namespace
 
-Mesh rectangle_mesh(int columns, int rows, double spacing) {
+Mesh rectangle_mesh(int columns, int rows, double spacing, std::array<bool, 2> around) {
     if (columns < 1 || rows < 1 || !(spacing > 0.0))
         throw InputError(
             fmt::format("elements: {} x {} of side {:g} is no mesh; give at least 1 x 1", columns,
                         rows, spacing));
     Mesh mesh;
-    mesh.node.resize(2, static_cast<Eigen::Index>(columns + 1) * (rows + 1));
+    const int across = columns + (around[0] ? 0 : 1), up = rows + (around[1] ? 0 : 1);
+    mesh.node.resize(2, static_cast<Eigen::Index>(across) * up);
     const auto at = [&](int column, int row) {
-        return static_cast<std::uint32_t>(row * (columns + 1) + column);
+        return static_cast<std::uint32_t>(row % up * across + column % across);
     };
-    for (int row = 0; row <= rows; ++row)
-        for (int column = 0; column <= columns; ++column)
+    for (int row = 0; row < up; ++row)
+        for (int column = 0; column < across; ++column)
             mesh.node.col(at(column, row)) =
                 spacing * Point<2>(column - 0.5 * columns, row - 0.5 * rows);
     for (int row = 0; row < rows; ++row)
@@ -56,7 +60,8 @@ Mesh disk_mesh(int n, double radius) {
     return mesh;
 }
 
-MeshedBodies make_nodes(const std::vector<Mesh>& bodies, double density, double spacing) {
+MeshedBodies make_nodes(const std::vector<Mesh>& bodies, double density, double spacing,
+                        const Box<2>& box) {
     Eigen::Index nodes = 0;
     for (const Mesh& body : bodies) nodes += body.node.cols();
     Points<2> x(2, nodes);
@@ -69,7 +74,7 @@ MeshedBodies make_nodes(const std::vector<Mesh>& bodies, double density, double 
         body_of.resize(static_cast<std::size_t>(first + body.node.cols()),
                        static_cast<std::int32_t>(&body - bodies.data()));
         for (Quadrilateral corners : body.element) {
-            const double quarter = 0.25 * density * area(body.node, corners);
+            const double quarter = 0.25 * density * area(body.node, corners, box);
             for (std::uint32_t& i : corners) {
                 i += static_cast<std::uint32_t>(first);
                 mass[i] += quarter;

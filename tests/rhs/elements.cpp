@@ -264,12 +264,6 @@ BOOST_AUTO_TEST_CASE(a_mesh_that_makes_no_sense_is_refused) {
     BOOST_CHECK_THROW(made(good, material, 2), InputError);  // one term has all elements
     BOOST_CHECK_THROW(rectangle_mesh(0, 3), InputError);
     BOOST_CHECK_THROW(disk_mesh(4, 0.0), InputError);
-
-    MeshedBodies bodies = make_nodes({good}, 1.0);
-    ParticleModel<2> boxed(bodies.nodes, Box<2>(std::array<double, 2>{10.0, 10.0}));
-    BOOST_CHECK_THROW(
-        boxed.add_term<Elements>(bodies.element, std::vector<Elements::Material>{material}),
-        InputError);
 }
 
 BOOST_AUTO_TEST_CASE(an_element_turned_inside_out_is_named) {

@@ -72,7 +72,7 @@ class Elements final : public Term<2> {
     /// `material`: place in the list of each, or empty where all are the first. Throws InputError for elements
     /// whose corners are not among the selection or not counterclockwise, for a law without a sound speed
     /// where hourglasses are resisted, for a fluid that conducts heat or has friction by pairs, for numbers that make
-    /// no sense and in a box.
+    /// no sense, beside walls with images, and for an element that reaches half round a periodic box.
     Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners,
              std::vector<Material> materials, std::vector<std::int32_t> material = {});
 
@@ -122,7 +122,14 @@ class Elements final : public Term<2> {
             const double* const at = i < count ? own + 2 * i : others + 4 * (i - count) + shift;
             corners[c] = {{at[0], at[1]}};
         }
+        if (shift == 0 && box().periodic())  // an element may lie across a border
+            for (std::size_t c = 1; c < 4; ++c) corners[c] = beside(corners[0], corners[c]);
         return corners;
+    }
+    /// The image of x that is nearest to `from`.
+    Vec<2> beside(const Vec<2>& from, const Vec<2>& x) const {
+        const Point<2> r = box().nearest({x[0] - from[0], x[1] - from[1]});
+        return {{from[0] + r[0], from[1] + r[1]}};
     }
     void divide();
     void meet_other_forces();

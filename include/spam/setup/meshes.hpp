@@ -2,7 +2,9 @@
 #pragma once
 
 #include <spam/core/particles.hpp>
+#include <spam/neighbors/box.hpp>
 
+#include <array>
 #include <vector>
 
 namespace spam {
@@ -13,9 +15,10 @@ struct Mesh {
     std::vector<Quadrilateral> element;  ///< by places in `node`
 };
 
-/// columns x rows squares, centred on the origin; nodes and elements row by row from the lower left.
+/// columns x rows squares, centred on the origin; nodes and elements row by row from the lower left. `around`: in x and
+/// in y, the last one is followed by the first, as in a periodic box of these lengths.
 /// Throws InputError where there is none.
-Mesh rectangle_mesh(int columns, int rows, double spacing = 1.0);
+Mesh rectangle_mesh(int columns, int rows, double spacing = 1.0, std::array<bool, 2> around = {});
 
 /// n x n squares, mapped on a disk about the origin: every square about the centre becomes a circle, along rays.
 /// Throws InputError where there is none.
@@ -30,6 +33,7 @@ struct MeshedBodies {
 };
 
 /// `density`: mass per area; `spacing`: the typical side of an element. Body 0, 1, ... is the mesh of that number.
-MeshedBodies make_nodes(const std::vector<Mesh>& bodies, double density, double spacing = 1.0);
+MeshedBodies make_nodes(const std::vector<Mesh>& bodies, double density, double spacing = 1.0,
+                        const Box<2>& box = {});
 
 }  // namespace spam

@@ -58,10 +58,9 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
       material_(std::move(material)) {
     nature_.elements = std::move(corners);
     if (nature_.elements.empty()) throw InputError("elements: there are none; leave the term out");
-    if (box().periodic() || box().has_images())
+    if (box().has_images())
         throw InputError(
-            "elements: they cannot reach across the borders of a box, nor meet images behind a wall; use "
-            "free space, and guide the nodes along a wall (Clamp)");
+            "elements: they do not meet images behind a wall; guide the nodes along it (Clamp)");
     for (const Material& one : materials_) {
         validate(one);
         const double c = one.sound_speed().value_or(0.0);
@@ -101,6 +100,12 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
         mass_.push_back(area * materials_[static_cast<std::size_t>(number)].density);
         damping_ = std::max(damping_, 16.0 * viscosity_[static_cast<std::size_t>(number)] *
                                           std::sqrt(area) / mass_.back());
+        for (std::size_t c = 1; c < 4; ++c)
+            for (int a = 0; a < 2; ++a)
+                if (box().periodic(a) && std::abs(x[c][a] - x[0][a]) > 0.499 * box().length(a))
+                    throw InputError(fmt::format(
+                        "elements: element {} reaches half round the periodic box; lay at least 3 across it",
+                        number_of(k)));
         for (const Vec<2>& diagonal : {x[2] - x[0], x[3] - x[1]})
             nature_.reach = std::max(nature_.reach, std::sqrt(dot(diagonal, diagonal)));
     }
