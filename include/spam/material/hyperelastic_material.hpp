@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <spam/core/error.hpp>
+#include <spam/core/particles.hpp>
 #include <spam/material/hyperelastic_law.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace spam {
@@ -23,6 +27,22 @@ class HyperelasticMaterial {
         HyperelasticLawInTime<Law, Dim>
         HyperelasticMaterial(const Law& law) : loop_(std::make_shared<LoopOver<Law>>(law)) {
         if constexpr (requires { law.validate(); }) law.validate();
+    }
+    /// Of each particle the one with its number in Particles::material. They have one density, that of the scheme.
+    /// Throws InputError where there is none.
+    HyperelasticMaterial(std::vector<HyperelasticMaterial> several)
+        : count_(several.size()),
+          loop_(std::make_shared<Several>(std::move(several))) {
+        if (count_ == 0) throw InputError("material: none is given; give one at least");
+    }
+
+    /// How many there are.
+    std::size_t count() const { return count_; }
+    /// The same for these particles, whose numbers are those of its functions.
+    HyperelasticMaterial of(const Particles<Dim>& particles) const {
+        HyperelasticMaterial bound = *this;
+        if (auto loop = loop_->of(particles.material)) bound.loop_ = std::move(loop);
+        return bound;
     }
 
     /// P of the particles with these numbers, rows of Dim x Dim numbers, `stride` numbers from one particle
@@ -54,8 +74,10 @@ class HyperelasticMaterial {
     bool keeps_energy() const { return loop_->keeps_energy(); }
     /// Whether the law is a FlowingLaw that may flow, and its flow.
     bool flows() const { return loop_->flows(); }
-    std::optional<Mat<Dim>> flow(const Mat<Dim>& F) const { return loop_->flow(F); }
-    /// Infinite where the law does not flow.
+    std::optional<Mat<Dim>> flow(std::size_t i, const Mat<Dim>& F) const {
+        return loop_->flow(i, F);
+    }
+    /// Infinite where the law does not flow; of several the least, and the largest stiffness.
     double yield_strain() const { return loop_->yield_strain(); }
     double stiffness() const { return loop_->stiffness(); }
     std::string describe() const { return loop_->describe(); }
@@ -74,10 +96,14 @@ class HyperelasticMaterial {
         virtual bool settle(double, std::size_t, const Mat<Dim>&, const State<Dim>&) const = 0;
         virtual bool keeps_energy() const = 0;
         virtual bool flows() const = 0;
-        virtual std::optional<Mat<Dim>> flow(const Mat<Dim>&) const = 0;
+        virtual std::optional<Mat<Dim>> flow(std::size_t, const Mat<Dim>&) const = 0;
         virtual double yield_strain() const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
+        /// Null where it does not depend on the numbers of materials.
+        virtual std::shared_ptr<const Loop> of(const std::vector<std::int32_t>&) const {
+            return nullptr;
+        }
     };
 
     template <class Law>
@@ -157,7 +183,8 @@ class HyperelasticMaterial {
             if constexpr (FlowingLaw<Law, Dim>) return law.flows();
             return false;
         }
-        std::optional<Mat<Dim>> flow([[maybe_unused]] const Mat<Dim>& F) const override {
+        std::optional<Mat<Dim>> flow(std::size_t,
+                                     [[maybe_unused]] const Mat<Dim>& F) const override {
             if constexpr (FlowingLaw<Law, Dim>) return law.flow(F);
             return {};
         }
@@ -170,6 +197,85 @@ class HyperelasticMaterial {
         Law law;
     };
 
+    struct Several final : Loop {
+        explicit Several(std::vector<HyperelasticMaterial> several) : all(std::move(several)) {}
+
+        std::shared_ptr<const Loop> of(const std::vector<std::int32_t>& material) const override {
+            auto bound = std::make_shared<Several>(*this);
+            bound->number = material;
+            return bound;
+        }
+        const HyperelasticMaterial& law(std::size_t i) const {
+            return all[number.empty() ? 0 : static_cast<std::size_t>(number[i])];
+        }
+        /// Each run of particles of one material at once.
+        bool stresses(double t, std::span<const std::uint32_t> particles, std::size_t stride,
+                      const double* F, double* P, const ConstState<Dim>& state) const override {
+            bool finite = true;
+            for (std::size_t first = 0, last = 0; first < particles.size(); first = last) {
+                const HyperelasticMaterial& one = law(particles[first]);
+                for (last = first + 1; last < particles.size() && &law(particles[last]) == &one;)
+                    ++last;
+                finite = one.stresses(particles.subspan(first, last - first), stride,
+                                      F + first * stride, P + first * stride, state, t) &&
+                         finite;
+            }
+            return finite;
+        }
+        double energy(std::size_t i, const Mat<Dim>& F,
+                      const ConstState<Dim>& state) const override {
+            return law(i).energy(i, F, state);
+        }
+        std::vector<Field> history() const override {
+            std::vector<Field> fields;
+            for (const auto& one : all)
+                for (const Field field : one.history())
+                    if (std::find(fields.begin(), fields.end(), field) == fields.end())
+                        fields.push_back(field);
+            return fields;
+        }
+        bool any(bool (HyperelasticMaterial::*holds)() const) const {
+            return std::any_of(all.begin(), all.end(),
+                               [&](const auto& one) { return (one.*holds)(); });
+        }
+        bool has_rates() const override { return any(&HyperelasticMaterial::has_rates); }
+        void rates(double t, std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot,
+                   const ConstState<Dim>& state, const State<Dim>& rate) const override {
+            law(i).rates(t, i, F, F_dot, state, rate);
+        }
+        bool settles() const override { return any(&HyperelasticMaterial::settles); }
+        bool settle(double t, std::size_t i, const Mat<Dim>& F,
+                    const State<Dim>& state) const override {
+            return law(i).settle(t, i, F, state);
+        }
+        bool keeps_energy() const override {
+            return std::all_of(all.begin(), all.end(),
+                               [](const auto& one) { return one.keeps_energy(); });
+        }
+        bool flows() const override { return any(&HyperelasticMaterial::flows); }
+        std::optional<Mat<Dim>> flow(std::size_t i, const Mat<Dim>& F) const override {
+            return law(i).flow(i, F);
+        }
+        double yield_strain() const override {
+            double least = all.front().yield_strain();
+            for (const auto& one : all) least = std::min(least, one.yield_strain());
+            return least;
+        }
+        double stiffness() const override {
+            double most = all.front().stiffness();
+            for (const auto& one : all) most = std::max(most, one.stiffness());
+            return most;
+        }
+        std::string describe() const override {
+            std::string words;
+            for (const auto& one : all) words += (words.empty() ? "" : " | ") + one.describe();
+            return words;
+        }
+        std::vector<HyperelasticMaterial> all;
+        std::vector<std::int32_t> number{};
+    };
+
+    std::size_t count_ = 1;
     std::shared_ptr<const Loop> loop_;
 };
 

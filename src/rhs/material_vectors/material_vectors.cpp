@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../smooth_particles/constitution.hpp"
 #include "../sweeps/packed_particles.hpp"
 #include "material_vector_parts.hpp"
 #include <spam/core/error.hpp>
@@ -25,6 +26,7 @@ constexpr FieldKind watched_kind{"watched", Rank::scalar, Role::memory, "1"};
 template <int Dim>
 MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particles<Dim>& particles,
                                const HyperelasticMaterial<Dim>& material) {
+    check_materials(particles, material.count());
     valid_range<Dim>(scheme.range, particles.spacing, particles.size());
     if (!(scheme.density > 0.0) || !std::isfinite(scheme.density))
         throw InputError(fmt::format(
@@ -85,7 +87,7 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
                                       const HyperelasticMaterial<Dim>& material,
                                       const MaterialVectorScheme& scheme)
     : Term<Dim>(among),
-      material_(material),
+      material_(material.of(this->particles())),
       scheme_(validated(scheme, this->particles(), material)) {
     const auto sweeps = at_level(instruction_set(), [&](auto level) {
         return bond_sweeps<Dim, level>(this->box().periodic());

@@ -22,7 +22,8 @@ bool MaterialVectors<Dim>::flow(const ConstState<Dim>& state) {
                state.position().data(), limit * limit, HUGE_VAL,
                [&](std::size_t k, const Mat<Dim>& F, bool beyond) -> std::size_t {
                    const bool changed = beyond && flow_of_bonds(k, F, state);
-                   return ((changed || material_.flow(F)) && flow_of_particle(k, state)) || changed;
+                   return ((changed || material_.flow(k, F)) && flow_of_particle(k, state)) ||
+                          changed;
                }) > 0;
 }
 
@@ -34,7 +35,7 @@ bool MaterialVectors<Dim>::flow_of_particle(std::size_t k, const ConstState<Dim>
     const double* const x = p.table.places(state.position().data());
     const Fit before = fit(x, k);
     if (!Wholeness::of(before.K, p.N0).spans()) return false;
-    const std::optional<Mat<Dim>> G = material_.flow(before.F);
+    const std::optional<Mat<Dim>> G = material_.flow(k, before.F);
     if (!G) return false;
     const Mat<Dim> back = inverse(*G);
     for (std::size_t m = 0; m < p.table.row(k); ++m)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../smooth_particles/constitution.hpp"
 #include "../sweeps/packed_particles.hpp"
 #include "../sweeps/term_sweeps.hpp"
 #include <spam/core/error.hpp>
@@ -107,13 +108,14 @@ TotalLagrangian<Dim>::TotalLagrangian(const Selection<Dim>& among,
                                       const HyperelasticMaterial<Dim>& material,
                                       const TotalLagrangianScheme& scheme)
     : Term<Dim>(among),
-      material_(material),
+      material_(material.of(this->particles())),
       scheme_(validated(scheme, this->particles(), material.stiffness())),
       weight_(scheme.kernel, scheme.range),
       sweeps_(std::make_unique<const Sweeps<Dim>>(
           best_sweeps([&](auto level) { return lagrangian_sweeps<Dim, level>(scheme.kernel); }))),
       near_(scheme.range, ListUse::for_good, this->box(), sweeps_->width, sweeps_->numbers,
             StressedRecord<Dim>::kinds) {
+    check_materials(this->particles(), material.count());
     if (material_.flows())
         throw InputError(fmt::format(
             "material: '{}' flows by changing what neighbours remember, and these never change; use a "
