@@ -12,6 +12,7 @@ void bind_materials(pybind11::module_& module);
 void bind_externals(pybind11::module_& module);
 void bind_scheme(pybind11::module_& module);
 void bind_models(pybind11::module_& module);
+void bind_makers(pybind11::module_& module);
 void bind_elements(pybind11::module_& module);
 void bind_molecular_fields(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);

@@ -34,6 +34,7 @@ PYBIND11_MODULE(_core, module) {
     spam::python::bind_externals(module);
     spam::python::bind_scheme(module);
     spam::python::bind_models(module);
+    spam::python::bind_makers(module);
     spam::python::bind_elements(module);
     spam::python::bind_molecular_fields(module);
     spam::python::bind_simulation(module);

@@ -244,6 +244,32 @@ class Kinds(unittest.TestCase):
             self.assertTrue(run.drifts["angular momentum"].kept)
             self.assertLess(run["e"][-1], 0.03)
 
+    def test_several_materials(self):
+        x, v = rotation(4)
+        v = v + 0.1 * np.sin(3.0 * x[:, ::-1])
+        which = (x[:, 0] > 0.0).astype(int)
+        soft, stiff = spam.ElasticSolid(0.43, 0.43), spam.ElasticSolid(2.0, 1.5)
+        for make in (spam.SmoothParticles, spam.TotalLagrangian, spam.MaterialVectors):
+            runs = []
+            for laws in (soft, [soft, soft], [soft, stiff], (stiff, soft)):
+                several = {"which": which} if isinstance(laws, (list, tuple)) else {}
+                sim = spam.Simulation(make(x, material=laws, **several), velocity=v, dt=0.05)
+                drifts = sim.run(5.0).drifts
+                self.assertTrue(drifts["momentum"].kept and drifts["energy"].kept, drifts)
+                runs.append(sim.by_id(sim.state.velocity).copy())
+            self.assertTrue(np.array_equal(runs[0], runs[1]))
+            self.assertGreater(abs(runs[2] - runs[0])[which == 1].max(), 0.01)
+            self.assertGreater(abs(runs[3] - runs[2]).max(), 0.01)
+        gases = [spam.Fluid(spam.IdealGas(2)), spam.Fluid(spam.GammaGas(1.4))]
+        model = spam.SmoothParticles(x, material=gases, which=which)
+        self.assertTrue(np.isfinite(model.rates(0.0, model.start(v, temperature=0.2))).all())
+        for wrong, word in (({"material": [soft, stiff], "which": which[:-1]}, "which"),
+                            ({"material": [soft, stiff], "which": 2 * which}, "2 materials"),
+                            ({"material": [soft, gases[0]], "which": which}, "solids and fluids"),
+                            ({"material": [], "which": which}, "none is given")):
+            with self.assertRaisesRegex(spam.InputError, word):
+                spam.SmoothParticles(x, **wrong)
+
     def test_viscosity_and_reflections_beside_solids_that_remember(self):
         x, v = rotation(3)
         v = v + 0.2 * np.sin(3.0 * x[:, ::-1])

@@ -187,16 +187,20 @@ class _Model:
     def closest_pair(self, position: ArrayLike) -> float: ...
     def __len__(self) -> int: ...
 
-def SmoothParticles(x: ArrayLike, *, material: Union[None, _Solid, Fluid] = None,
+def SmoothParticles(x: ArrayLike, *,
+                    material: Union[None, _Solid, Fluid, Sequence[_Solid], Sequence[Fluid]] = None,
+                    which: Optional[ArrayLike] = None,
                     scheme: Optional[Scheme] = None, mass: ArrayLike = 1.0, density: Optional[float] = None,
                     spacing: float = 1.0, box: Optional[Sequence[float]] = None,
                     externals: Sequence[_External] = ()) -> _Model: ...
-def TotalLagrangian(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
+def TotalLagrangian(x: ArrayLike, *, material: Union[None, ElasticSolid, Sequence[ElasticSolid]] = None,
+                    which: Optional[ArrayLike] = None,
                     density: Optional[float] = None, range: Optional[float] = None, penalty: float = 0.1,
                     kernel: str = "lucy", viscosity: float = 0.0, closest_approach: float = 0.0,
                     mass: ArrayLike = 1.0, spacing: float = 1.0,
                     box: Optional[Sequence[float]] = None, externals: Sequence[_External] = ()) -> _Model: ...
-def MaterialVectors(x: ArrayLike, *, material: Optional[ElasticSolid] = None,
+def MaterialVectors(x: ArrayLike, *, material: Union[None, ElasticSolid, Sequence[ElasticSolid]] = None,
+                    which: Optional[ArrayLike] = None,
                     density: Optional[float] = None, range: Optional[float] = None, penalty: float = 2.0,
                     viscosity: float = 0.0, closest_approach: float = 0.0, mass: ArrayLike = 1.0,
                     spacing: float = 1.0, box: Optional[Sequence[float]] = None,

@@ -10,13 +10,14 @@ from ._core import element_fields as _element_fields, rectangle_mesh as _rectang
 from ._core import molecular_fields as _molecular_fields
 
 
-def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, spacing=1.0, box=None,
+def SmoothParticles(x, *, material=None, which=None, scheme=None, mass=1.0, density=None, spacing=1.0, box=None,
                     externals=()):
     """A solid or fluid of smooth particles with stress and energy, [HHM04] II, [HH07] 4.
 
     x          positions (N, D): of a solid its reference configuration, free of stress (length)
     material   ElasticSolid, VonMisesSolid, Material (a law of one's own) or Fluid; default the elastic
-               constants of the triangular lattice
+               constants of the triangular lattice. Or a list of solids, or of fluids, of which `which` (N,) names one
+               for each particle
     scheme     a Scheme; default Scheme(). Its range is 3 spacings where it says none
     mass       one number, or (N,)
     density    of a solid at the start (mass/length^D); default the mean mass by the volume spacing^D of a
@@ -27,28 +28,28 @@ def SmoothParticles(x, *, material=None, scheme=None, mass=1.0, density=None, sp
 
     Raises InputError (ValueError) of one line: wrong shapes, types or numbers, and what makes no sense together.
     """
-    material = ElasticSolid.triangular_lattice() if material is None else material
-    return smooth_particles(x, material, Scheme() if scheme is None else scheme, mass,
-                            _density(density, mass, spacing, x, box), spacing, _periods(box), list(externals))
+    return smooth_particles(x, _several(material), Scheme() if scheme is None else scheme, mass,
+                            _density(density, mass, spacing, x, box), spacing, _periods(box), list(externals),
+                            _which(which))
 
 
-def TotalLagrangian(x, *, material=None, density=None, range=None, penalty=0.1, kernel="lucy", viscosity=0.0,
-                    closest_approach=0.0, mass=1.0, spacing=1.0, box=None, externals=()):
+def TotalLagrangian(x, *, material=None, which=None, density=None, range=None, penalty=0.1, kernel="lucy",
+                    viscosity=0.0, closest_approach=0.0, mass=1.0, spacing=1.0, box=None, externals=()):
     """A solid that sums over the neighbours of its reference configuration x (N, D): p, L and E are kept.
 
-    material: ElasticSolid; range of the weight (length; default 3 spacings); penalty kappa against zero-energy
-    modes; kernel, viscosity and closest_approach as of Scheme. What viscosity takes from the motion is booked as
+    material: ElasticSolid, or a list of which `which` (N,) names one for each particle; range of the weight (length;
+    default 3 spacings); penalty kappa against zero-energy modes; kernel, viscosity and closest_approach as of Scheme. What viscosity takes from the motion is booked as
     viscous_heat, and heats nothing. Others as of SmoothParticles().
     """
-    return _solid("total_lagrangian", x, material, density, range, penalty, kernel, viscosity, closest_approach,
+    return _solid("total_lagrangian", x, material, which, density, range, penalty, kernel, viscosity, closest_approach,
                   mass, spacing, box, externals)
 
 
-def MaterialVectors(x, *, material=None, density=None, range=None, penalty=2.0, viscosity=0.0,
+def MaterialVectors(x, *, material=None, which=None, density=None, range=None, penalty=2.0, viscosity=0.0,
                     closest_approach=0.0, mass=1.0, spacing=1.0, box=None, externals=()):
     """A solid whose particles remember a material vector for each present neighbour: p, L and E are kept, and
     bodies meet. Arguments as of TotalLagrangian(), but for kernel."""
-    return _solid("material_vectors", x, material, density, range, penalty, "lucy", viscosity, closest_approach,
+    return _solid("material_vectors", x, material, which, density, range, penalty, "lucy", viscosity, closest_approach,
                   mass, spacing, box, externals)
 
 
@@ -58,9 +59,9 @@ def Springs(x, *, kappa=1.0, rest_length=None, closest_approach=0.0, mass=1.0, s
     closest_approach as of Scheme."""
     rest_length = spacing if rest_length is None else rest_length
     like = _of_bonds(lambda: kappa * spacing**2, spacing, x)
-    return remembering(x, "springs", like, kappa, rest_length, mass,
+    return remembering(x, "springs", [like], kappa, rest_length, mass,
                        _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
-                       _periods(box), list(externals))
+                       _periods(box), list(externals), [])
 
 
 def Elements(x, corners, *, material=None, density=1.0, which=None, temperature=0.0, hourglass_viscosity=0.0,
@@ -80,12 +81,11 @@ def Elements(x, corners, *, material=None, density=1.0, which=None, temperature=
                 numbers of nodes that are held along x, along y: floors and walls on which they slide
     spacing     typical side of an element; externals as of SmoothParticles()
     """
-    material = ElasticSolid.triangular_lattice() if material is None else material
-    several = list(material) if isinstance(material, (list, tuple)) else [material]
+    several = _several(material)
     numbers = zip(several, _one_each("density", density, several), _one_each("temperature", temperature, several))
     materials = [MatterOfElements(one, rho, hourglass_viscosity, hourglass_stiffness, T) for one, rho, T in numbers]
     return elements(x, _whole("corners", corners, (-1, 4)), materials,
-                    [] if which is None else _whole("which", which, (-1,)), spacing, list(externals),
+                    _which(which), spacing, list(externals),
                     _whole("held_x", held_x, (-1,)), _whole("held_y", held_y, (-1,)))
 
 
@@ -100,6 +100,16 @@ def _of_bonds(energy, length, x):
     except (IndexError, TypeError, ValueError, ArithmeticError):
         modulus = 1.0  # what is wrong with them is said where the model is made
     return ElasticSolid.triangular_lattice(modulus if modulus > 0 else 1.0)
+
+
+def _several(material):
+    """A list of materials, of one where one is given."""
+    material = ElasticSolid.triangular_lattice() if material is None else material
+    return list(material) if isinstance(material, (list, tuple)) else [material]
+
+
+def _which(numbers):
+    return [] if numbers is None else _whole("which", numbers, (-1,))
 
 
 def _one_each(name, given, several):
@@ -139,9 +149,9 @@ def Molecules(x, *, energy=1.0, length=None, closest_approach=0.0, mass=1.0, spa
     other up to sqrt(2) of it, energy (q^8 - 2 q^4) with q = 2 - r^2/length^2, [HH07] 13; others as of Springs()."""
     length = spacing if length is None else length
     like = _of_bonds(lambda: energy, length, x)
-    return remembering(x, "molecules", like, energy, length, mass,
+    return remembering(x, "molecules", [like], energy, length, mass,
                        _density(None, mass, spacing, x, box), 1.0, 0.0, "lucy", 0.0, closest_approach, spacing,
-                       _periods(box), list(externals))
+                       _periods(box), list(externals), [])
 
 
 def molecular_fields(model, state, places, *, kernel="lucy", range=None):
@@ -157,12 +167,11 @@ def molecular_fields(model, state, places, *, kernel="lucy", range=None):
     return _molecular_fields(model, getattr(state, "y", state), places, kernel, range)
 
 
-def _solid(kind, x, material, density, range, penalty, kernel, viscosity, closest_approach, mass, spacing, box,
+def _solid(kind, x, material, which, density, range, penalty, kernel, viscosity, closest_approach, mass, spacing, box,
            externals):
-    material = ElasticSolid.triangular_lattice() if material is None else material
-    return remembering(x, kind, material, 1.0, 1.0, mass, _density(density, mass, spacing, x, box),
+    return remembering(x, kind, _several(material), 1.0, 1.0, mass, _density(density, mass, spacing, x, box),
                        3.0 * spacing if range is None else range, penalty, kernel, viscosity, closest_approach,
-                       spacing, _periods(box), list(externals))
+                       spacing, _periods(box), list(externals), _which(which))
 
 
 def _density(density, mass, spacing, x, box):
