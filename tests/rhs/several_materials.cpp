@@ -25,22 +25,23 @@ namespace {
 using Laws = std::vector<HyperelasticMaterial<2>>;
 constexpr double density = 1.1547005383792515;  // of the triangular lattice
 
-/// A block, the right half of number 1.
-Particles<2> halves() {
+/// A block, the right two thirds of number 1.
+Particles<2> two_parts() {
     auto particles = make_particles<2>(triangular_block(12, 10), 1.0);
+    const double border = particles.reference_position.row(0).mean() - 2.0;
     for (std::size_t i = 0; i < particles.size(); ++i)
         particles.material.push_back(
-            particles.reference_position(0, static_cast<Eigen::Index>(i)) < 0.0 ? 0 : 1);
+            particles.reference_position(0, static_cast<Eigen::Index>(i)) < border ? 0 : 1);
     return particles;
 }
 
 std::unique_ptr<ParticleModel<2>> total_lagrangian(const HyperelasticMaterial<2>& law,
-                                                   const Particles<2>& particles = halves()) {
+                                                   const Particles<2>& particles = two_parts()) {
     return std::make_unique<TotalLagrangianModel<2>>(particles, law,
                                                      TotalLagrangianScheme{density, 3.0});
 }
 std::unique_ptr<ParticleModel<2>> material_vectors(const HyperelasticMaterial<2>& law,
-                                                   const Particles<2>& particles = halves()) {
+                                                   const Particles<2>& particles = two_parts()) {
     return std::make_unique<MaterialVectorModel<2>>(particles, law, MaterialVectorScheme{density});
 }
 using Make = std::unique_ptr<ParticleModel<2>> (*)(const HyperelasticMaterial<2>&,
@@ -64,9 +65,9 @@ const Eigen::Matrix2d stretch = (Eigen::Matrix2d() << 1.06, 0.03, -0.02, 0.97).f
 
 BOOST_AUTO_TEST_CASE(several_of_one_kind_are_one) {
     for (const Make make : both) {
-        auto one_material = halves();
+        auto one_material = two_parts();
         one_material.material.clear();
-        const auto one = make(soft, one_material), two = make(Laws{soft, soft}, halves());
+        const auto one = make(soft, one_material), two = make(Laws{soft, soft}, two_parts());
         const auto y = strained(*one, stretch);
         BOOST_TEST((rates_of(*one, y) == rates_of(*two, y)));
         BOOST_TEST(one->internal_energy(y) == two->internal_energy(y));
@@ -79,44 +80,48 @@ BOOST_AUTO_TEST_CASE(each_particle_has_the_energy_of_its_law) {
     for (int a = 0; a < 2; ++a)
         for (int b = 0; b < 2; ++b) F(a, b) = stretch(a, b);
     for (const Make make : both) {
-        const auto model = make(Laws{soft, stiff}, halves());
+        const auto model = make(Laws{soft, stiff}, two_parts());
         const auto& p = model->particles();
         double expected = 0.0;
         for (std::size_t i = 0; i < p.size(); ++i)
             expected +=
                 p.mass[i] / density * (p.material[i] == 0 ? soft.energy(F) : stiff.energy(F));
         const auto y = strained(*model, stretch);
-        BOOST_TEST(std::abs(model->internal_energy(y) / expected - 1.0) < 1e-12);
-        const auto other = make(Laws{stiff, soft}, halves());
+        BOOST_TEST(std::abs(model->internal_energy(y) / expected - 1.0) < 1e-11);
+        const auto other = make(Laws{stiff, soft}, two_parts());
         BOOST_TEST(std::abs(other->internal_energy(y) / expected - 1.0) > 1e-2);
     }
 }
 
 BOOST_AUTO_TEST_CASE(forces_are_those_of_the_energy) {
     for (const Make make : both) {
-        const auto model = make(Laws{soft, stiff}, halves());
+        const auto model = make(Laws{soft, stiff}, two_parts());
         const auto y = strained(*model, stretch);
-        Motion<2> motion(*model, y, {.method = "rk4", .dt = 0.05});
+        Motion<2> motion(*model, y, {.method = "rk4", .dt = 0.0125});
         motion.advance_to(10.0);
         const auto before = measure_invariants<2>(*model, y),
                    after = measure_invariants<2>(*model, motion.y());
-        BOOST_TEST(after.kinetic > 2.0 * before.kinetic);
-        BOOST_TEST(std::abs(after.energy / before.energy - 1.0) < 1e-7);
+        BOOST_TEST(after.kinetic > 1.2 * before.kinetic);
+        // Neighbours that material vectors meet and lose on the way change it a little.
+        BOOST_TEST(std::abs(after.energy / before.energy - 1.0) <
+                   (make == total_lagrangian ? 1e-8 : 1e-5));
         BOOST_TEST((after.momentum - before.momentum).norm() < 1e-12);
         BOOST_TEST((after.angular_momentum - before.angular_momentum).norm() < 1e-7);
     }
 }
 
-/// The soft half flows, and the other does not; a memory that one of them has is in y.
+/// The soft part flows, and the other does not; a memory that one of them has is in y.
 BOOST_AUTO_TEST_CASE(one_flows_beside_one_that_does_not) {
-    const auto model = material_vectors(Laws{FlowingSolid{soft, 0.02}, stiff});
+    const auto model = material_vectors(Laws{FlowingSolid{soft, 0.005}, stiff});
     Motion<2> motion(*model, strained(*model, stretch), {.method = "rk4", .dt = 0.05});
     motion.advance_to(2.0);
     const auto& law = *model->term<MaterialVectors<2>>();
     BOOST_TEST(law.heat() > 0.0);
+    const double beyond = model->particles().reference_position.row(0).mean() + 3.5;
     for (std::size_t i = 0; i < model->particles().size(); ++i)
-        if (model->particles().reference_position(0, static_cast<Eigen::Index>(i)) > 3.5)
+        if (model->particles().reference_position(0, static_cast<Eigen::Index>(i)) > beyond)
             BOOST_TEST(law.heat_of_particles()[i] == 0.0);
+    BOOST_TEST(model->particles().reference_position.row(0).maxCoeff() > beyond);
 
     const HenckySolid<RadialVonMises<2>> yields{{0.5, 0.4}, LinearHardening{0.02, 0.01}};
     const auto remembers = total_lagrangian(Laws{StVenantKirchhoff{0.43, 0.43}, yields});
@@ -134,12 +139,13 @@ BOOST_AUTO_TEST_CASE(one_flows_beside_one_that_does_not) {
 }
 
 BOOST_AUTO_TEST_CASE(numbers_without_a_material_are_refused) {
-    auto wrong = halves();
+    auto wrong = two_parts();
     wrong.material[7] = 2;
     for (const Make make : both) {
         const std::string said = refusal([&] { make(Laws{soft, stiff}, wrong); });
         BOOST_TEST(said.find("has number 2, and there are 2 materials") != std::string::npos, said);
-        BOOST_TEST(refusal([&] { make(soft, halves()); }).find("there are 1") != std::string::npos);
+        BOOST_TEST(refusal([&] { make(soft, two_parts()); }).find("there are 1") !=
+                   std::string::npos);
     }
     BOOST_TEST(refusal([] { HyperelasticMaterial<2>(Laws{}); }).find("none is given") !=
                std::string::npos);

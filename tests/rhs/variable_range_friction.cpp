@@ -9,8 +9,10 @@
 #include <spam/material/lucy_gas.hpp>
 #include <spam/rhs/own_ranges.hpp>
 #include <spam/rhs/smooth_particles.hpp>
+#include <spam/setup/lattices.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 
 using namespace spam;
 using namespace spam::test;
@@ -126,7 +128,7 @@ BOOST_AUTO_TEST_CASE(in_space) { check<3>(6); }
 /// A square lattice, where all ranges are the same.
 BOOST_AUTO_TEST_CASE(of_one_range_it_is_that_of_smooth_particles) {
     const Box<2> box({12.0, 12.0});
-    const auto particles = jittered_particles<2>(12, 3, 0.0, box);
+    const auto particles = make_particles<2>(square_lattice<2>({12, 12}), 1.0, 1.0, box);
     VariableRangeModel<2> model(particles, rubbing(2), {3.0, Kernel::w4}, box),
         without(particles, {IdealGas{2, 1.0}}, {3.0, Kernel::w4}, box);
     const auto y = start(model);
@@ -163,6 +165,6 @@ BOOST_AUTO_TEST_CASE(a_particle_without_temperature_is_named) {
     auto y = start(model);
     State<2>(model.layout(), y).energy()(0, 5) = -1e-3;
     rates_of(model, y);
-    BOOST_TEST(model.failure().find("of particle 5 are outside the law") != std::string::npos,
-               model.failure());
+    const std::string named = fmt::format("of particle {} are outside", particles.id[5]);
+    BOOST_TEST(model.failure().find(named) != std::string::npos, model.failure());
 }
