@@ -2,13 +2,13 @@
 # cmake -DNM=nm -DOBJDUMP=objdump -DOBJECTS=a.o;b.o -P lanes_symbols.cmake
 # What is compiled for several instruction sets must share no function: the linker keeps one of a
 # name, and a processor might meet instructions that it does not have. Names of our own carry the
-# set; no others may be left over. What runs before main() does so on every processor, and has to
-# do without their instructions: a file of a user's law registers its sweeps there.
+# set; no others may be left over, but for names of types (_ZTI, _ZTS), which are data. What runs before main() does so
+# on every processor, and has to do without their instructions: a file of a user's law registers its sweeps there.
 set(foreign "")
 set(early "")
 foreach(object IN LISTS OBJECTS)
   execute_process(COMMAND ${NM} ${object}
-    COMMAND awk "/ [WVu] / && !/InstructionSet|lanes_(sse4|avx2|avx512)|DW[.]ref[.]/"
+    COMMAND awk "/ [WVu] / && !/InstructionSet|lanes_(sse4|avx2|avx512)|DW[.]ref[.]|_ZT[IS]/"
     COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE shared)
   string(REGEX MATCHALL "[^\n]+" shared "${shared}")
   list(APPEND foreign ${shared})

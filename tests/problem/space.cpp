@@ -13,7 +13,8 @@ BOOST_AUTO_TEST_CASE(balanced_torques_keep_the_vector_of_a_cube) {
     Words words{"--angular-momentum", "torque_pair", "--dt", "0.25"};
     if (!long_runs()) words.insert(words.end(), {"--turns", "0.5"});
     const Results found("rotating_body", words, "angular_momentum_change");
-    BOOST_TEST(found.claims == 1U);
+    BOOST_TEST(found.claims == (long_runs() ? 1U : 0U));
+    BOOST_TEST(found.value.at("angular_momentum_change") < 1e-8);
     BOOST_TEST(found.value.at("newton_sums_by_rate") <= 5.0);
 }
 

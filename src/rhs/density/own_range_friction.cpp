@@ -6,7 +6,6 @@
 #include <spam/rhs/own_ranges.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace spam {
 
@@ -22,7 +21,9 @@ void OwnRanges<Dim>::load_friction(const Now& now) {
     packed_->template write<R>(from, 4, [&](std::size_t i, double* number) {
         const double h = range_[i];
         number[0] = pull_[i];
-        number[1] = 0.5 / std::pow(h, Dim + 2);
+        double power = h * h;  // by products, which units leave as they are to the last bit
+        for (int a = 0; a < Dim; ++a) power *= h;
+        number[1] = 0.5 / power;
         number[2] = 1.0 / rho[i];
         number[3] = temperature_[i];
     });
