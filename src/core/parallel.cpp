@@ -111,7 +111,7 @@ class Team {
         std::size_t end = 0;
     };
 
-    /// Not within a loop. Throws std::system_error where the system gives no more threads; it has those started before then.
+    /// Not within a loop. Throws std::system_error where the system gives no more threads: those that it has given stay.
     void make_room(std::size_t others) {
         if (others <= threads_) return;
         share_ = std::make_unique<Share[]>(others + 1);

@@ -4,9 +4,9 @@
 #include "why_stopped.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
+#include <spam/core/parallel.hpp>
 #include <spam/core/program.hpp>
 #include <spam/core/text.hpp>
-#include <spam/core/parallel.hpp>
 #include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/kernel/weight_integrals.hpp>

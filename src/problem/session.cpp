@@ -2,8 +2,8 @@
 #include "checkpoint.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/instruction_set.hpp>
-#include <spam/core/text.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/text.hpp>
 #include <spam/core/threads.hpp>
 #include <spam/integrate/interrupt.hpp>
 #include <spam/problem/session.hpp>

@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(numbers_beyond_all_reason_are_refused_by_name) {
 }
 
 BOOST_AUTO_TEST_CASE(runs_with_huge_and_tiny_numbers_end_honestly) {
-    hunt(15, [](unsigned seed) {
+    hunt(8, [](unsigned seed) {
         std::mt19937 random(seed);
         const auto& program = one_of(programs(), seed);
         const auto& numbers = help_of(program).numbers;
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(runs_with_huge_and_tiny_numbers_end_honestly) {
 }
 
 BOOST_AUTO_TEST_CASE(runs_at_the_ends_of_ranges_end_honestly) {
-    hunt(24, [](unsigned seed) {
+    hunt(12, [](unsigned seed) {
         std::mt19937 random(seed);
         const auto& program = one_of(programs(), seed);
         const auto& numbers = help_of(program).numbers;
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(every_weight_function_keeps_what_is_promised) {
             if (help_of(program).has_kernel) all.push_back(program);
         return all;
     }();
-    hunt(12, [&](unsigned seed) {
+    hunt(8, [&](unsigned seed) {
         std::mt19937 random(seed);
         check(one_of(with_kernel, seed),
               Words{"monaghan", "w2", "w4", "w5", "w6", "w7", "w8"}[random() % 7], 1);

@@ -49,7 +49,6 @@ inline const std::map<std::pair<std::string, std::string>, Words> own_beside{
     {{"collapse", "compare"}, {"--t-end", "0.02"}},
     {{"plane_wave", "dimension"}, {"--t-end", "3"}},
     {{"taylor_bar", "compare"}, {"--t-end", "0.02"}},
-    {{"tension_test", "closest-approach"}, {"--t-end", "20"}},
     {{"tension_test", "dimension"}, {"--t-end", "20"}},
     {{"tension_test", "dt"}, {"--t-end", "20"}},
     {{"tension_test", "load-rate"}, {"--t-end", "20"}},  // else as long as it lasts

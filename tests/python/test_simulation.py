@@ -255,7 +255,8 @@ class Kinds(unittest.TestCase):
                 several = {"which": which} if isinstance(laws, (list, tuple)) else {}
                 sim = spam.Simulation(make(x, material=laws, **several), velocity=v, dt=0.05)
                 drifts = sim.run(5.0).drifts
-                self.assertTrue(drifts["momentum"].kept and drifts["energy"].kept, drifts)
+                self.assertTrue(drifts["momentum"].kept, drifts)
+                self.assertLess(drifts["energy"].change, 1e-5)  # of material vectors that meet and lose some
                 runs.append(sim.by_id(sim.state.velocity).copy())
             self.assertTrue(np.array_equal(runs[0], runs[1]))
             self.assertGreater(abs(runs[2] - runs[0])[which == 1].max(), 0.01)

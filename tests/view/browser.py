@@ -17,7 +17,7 @@ from browsers import Chromium, Firefox  # noqa: E402
 
 first_frame = 1000  # milliseconds that a page may take
 # WebGL, width, height, dark.
-rounds = [(True, 1440, 900, False), (False, 800, 500, False), (False, 2560, 1440, True)]
+rounds = [(True, 1440, 900, False), (False, 800, 500, False), (False, 1920, 1200, True)]
 
 
 def array_of(file, name):

@@ -18,7 +18,8 @@
 ///     v_dot_i   = -sum_j m_j (a_i grad_i w(r_ij; h_i) + a_j grad_i w(r_ij; h_j)),  a = P/(Omega rho^2)
 /// In terms of the weight function of range one, W(u), with -W'/u = S(u):
 ///     w(r; h) = W(r/h)/h^D,   grad_i w = S(r/h)/h^(D+2) r_ji,   dw/dh = (u^2 S - D W)/h^(D+1)
-/// Friction and conduction are those of pairs (pair_friction.hpp) with F_ij = (S(r/h_i)/h_i^(D+2) + S(r/h_j)/h_j^(D+2))/2.
+/// Friction and conduction are those of pairs (pair_friction.hpp) with
+///     F_ij = (S(r/h_i)/h_i^(D+2) + S(r/h_j)/h_j^(D+2))/2.
 namespace spam {
 namespace column {
 

@@ -17,7 +17,8 @@
 
 namespace spam {
 
-/// Throws InputError for friction or conduction by which entropy would decrease, and for conduction without temperature.
+/// Throws InputError for friction or conduction by which entropy would decrease, and for conduction without a
+/// temperature.
 void check_fluid(const Fluid& fluid, int dim);
 /// Whether its forces have parts across r_ij.
 bool has_shear(const Fluid& fluid);
