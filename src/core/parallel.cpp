@@ -111,7 +111,7 @@ class Team {
         std::size_t end = 0;
     };
 
-    /// Not within a loop. Throws std::system_error where the system gives no more threads: those that it has given stay.
+    /// Not within a loop. Throws std::system_error where the system gives no more threads: what it has given stays.
     void make_room(std::size_t others) {
         if (others <= threads_) return;
         share_ = std::make_unique<Share[]>(others + 1);
@@ -174,7 +174,7 @@ void share(std::size_t n, const SharedLoop& loop) {
 }
 
 int set_threads(int threads) {
-    asked_threads = threads;
+    if (threads > 0) asked_threads = threads;
     return threads_here();
 }
 

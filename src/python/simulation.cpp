@@ -4,6 +4,7 @@
 #include "../problem/run.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/parallel.hpp>
+#include <spam/core/threads.hpp>
 #include <spam/problem/integrator_settings.hpp>
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ Simulation<Dim>::Simulation(std::shared_ptr<HeldModel<Dim>> model, const py::obj
       threads_(checked_threads(threads)) {
     PartedMotion<Dim>::refuse(*model->model, options, processes());
     // Processes share cores: threads beside them are asked for.
-    if (threads_ == 0 && !processes().alone()) threads_ = 1;
+    if (threads_ == 0) threads_ = processes().alone() ? usable_cores() : 1;
     now_ = std::make_shared<OnItsWay>(model, model->checked(y0), options, t0);
     held()->moved_by = this;
 }

@@ -79,8 +79,8 @@ std::size_t parallel_count(std::size_t n, const Count& count, std::size_t weight
     return sum;
 }
 
-/// Number of threads of later loops that the calling thread begins; 0: as many as there are usable cores
-/// (core/threads.hpp), as at its start. Returns the number in force.
+/// Number of threads of later loops that the calling thread begins; 0 leaves it as it is, which at first is as many as
+/// there are usable cores (core/threads.hpp). Returns the number in force.
 int set_threads(int threads);
 
 /// The same, and starts them. Throws InputError where they cannot be had; loops then do with those that there are.
