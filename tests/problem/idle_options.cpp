@@ -129,7 +129,7 @@ class Trial {
 
   private:
     void check(const Words& words, const Option& option, bool has_run);
-    /// An option of the session is tried in every twelfth program, one of the scheme in every fourth, and all of them
+    /// An option of the session is tried in every 24th program, one of the scheme in every eighth, and all of them
     /// everywhere in long runs.
     bool left_to_others(const std::string& option) const {
         const auto left = [&](const auto& shared, std::size_t programs) {
@@ -138,7 +138,7 @@ class Trial {
             return at != shared.end() && (number_ + place) % programs != 0;
         };
         return !long_runs() &&
-               (left(of_the_session, 12) || left(spam::Problem::scheme_option_names(), 4));
+               (left(of_the_session, 24) || left(spam::Problem::scheme_option_names(), 8));
     }
     /// The run to compare with.
     const Ran& ran_with(const Words& words) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every problem with a fixed and an adaptive method, stopped at a random moment by SIGTERM, SIGINT or a guard
-// and restarted: the same files, byte for byte, as of a run that was left alone. One moment for each problem
-// and method; SPAM_MOMENTS=N in the environment: N moments for each problem, method and stop.
+// and restarted: the same files, byte for byte, as of a run that was left alone. One moment for every second problem
+// with one method, in long runs for each with both; SPAM_MOMENTS=N in the environment: N moments for each problem, method and stop.
 #include "problem/short_runs.hpp"
 #include "support/effort.hpp"
 
@@ -110,8 +110,7 @@ BOOST_AUTO_TEST_CASE(whatever_stops_a_problem_it_leaves_the_same_files) {
     for (const auto& [name, arguments] : all_short_runs())
         for (const char* method : {"rk4", "arkode:DORMAND_PRINCE_7_4_5"}) {
             ++cell;
-            // One of the two methods, both in long runs.
-            if (moments == 0 && !long_runs() && (cell + cell / 2) % 2 == 0) continue;
+            if (moments == 0 && !long_runs() && (cell + cell / 4) % 4 != 0) continue;
             Table table(name, with(arguments, {"--integrator", method}));
             for (std::size_t stop = 0; stop < stops.size(); ++stop) {
                 if (moments == 0 && (cell + cell / 3) % 3 != stop) continue;

@@ -8,7 +8,14 @@
 
 using namespace spam::test;
 
+BOOST_AUTO_TEST_CASE(a_column_at_rest) {
+    const Results found("water_column", {"--width", "8", "--t-end", "4"}, "profile_error");
+    BOOST_TEST(found.value.at("profile_error") < 0.03);
+    BOOST_TEST(std::abs(found.value.at("floor_force") - 1.0) < 0.02);
+}
+
 BOOST_AUTO_TEST_CASE(the_column_of_the_lecture) {
+    if (!long_runs()) return;  // above, narrower
     const Results found("water_column", {}, "front_at_80");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("profile_error") < 0.006);

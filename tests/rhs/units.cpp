@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_further_term, In, UnitsIn) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, UnitsIn) {
     constexpr int Dim = In::value;
     int ran = 0;
-    Spread due(1, 8);
+    Spread due(2, 8);
     for (const auto& [law, build] : with_scheme<Dim>()) {
         for_each_scheme([&, name = law, &build = build](const Scheme& scheme) {
             if (due.next()) BOOST_TEST_CONTEXT(name << ", " << scheme.describe())
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_scheme_and_every_weight_function, In, UnitsI
         BOOST_TEST(
             check<Dim>({.law = build, .scheme = {.mean_density = mean, .kernel = kernel}}).ran);
     }
-    BOOST_TEST(ran > effort(150, 15));
+    BOOST_TEST(ran > effort(80, 15));
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(every_wall_and_a_period, In, UnitsIn) {
