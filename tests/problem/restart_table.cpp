@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every problem with a fixed and an adaptive method, stopped at a random moment by SIGTERM, SIGINT or a guard
-// and restarted: the same files, byte for byte, as of a run that was left alone. One moment for every second problem
-// with one method, in long runs for each with both; SPAM_MOMENTS=N in the environment: N moments for each problem, method and stop.
+// and restarted: the same files, byte for byte, as of a run that was left alone. One moment for every second
+// problem with one method, in long runs for each with both; SPAM_MOMENTS=N in the environment: N moments for each
+// problem, method and stop.
 #include "problem/short_runs.hpp"
 #include "support/effort.hpp"
 

@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_law_between_every_kind_of_walls, In, PartsIn
         });
     BOOST_TEST_MESSAGE(counts.ran << " laws between walls have the bytes of the whole, "
                                   << counts.refused << " cannot be parted");
-    BOOST_TEST(counts.ran > effort(100, 60));
+    BOOST_TEST(counts.ran > effort(85, 60));
     BOOST_TEST(counts.refused < 30);
 }
 
