@@ -42,6 +42,18 @@ BOOST_AUTO_TEST_CASE(every_index_is_met_once) {
     BOOST_TEST(set_threads(0) == 2);
 }
 
+// Also where it has been asked for the number since.
+BOOST_AUTO_TEST_CASE(one_thread_is_the_one_that_calls) {
+    set_threads(3);
+    BOOST_TEST(each_once(some));
+    set_threads(1);
+    BOOST_TEST(set_threads(0) == 1);
+    const auto caller = std::this_thread::get_id();
+    std::atomic<int> elsewhere = 0;
+    parallel_for(some, [&](std::size_t) { elsewhere += std::this_thread::get_id() != caller; });
+    BOOST_TEST(elsewhere == 0);
+}
+
 BOOST_AUTO_TEST_CASE(ranges_and_counts) {
     set_threads(3);
     std::mutex one;
