@@ -176,7 +176,7 @@ std::size_t ClusterList<Dim>::search() {
     }
     parts_.resize(std::size_t{1} << bits);
     levels_.resize(threads);
-    instruction_set();  // refuses a wrong SPAM_ISA here: nothing that is thrown may leave a thread
+    instruction_set();  // refuses a wrong SPAM_ISA before threads search
     return parallel_count(
         threads,
         [&](std::size_t thread) {

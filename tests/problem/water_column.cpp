@@ -10,7 +10,7 @@ using namespace spam::test;
 
 BOOST_AUTO_TEST_CASE(a_column_at_rest) {
     const Results found("water_column", {"--width", "8", "--t-end", "4"}, "profile_error");
-    BOOST_TEST(found.value.at("profile_error") < 0.03);
+    BOOST_TEST(found.value.at("profile_error") < 0.01);
     BOOST_TEST(std::abs(found.value.at("floor_force") - 1.0) < 0.02);
 }
 

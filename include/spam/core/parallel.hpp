@@ -6,7 +6,7 @@
 
 namespace spam {
 
-/// Fewer particles than this are faster on one thread than threads can be told of them.
+/// Fewer particles than this are done sooner by one thread than shared among several.
 inline constexpr std::size_t parallel_threshold = 1000;
 
 /// A loop that several threads share, each of them for other ranges of it.
