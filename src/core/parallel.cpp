@@ -24,8 +24,8 @@ namespace {
 /// Ranges in the share of a thread: so many are left to others where it is late.
 constexpr std::size_t ranges_each = 4;
 
-/// Looks, a pause each, before a thread sleeps: 14 microseconds on an EPYC. Fewer, and loops that follow each other wait
-/// until threads are awake; more, and other programs wait for the core.
+/// Looks, a pause each, before a thread sleeps: 14 microseconds on an EPYC. With fewer, loops that follow each other
+/// wait until threads are awake; with more, other programs wait for the core.
 constexpr int looks = 500;
 
 void pause() {
