@@ -27,6 +27,22 @@ struct InverseDensity {
     T inverse_rho{};
 };
 
+/// Of friction and conduction by pairs (pair_friction.hpp): eta - lambda, ...
+template <int Dim, class T>
+struct FrictionFactor {
+    T friction{};
+};
+/// ... (D + 2)(lambda + eta) ...
+template <int Dim, class T>
+struct AlongFactor {
+    T friction_along{};
+};
+/// ... and 2 kappa.
+template <int Dim, class T>
+struct ConductionFactor {
+    T conduction{};
+};
+
 }  // namespace column
 
 /// What a pair body may know of a particle of a fluid without friction and conduction.
@@ -47,5 +63,12 @@ using RubbingRecord =
 /// The same for particles that are shifted.
 template <int Dim, class T = double>
 using ShiftedRecord = typename RubbingRecord<Dim, T>::template And<column::Density>;
+
+/// Of friction and conduction by pairs in a sweep of their own, where fluids may differ.
+template <int Dim, class T = double>
+using FrictionRecord =
+    typename MotionRecord<Dim, T>::template And<column::InverseDensity, column::Temperature,
+                                                column::FrictionFactor, column::AlongFactor,
+                                                column::ConductionFactor>;
 
 }  // namespace spam

@@ -4,6 +4,8 @@
 #include <spam/physics/pass_constants.hpp>
 #include <spam/physics/stress_force.hpp>
 
+#include <utility>
+
 /// Friction and conduction by differences of pairs, in place of gradients of gradients (velocity_gradient.hpp,
 /// heat_flow.hpp). A gradient of smooth particles does not see neighbours that move against each other, and
 /// lets them; pairs damp every such motion. By Taylor's series, with F = -w'/r and the moments
@@ -14,9 +16,19 @@
 /// so that Newton's eta lap v + (lambda + eta) grad div v is the first times a = eta - lambda and the second
 /// times b = (D + 2)(lambda + eta); heat diffuses as the first times 2 kappa. Coefficients of pairs must not
 /// be negative, or some motion would grow: -eta <= lambda <= eta. With lambda = eta forces are central.
+///
+/// Between particles of different fluids a, b and kappa are harmonic means, 2 a_i a_j/(a_i + a_j): those by which the
+/// flux through two layers in turn, of a jump (v_j - v_i) across both, is one flux (Cleary and Monaghan 1999).
+/// What has no friction rubs against nothing. Pairs have one factor, so that m, p and E are kept as among equals.
 namespace spam {
 
-/// f_ij = F (a (v_j - v_i) + b r_ji (r_ji . (v_j - v_i))/r^2)/(rho_i rho_j).
+/// The factor of a pair between two materials; 0 where either has none.
+template <class T>
+SPAM_INLINE T pair_factor(const T& i, const T& j) {
+    return T(2.0) * (i * j) / (i + j + T(1e-300));
+}
+
+/// f_ij = F (a (v_j - v_i) + b r_ji (r_ji . (v_j - v_i))/r^2)/(rho_i rho_j), a and b of all particles or of records.
 template <int Dim>
 struct PairFriction {
     double a = 0.0, b = 0.0;
@@ -30,8 +42,17 @@ struct PairFriction {
     template <class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
         const T F = pair.minus_slope * (i.inverse_rho * j.inverse_rho);
-        const T along = T(b) * dot(pair.r_ji, pair.v_ji) / (pair.r2 + T(1e-300));
-        sums.add(j.m, F * (T(a) * pair.v_ji + along * pair.r_ji), pair.v_ji);
+        const auto [a_ij, b_ij] = factors<T>(i, j);
+        const T along = b_ij * dot(pair.r_ji, pair.v_ji) / (pair.r2 + T(1e-300));
+        sums.add(j.m, F * (a_ij * pair.v_ji + along * pair.r_ji), pair.v_ji);
+    }
+    template <class T, class Record>
+    SPAM_INLINE std::pair<T, T> factors(const Record& i, const Record& j) const {
+        if constexpr (requires { i.friction; })
+            return {pair_factor(i.friction, j.friction),
+                    pair_factor(i.friction_along, j.friction_along)};
+        else
+            return {T(a), T(b)};
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {
@@ -51,7 +72,14 @@ struct PairConduction {
     template <int Dim, class T, class Record>
     void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) const {
         const T F = pair.minus_slope * (i.inverse_rho * j.inverse_rho);
-        sums.e_dot += j.m * (T(twice_kappa) * F * (j.temperature - i.temperature));
+        sums.e_dot += j.m * (factor<T>(i, j) * F * (j.temperature - i.temperature));
+    }
+    template <class T, class Record>
+    SPAM_INLINE T factor(const Record& i, const Record& j) const {
+        if constexpr (requires { i.conduction; })
+            return pair_factor(i.conduction, j.conduction);
+        else
+            return T(twice_kappa);
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {

@@ -41,9 +41,11 @@ class Constitution {
     Constitution& operator=(const Constitution&) = delete;
 
     virtual std::size_t materials() const = 0;
-    /// Throws InputError where the materials do not go with the scheme.
-    virtual void check(const Scheme& scheme) const = 0;
     virtual Matter matter(const Scheme& scheme) const = 0;
+    /// How many numbers its own sweeps read of a particle, beyond those of the scheme; 0 without.
+    virtual int numbers(const Scheme&) const { return 0; }
+    /// The scheme of all that follows. Throws InputError where the materials do not go with it.
+    virtual void take(const Scheme& scheme) = 0;
     /// Of y, besides the density.
     virtual std::vector<Field> fields() const = 0;
     /// "a solid of ...", without the scheme.
@@ -63,6 +65,10 @@ class Constitution {
                                 const Sweeps<Dim>&, PackedParticles<Dim>&) {
         return {};
     }
+    /// Once all other forces are known: those that the scheme's sweeps leave out, on top of these. Records hold
+    /// something else afterwards.
+    virtual void add_forces(std::span<const double> /*rho*/, const SweepInput<Dim>&,
+                            const SweepOutput<Dim>&, PackedParticles<Dim>&) {}
     /// What the sweep of forces calls for every block of particles.
     virtual void close_forces(const Now&, SweepOutput<Dim>&) {}
     /// What passes that know the material are made with.
@@ -96,6 +102,8 @@ class Constitution {
                    : "";
     }
     virtual bool conducts() const { return false; }
+    /// Whether there is friction or conduction.
+    virtual bool diffuses() const { return false; }
     /// Term::neighbour_forces() of the stress, by the spacing.
     virtual double stress_forces(const ConstState<Dim>& state,
                                  std::span<const double> rho) const = 0;
@@ -122,13 +130,16 @@ class FluidConstitution final : public Constitution<Dim> {
     FluidConstitution(const Particles<Dim>& particles, std::vector<Fluid> fluids);
 
     std::size_t materials() const override { return fluids_.size(); }
-    void check(const Scheme& scheme) const override;
     Matter matter(const Scheme& scheme) const override;
+    int numbers(const Scheme& scheme) const override;
+    void take(const Scheme& scheme) override;
     std::vector<Field> fields() const override { return {Field::energy}; }
     std::string describe() const override;
     bool central(const Scheme& scheme) const override;
     std::string prepare(const Now& now, std::span<const double> rho, const SweepInput<Dim>& in,
                         const Sweeps<Dim>& sweeps, PackedParticles<Dim>& packed) override;
+    void add_forces(std::span<const double> rho, const SweepInput<Dim>& in,
+                    const SweepOutput<Dim>& out, PackedParticles<Dim>& packed) override;
     void set_constants(PassConstants& constants) const override;
     std::optional<double> sound_speed(double density) const override;
     double sound_speed_of(std::size_t i) const override;
@@ -139,6 +150,10 @@ class FluidConstitution final : public Constitution<Dim> {
     bool conducts() const override {
         const auto does = [](const Fluid& f) { return f.conduction && f.conduction->kappa > 0.0; };
         return std::any_of(fluids_.begin(), fluids_.end(), does);
+    }
+    bool diffuses() const override {
+        return std::any_of(fluids_.begin(), fluids_.end(),
+                           [](const Fluid& f) { return f.diffuses(); });
     }
     bool cold() const override {
         return std::any_of(fluids_.begin(), fluids_.end(),
@@ -161,6 +176,8 @@ class FluidConstitution final : public Constitution<Dim> {
 
     std::vector<Fluid> fluids_;
     bool thermal_, gradients_;
+    Matter matter_ = Matter::inviscid;
+    Sweep<Dim> friction_ = nullptr;    ///< of pairs, where the scheme's own sweeps have none
     std::span<const double> rho_, e_;  ///< of the latest prepare()
     std::vector<double> pressure_, temperature_;
     std::vector<std::pair<SymTensor<Dim>, Vec<Dim>>> fluxes_;  ///< A and q, by slot

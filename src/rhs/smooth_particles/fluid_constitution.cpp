@@ -5,6 +5,7 @@
 #include <spam/core/parallel.hpp>
 #include <spam/physics/fluid_record.hpp>
 #include <spam/physics/mean_density.hpp>
+#include <spam/physics/pair_friction.hpp>
 
 #include <fmt/format.h>
 
@@ -17,20 +18,22 @@ namespace {
 bool has_gradients(const Fluid& fluid) { return fluid.diffuses() && !fluid.by_pairs; }
 bool has_pairs(const Fluid& fluid) { return fluid.diffuses() && fluid.by_pairs; }
 
+bool any(const std::vector<Fluid>& fluids, bool (*is)(const Fluid&)) {
+    return std::any_of(fluids.begin(), fluids.end(), is);
+}
+
 /// Where friction and conduction are those of pairs.
 void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
-    const Fluid& first = fluids.front();
-    if (!has_pairs(first) && std::none_of(fluids.begin(), fluids.end(), has_pairs)) return;
-    const bool own =
-        scheme.transport == Transport::plain || scheme.transport == Transport::shifting;
-    if (!own || scheme.viscosity > 0.0 || scheme.balances_torques())
+    if (!any(fluids, has_pairs)) return;
+    if (any(fluids, has_gradients))
         throw InputError(
-            "friction: that of pairs is for particles that move with their own velocity or are shifted, "
-            "without artificial viscosity and balanced torques; leave these out, or take friction by "
-            "gradients");
-    if (fluids.size() > 1)
+            "friction: some of the fluids have that of pairs and others that of gradients, and no law says what "
+            "acts between the two; set by_pairs of all that have friction or conduction, or of none");
+    if (scheme.balances_torques() && any(fluids, has_shear))
         throw InputError(
-            "friction: that of pairs is for one fluid, and several are given; take friction by gradients");
+            "friction: that of pairs is no stress, and balanced torques scale what of stresses acts across r_ij; "
+            "take lambda = eta, by which pairs act along r_ij, or friction by gradients, or --angular-momentum "
+            "free");
 }
 
 void check_shifting(const std::vector<Fluid>& fluids, const Scheme& scheme) {
@@ -54,7 +57,7 @@ void check_work(const std::vector<Fluid>& fluids, const Scheme& scheme) {
 /// errors.
 void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
     if (!scheme.balances_torques() || scheme.transport != Transport::average) return;
-    if (std::any_of(fluids.begin(), fluids.end(), has_shear)) return;
+    if (any(fluids, has_shear)) return;
     throw InputError(fmt::format(
         "angular-momentum: {} scales what of the forces acts across r_ij, of which a fluid without friction "
         "has nothing; use --angular-momentum free, or --transport plain or monaghan, which keep it",
@@ -134,7 +137,7 @@ FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,
 }
 
 template <int Dim>
-void FluidConstitution<Dim>::check(const Scheme& scheme) const {
+void FluidConstitution<Dim>::take(const Scheme& scheme) {
     if (scheme.density == Density::summed && scheme.transport != Transport::plain &&
         scheme.transport != Transport::shifting)
         throw InputError(
@@ -146,19 +149,29 @@ void FluidConstitution<Dim>::check(const Scheme& scheme) const {
     check_shifting(fluids_, scheme);
     check_work(fluids_, scheme);
     check_torques(fluids_, scheme);
+    matter_ = matter(scheme);
+    if (numbers(scheme) > 0)
+        friction_ = best_sweeps([](auto level) { return friction_sweep<Dim, level>(); });
 }
 
-/// What neither friction and conduction nor the scheme ask for is left out.
+/// What neither friction and conduction nor the scheme ask for is left out. Of pairs there is one sweep with the
+/// pressures of one fluid that moves with its own velocity or is shifted; else they are added (add_forces).
 template <int Dim>
 Matter FluidConstitution<Dim>::matter(const Scheme& scheme) const {
     if (scheme.transport == Transport::shifting)
         return gradients_ || scheme.viscosity > 0.0 ? Matter::conducting : Matter::shifted;
-    if (std::any_of(fluids_.begin(), fluids_.end(), has_pairs)) return Matter::rubbing;
     const bool plain = scheme.transport == Transport::plain && scheme.viscosity == 0.0 &&
-                       scheme.work == Work::mean &&
                        (scheme.angular_momentum == AngularMomentum::free ||
                         scheme.angular_momentum == AngularMomentum::gauss);
-    return gradients_ || !plain ? Matter::conducting : Matter::inviscid;
+    if (plain && fluids_.size() == 1 && has_pairs(first())) return Matter::rubbing;
+    return gradients_ || !plain || scheme.work == Work::own ? Matter::conducting : Matter::inviscid;
+}
+
+template <int Dim>
+int FluidConstitution<Dim>::numbers(const Scheme& scheme) const {
+    const Matter made = matter(scheme);
+    const bool included = made == Matter::rubbing || made == Matter::shifted;
+    return any(fluids_, has_pairs) && !included ? FrictionRecord<Dim>::numbers : 0;
 }
 
 template <int Dim>
@@ -251,10 +264,8 @@ void FluidConstitution<Dim>::fill(std::span<const double> rho, const PassConstan
     using R = ConductingRecord<Dim>;
     const auto order = packed.list().order();
     const MeanDensityKind mean = constants.mean_density;
-    const bool shifted =
-        constants.shifting > 0.0 && !gradients_ && packed.numbers() == ShiftedRecord<Dim>::numbers;
-    const bool rubbing = shifted || packed.numbers() == RubbingRecord<Dim>::numbers;
-    const bool tensors = !rubbing && packed.numbers() != InviscidRecord<Dim>::numbers;
+    const bool tensors = matter_ == Matter::conducting, shifted = matter_ == Matter::shifted,
+               rubbing = shifted || matter_ == Matter::rubbing;
     parallel_for(order.size(), [&](std::size_t slot) {
         const std::size_t i = order[slot];
         double* const record = packed.record(slot);
@@ -313,6 +324,34 @@ void FluidConstitution<Dim>::load_fluxes(PackedParticles<Dim>& packed) const {
         std::copy(q.c.begin(), q.c.end(), record + R::template at<column::HeatFlux>);
     });
     packed.template refresh<R>(R::template at<column::Stress>);
+}
+
+/// Density and temperature are those of prepare(). Walls have their share next to the sweep, as of every one.
+template <int Dim>
+void FluidConstitution<Dim>::add_forces(std::span<const double> rho, const SweepInput<Dim>& in,
+                                        const SweepOutput<Dim>& out, PackedParticles<Dim>& packed) {
+    using R = FrictionRecord<Dim>;
+    if (friction_ == nullptr) return;
+    constexpr int from = R::template at<column::InverseDensity>;
+    static_assert(R::template at<column::Temperature> == from + 1 &&
+                  R::template at<column::FrictionFactor> == from + 2 &&
+                  R::template at<column::AlongFactor> == from + 3 &&
+                  R::template at<column::ConductionFactor> == from + 4);
+    packed.template write<R>(from, 5, [&](std::size_t i, double* number) {
+        PassConstants of_fluid;
+        set_pair_constants(of(i), of_fluid);
+        const auto friction = PairFriction<Dim>::with(of_fluid);
+        number[0] = 1.0 / rho[i];
+        number[1] = temperature_[i];
+        number[2] = friction.a;
+        number[3] = friction.b;
+        number[4] = PairConduction::with(of_fluid).twice_kappa;
+    });
+    SweepOutput<Dim> forces;
+    forces.v_dot = out.v_dot;
+    forces.e_dot = out.e_dot;
+    friction_(in, forces);
+    sweep_walls(packed, in, friction_);
 }
 
 template <int Dim>

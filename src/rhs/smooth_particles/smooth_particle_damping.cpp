@@ -17,10 +17,8 @@ namespace spam {
 /// density, that what is damped is judged by.
 template <int Dim>
 void SmoothParticles<Dim>::prepare_damping() {
-    const Matter matter = constitution_->matter(scheme_);
-    const bool friction = matter == Matter::rubbing || sweeps_->gradient != nullptr;
     const bool shifted = scheme_.transport == Transport::shifting;
-    if (!(scheme_.viscosity > 0.0) && !friction && !shifted) return;
+    if (!(scheme_.viscosity > 0.0) && !constitution_->diffuses() && !shifted) return;
     const GeneralWeight<Dim> weight(scheme_.kernel, scheme_.range);
     rest_ =
         std::make_unique<const RestingBody>(resting_body(this->particles(), this->box(), weight));

@@ -26,9 +26,12 @@ Scheme validated(const Scheme& scheme, int dim) {
 }
 
 template <int Dim>
-Sweeps<Dim> sweeps_of(const Scheme& scheme, Matter matter) {
-    return best_sweeps(
-        [&](auto level) { return smooth_particle_sweeps<Dim, level>(scheme, matter); });
+Sweeps<Dim> sweeps_of(const Scheme& scheme, const Constitution<Dim>& materials) {
+    const Matter matter = materials.matter(scheme);
+    auto sweeps =
+        best_sweeps([&](auto level) { return smooth_particle_sweeps<Dim, level>(scheme, matter); });
+    sweeps.numbers = std::max(sweeps.numbers, materials.numbers(scheme));
+    return sweeps;
 }
 
 }  // namespace
@@ -56,8 +59,7 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
     : Term<Dim>(among),
       constitution_(std::move(constitution)),
       scheme_(validated(scheme, Dim)),
-      sweeps_(std::make_unique<const Sweeps<Dim>>(
-          sweeps_of<Dim>(scheme, constitution_->matter(scheme)))),
+      sweeps_(std::make_unique<const Sweeps<Dim>>(sweeps_of<Dim>(scheme, *constitution_))),
       packed_(
           std::make_unique<PackedParticles<Dim>>(GeneralWeight<Dim>(scheme_.kernel, scheme_.range),
                                                  ListUse::again_and_again, this->box(), *sweeps_)) {
@@ -66,7 +68,7 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
     valid_range<Dim>(scheme.range, this->particles().spacing, n);
     scheme.validate_distances(this->particles().spacing);
     check_materials(this->particles(), constitution_->materials());
-    constitution_->check(scheme);
+    constitution_->take(scheme);
     if (sweeps_->density != nullptr) summed_density_.resize(n);
     const AngularMomentum law = scheme.angular_momentum;
     if (law == AngularMomentum::gauss) {
@@ -140,7 +142,7 @@ Groups SmoothParticles<Dim>::groups() const {
 }
 
 /// The order that the physics forces: pairs - density if summed - A - everything that needs one sweep
-/// and the constitutive law - torque balance per body - what needs u or the balance.
+/// and the constitutive law - torque balance per body - what needs u or the balance - friction by pairs.
 template <int Dim>
 std::string SmoothParticles<Dim>::rates(const Now& now) {
     if (auto reason = load(now); !reason.empty()) return reason;
@@ -174,6 +176,7 @@ std::string SmoothParticles<Dim>::rates(const Now& now) {
             sweep_walls(*packed_, in, sweeps_->second);
         }
     }
+    constitution_->add_forces(rho, in, out, *packed_);
     if (gauss_)
         gauss_->constrain(groups(), now.state.position().data(), out.x_dot,
                           now.state.velocity().data(), out.v_dot);

@@ -25,7 +25,7 @@ class SolidConstitution final : public Constitution<Dim> {
     }
 
     std::size_t materials() const override { return materials_.size(); }
-    void check(const Scheme& scheme) const override {
+    void take(const Scheme& scheme) override {
         if (scheme.transport == Transport::shifting)
             throw InputError(
                 "transport: shifting would leave the stress of a solid, which remembers where its "

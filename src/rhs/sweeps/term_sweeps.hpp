@@ -14,7 +14,7 @@ namespace spam {
 enum class Matter {
     solid,       ///< from the stress in y; the velocity gradients of the force sweep give its rate
     inviscid,    ///< a pressure, known before any sweep; particles move with their own velocity
-    rubbing,     ///< the same, with friction and conduction of pairs
+    rubbing,     ///< the same, with friction and conduction of pairs of one fluid
     shifted,     ///< the same or without them, by particles that are shifted
     conducting,  ///< pressure, friction and conduction, from a sweep of gradients
 };
@@ -33,6 +33,10 @@ Sweeps<3> balanced_sweeps_in_space(const Scheme& scheme, Matter matter);
 /// The same of rubbing and conducting matter for schemes with Work::own.
 template <int Dim, InstructionSet Level>
 Sweeps<Dim> own_work_sweeps(const Scheme& scheme, Matter matter);
+
+/// Friction and conduction by pairs on top of any scheme, of FrictionRecord.
+template <int Dim, InstructionSet Level>
+Sweep<Dim> friction_sweep();
 
 /// Ranges that follow the density, of RangeRecord; with friction and conduction of RubbingRangeRecord.
 template <int Dim, InstructionSet Level>
