@@ -138,8 +138,6 @@ BOOST_AUTO_TEST_CASE(fluids) {
         for (const auto transport : {Transport::plain, Transport::average, Transport::monaghan})
             for (const auto kernel : {Kernel::lucy, Kernel::monaghan})
                 for (const double viscosity : {0.0, 0.3}) {
-                    if (fluid.by_pairs && (transport != Transport::plain || viscosity > 0.0))
-                        continue;
                     const Scheme scheme{.density = Density::continuity,
                                         .transport = transport,
                                         .viscosity = viscosity,

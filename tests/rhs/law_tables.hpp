@@ -23,11 +23,13 @@ const Laws<Dim>& with_scheme() {
          }},
         {"SmoothParticles, gas",
          [](Sample<Dim>& s, const Scheme& scheme) { add_fluid(s, {IdealGas{Dim}}, scheme); }},
-        {"SmoothParticles, gas, friction and work of its own stress",
+        {"SmoothParticles, gas, friction by pairs and work of its own stress",
          [](Sample<Dim>& s, Scheme scheme) {
              scheme.work = Work::own;
-             add_fluid(s, {IdealGas{Dim}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)}},
-                       scheme);
+             Fluid fluid{IdealGas{Dim}, NewtonViscosity{s.viscosity(0.1), s.viscosity(0.3)},
+                         FourierConduction{s.viscosity(0.2)}};
+             fluid.by_pairs = true;
+             add_fluid(s, fluid, scheme);
          }},
         {"SmoothParticles, fluid with friction and conduction",
          [](Sample<Dim>& s, const Scheme& scheme) {

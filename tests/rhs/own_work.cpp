@@ -83,9 +83,6 @@ void for_each_gas(const F& f) {
     for (const bool closed : {false, true})
         for (const Fluid& fluid : fluids<Dim>())
             for (const Scheme& scheme : schemes()) {
-                if (fluid.by_pairs &&
-                    (scheme.viscosity > 0.0 || scheme.transport != Transport::plain))
-                    continue;
                 const Box<Dim> box = closed ? periodic<Dim>(cells<Dim>) : Box<Dim>{};
                 FluidModel<Dim> model(jittered_particles<Dim>(cells<Dim>, 21, 0.15, box), fluid,
                                       scheme, box);
@@ -142,8 +139,6 @@ void check_cold_particles() {
     const Fluid gas{GammaGas{1.4}}, sticky{GammaGas{1.67}, NewtonViscosity{0.2, 0.3}};
     for (const Fluid& fluid : {gas, sticky, rubbing})
         for (Scheme scheme : schemes()) {
-            if (fluid.by_pairs && (scheme.viscosity > 0.0 || scheme.transport != Transport::plain))
-                continue;
             BOOST_TEST_CONTEXT(fluid.describe() << ", " << scheme.describe()) {
                 // Rounding of viscous stresses, which by themselves are far above it.
                 BOOST_TEST(least_rate_of_the_cold<Dim>(fluid, scheme, computed) > -1e-13);

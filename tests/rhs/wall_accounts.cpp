@@ -155,6 +155,7 @@ std::vector<Law<Dim>> laws() {
         {"own work of friction", built<Dim, FluidModel>(water, own), false, true},
         {"own work, pairs", built<Dim, FluidModel>(rubbing, own_by_pairs), false, true},
         {"pairs", built<Dim, FluidModel>(rubbing, scheme), false, true},
+        {"pairs and artificial viscosity", built<Dim, FluidModel>(rubbing, viscous), false, true},
         {"solid", built<Dim, SmoothParticleModel>(ElasticSolid{0.7, 0.4}, summed), false, false},
         {"own ranges",
          built<Dim, VariableRangeModel>(Fluid{IdealGas{Dim}}, VariableRangeScheme{.range = 2.0}),

@@ -76,7 +76,6 @@ BOOST_AUTO_TEST_CASE(each_wall_gives_what_it_would_give_alone) {
     for (const Fluid& fluid : {by_gradients, by_pairs})
         for (const Scheme& scheme : {plain, with_viscosity})
             for (const bool mirrors : {false, true}) {
-                if (fluid.by_pairs && scheme.viscosity > 0.0) continue;  // refused
                 const Accounts both = accounts_of(fluid, scheme, between(below, above, mirrors)),
                                lower = accounts_of(fluid, scheme, between(below, {}, mirrors)),
                                upper = accounts_of(fluid, scheme, between({}, above, mirrors));
