@@ -41,11 +41,20 @@ struct HalfSlope {
 template <int Dim, class T = double>
 using RangeRecord = typename MotionRecord<Dim, T>::template And<column::InverseRange, column::Pull>;
 
-/// Of a fluid with friction and conduction, which are those of pairs.
+/// Of fluids with friction and conduction, which are those of pairs.
 template <int Dim, class T = double>
 using RubbingRangeRecord =
     typename RangeRecord<Dim, T>::template And<column::HalfSlope, column::InverseDensity,
-                                               column::Temperature>;
+                                               column::Temperature, column::FrictionFactor,
+                                               column::AlongFactor, column::ConductionFactor>;
+
+/// h^D by products, which units leave as they are to the last bit.
+template <int Dim>
+constexpr double range_power(double h) {
+    double power = h;
+    for (int a = 1; a < Dim; ++a) power *= h;
+    return power;
+}
 
 inline namespace SPAM_LANES {
 

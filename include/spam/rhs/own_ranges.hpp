@@ -26,16 +26,20 @@ struct VariableRangeScheme {
     std::string describe() const;
 };
 
-/// A fluid whose particles have ranges that follow their densities
+/// Fluids whose particles have ranges that follow their densities
 /// (physics/variable_range.hpp): y = (x, v, rho, e). The density is part of y, summed at the start and
 /// then integrated, so that ranges are a function of y and no equation is solved in the rates. Keeps m, p
 /// and sum m (e + v^2/2) exactly, in open space L as well; friction by pairs takes L where its forces act across r_ij.
 template <int Dim>
 class OwnRanges final : public Term<Dim> {
   public:
-    /// Throws InputError where eta is so small that a particle would be its own only neighbour, and for friction or
-    /// conduction by gradients (Fluid::by_pairs).
-    OwnRanges(const Selection<Dim>& among, const Fluid& fluid, const VariableRangeScheme& scheme);
+    /// Of several fluids the one at the place of a particle's material (Particles::material). Throws InputError where
+    /// eta is so small that a particle would be its own only neighbour, for friction or conduction by gradients
+    /// (Fluid::by_pairs), where a particle's material is not there, and as SmoothParticles for coefficients.
+    OwnRanges(const Selection<Dim>& among, std::vector<Fluid> fluids,
+              const VariableRangeScheme& scheme);
+    OwnRanges(const Selection<Dim>& among, const Fluid& fluid, const VariableRangeScheme& scheme)
+        : OwnRanges(among, std::vector<Fluid>{fluid}, scheme) {}
     ~OwnRanges() override;
 
     using typename Term<Dim>::Now;
@@ -48,7 +52,8 @@ class OwnRanges final : public Term<Dim> {
     void take_over(const Term<Dim>& before, const ConstState<Dim>& was, const Change<Dim>& change,
                    const State<Dim>& now) override;
 
-    const Fluid& fluid() const { return fluid_; }
+    /// The first of them.
+    const Fluid& fluid() const { return fluids_.front(); }
     const VariableRangeScheme& scheme() const { return scheme_; }
     /// h of all particles.
     std::vector<double> ranges(std::span<const double> y) const;
@@ -61,6 +66,7 @@ class OwnRanges final : public Term<Dim> {
     std::vector<double> solve_densities(const Points<Dim>& position) const;
 
   private:
+    const Fluid& of(std::size_t i) const;
     double range_of(std::size_t i, double rho) const;
     double most_range() const;
     std::string find_ranges(const ConstState<Dim>& state);
@@ -69,13 +75,13 @@ class OwnRanges final : public Term<Dim> {
     double fastest_damping_in(std::span<const double> y) const;
     void make_room();
 
-    Fluid fluid_;
+    std::vector<Fluid> fluids_;
     VariableRangeScheme scheme_;
     GeneralWeight<Dim> unit_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
-    std::unique_ptr<const RestingBody> rest_;  ///< of friction and conduction
-    std::vector<double> range_, pressure_, pull_, temperature_;
+    std::unique_ptr<const RestingBody> rest_;                    ///< of friction and conduction
+    std::vector<double> range_, pressure_, pull_, temperature_;  ///< the last of those that conduct
 };
 
 SPAM_COMPILED(extern template class OwnRanges);

@@ -18,14 +18,13 @@ void OwnRanges<Dim>::load_friction(const Now& now) {
                   R::template at<column::InverseDensity> == from + 2 &&
                   R::template at<column::Temperature> == from + 3);
     const double* const rho = now.state.density().data();
-    packed_->template write<R>(from, 4, [&](std::size_t i, double* number) {
+    packed_->template write<R>(from, 4 + pair_factors, [&](std::size_t i, double* number) {
         const double h = range_[i];
         number[0] = pull_[i];
-        double power = h * h;  // by products, which units leave as they are to the last bit
-        for (int a = 0; a < Dim; ++a) power *= h;
-        number[1] = 0.5 / power;
+        number[1] = 0.5 / (h * h * range_power<Dim>(h));
         number[2] = 1.0 / rho[i];
-        number[3] = temperature_[i];
+        number[3] = temperature_.empty() ? 0.0 : temperature_[i];
+        write_pair_factors<R, Dim, from + 4>(of(i), number + 4);
     });
 }
 
@@ -46,7 +45,7 @@ double OwnRanges<Dim>::fastest_damping_in(std::span<const double> y) const {
         const double wider = range_of(i, rho[i]) / usual;
         const double slope = rest_->slope * rho[i] / (rest_->density * wider * wider);
         fastest = std::max(
-            fastest, 2.0 * pair_damping(fluid_, Dim, rho[i], e[i]) * slope / (rho[i] * rho[i]));
+            fastest, 2.0 * pair_damping(of(i), Dim, rho[i], e[i]) * slope / (rho[i] * rho[i]));
     }
     return fastest;
 }

@@ -18,44 +18,8 @@
 namespace spam {
 namespace {
 
-template <int Dim>
-double power(double h) {
-    double p = h;
-    for (int a = 1; a < Dim; ++a) p *= h;
-    return p;
-}
-
-/// Masses and distances of one particle's neighbours.
-struct Surroundings {
-    std::vector<double> mass, r;
-};
-
-/// The h at which sum_j m_j W(r_j/h) is `wanted`; it grows with h. By Newton's method, kept between
-/// bounds. Infinite where it lies beyond `most`.
-template <int Dim>
-double solve_range(const Surroundings& near, const GeneralWeight<Dim>& unit, double wanted,
-                   double start, double most) {
-    const auto sums = [&](double h) {
-        double value = -wanted, slope = 0.0;
-        for (std::size_t k = 0; k < near.r.size(); ++k) {
-            const double u = near.r[k] / h;
-            value += near.mass[k] * unit.value(u);
-            slope += near.mass[k] * u * u * unit.minus_slope_over_r(u) / h;
-        }
-        return std::pair(value, slope);
-    };
-    if (sums(most).first < 0.0) return std::numeric_limits<double>::infinity();
-    double low = 0.0, high = most, h = std::min(start, most);
-    for (int step = 0; step < 200; ++step) {
-        const auto [value, slope] = sums(h);
-        (value < 0.0 ? low : high) = h;
-        double next = slope > 0.0 ? h - value / slope : low;
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        if (std::abs(next - h) <= 1e-15 * h) return next;
-        h = next;
-    }
-    return h;
-}
+bool diffuses(const Fluid& fluid) { return fluid.diffuses(); }
+bool cold(const Fluid& fluid) { return fluid.state.cold; }
 
 /// Why particles with a cold law are not split or merged.
 std::string rezoned_cold() {
@@ -74,18 +38,18 @@ template <int Dim>
 OwnRanges<Dim>::~OwnRanges() = default;
 
 template <int Dim>
-OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
+OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, std::vector<Fluid> fluids,
                           const VariableRangeScheme& scheme)
     : Term<Dim>(among),
-      fluid_(fluid),
+      fluids_(std::move(fluids)),
       scheme_(scheme),
       unit_(scheme.kernel, 1.0),
-      sweeps_(std::make_unique<const Sweeps<Dim>>(
-          best_sweeps([&](auto level) { return own_range_sweeps<Dim, level>(fluid.diffuses()); }))),
+      sweeps_(std::make_unique<const Sweeps<Dim>>(best_sweeps(
+          [&](auto level) { return own_range_sweeps<Dim, level>(any(fluids_, diffuses)); }))),
       range_(this->particles().size()),
       pressure_(range_.size()),
       pull_(range_.size()),
-      temperature_(fluid.diffuses() ? range_.size() : 0) {
+      temperature_(any(fluids_, conducts) ? range_.size() : 0) {
     const double least = std::pow(unit_.value(0.0), 1.0 / Dim);
     if (!(scheme.range > least) || !std::isfinite(scheme.range))
         throw InputError(
@@ -94,9 +58,10 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
                         "its range asks for; 2 to 4 are usual",
                         scheme.range, least, to_string(scheme.kernel)));
     valid_range<Dim>(scheme.range, 1.0, this->particles().size());  // in spacings
-    check_fluid(fluid, Dim);
-    if (fluid.diffuses()) {
-        if (!fluid.by_pairs)
+    check_fluids(fluids_, Dim);
+    check_materials(this->particles(), fluids_.size());
+    if (any(fluids_, diffuses)) {
+        if (any(fluids_, by_gradients))
             throw InputError(
                 "friction: with ranges that follow the density friction and conduction are those of pairs; set "
                 "Fluid::by_pairs, or use one range for all");
@@ -109,14 +74,22 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, const Fluid& fluid,
         GeneralWeight<Dim>(scheme.kernel, this->particles().spacing), ListUse::again_and_again,
         this->box(), *sweeps_);
     this->look_after(*packed_);
+    std::string words;
+    for (const Fluid& fluid : fluids_) words += (words.empty() ? "" : " | ") + fluid.describe();
     this->nature_.description = fmt::format("fluid of smooth particles, {}: density integrated, {}",
-                                            fluid_.describe(), scheme_.describe());
+                                            words, scheme_.describe());
     this->nature_.fields = {Field::density, Field::energy};
     this->nature_.potential = false;
     this->nature_.sums_density = true;
-    this->nature_.conducts = fluid.conduction.has_value();
-    if (has_shear(fluid)) this->nature_.promises = Scheme{}.promises(Dim);
-    if (fluid.state.cold) this->nature_.no_rezoning = rezoned_cold();
+    this->nature_.conducts = any(fluids_, conducts);
+    if (any(fluids_, has_shear)) this->nature_.promises = Scheme{}.promises(Dim);
+    if (any(fluids_, cold)) this->nature_.no_rezoning = rezoned_cold();
+}
+
+template <int Dim>
+const Fluid& OwnRanges<Dim>::of(std::size_t i) const {
+    const auto& material = this->particles().material;
+    return fluids_[material.empty() ? 0 : static_cast<std::size_t>(material[i])];
 }
 
 template <int Dim>
@@ -201,13 +174,13 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     sweep_walls(*packed_, in, sweeps_->density);
     if (close_own_sums(now) > 0) {
         std::size_t i = 0;
-        const auto cold = [&] { return fluid_.conduction && !(temperature_[i] >= 0.0); };
-        while (std::isfinite(pressure_[i]) && !cold() && i + 1 < n) ++i;
+        const auto too_cold = [&] { return !temperature_.empty() && !(temperature_[i] >= 0.0); };
+        while (std::isfinite(pressure_[i]) && !too_cold() && i + 1 < n) ++i;
         return fmt::format(
             "density {} and energy {} of particle {} are outside the law ({}), or its "
             "range changes the wrong way",
             now.state.density().data()[i], now.state.energy().data()[i], this->particles().id[i],
-            fluid_.state.describe());
+            of(i).state.describe());
     }
     if (rest_)
         load_friction(now);
@@ -221,7 +194,6 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     });
     sweep_walls(*packed_, in, sweeps_->force);
     if (!rest_) return {};
-    set_pair_constants(fluid_, in.constants);
     out.e_dot = now.rate.energy().data();
     sweeps_->second(in, out);
     sweep_walls(*packed_, in, sweeps_->second);
@@ -235,16 +207,20 @@ std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
     const std::span<const double> rho{now.state.density().data(), n},
         e{now.state.energy().data(), n};
     parallel_blocks(n, [&](std::size_t first, std::size_t count) {
-        fluid_.state.pressures(rho.subspan(first, count), e.subspan(first, count),
-                               {pressure_.data() + first, count});
-        if (fluid_.conduction)
-            fluid_.state.temperatures(rho.subspan(first, count), e.subspan(first, count),
-                                      {temperature_.data() + first, count});
+        for_each_material(
+            this->particles().material, first, count,
+            [&](std::size_t m, std::size_t begin, std::size_t size) {
+                const auto of_rho = rho.subspan(begin, size), of_e = e.subspan(begin, size);
+                fluids_[m].state.pressures(of_rho, of_e, {pressure_.data() + begin, size});
+                if (!temperature_.empty())
+                    fluids_[m].state.temperatures(of_rho, of_e,
+                                                  {temperature_.data() + begin, size});
+            });
     });
     double* const spread = now.rate.energy().data();
     double* const approach = now.rate.density().data();
     return parallel_count(n, [&](std::size_t i) {
-        const double h = range_[i], volume = power<Dim>(h);
+        const double h = range_[i], volume = range_power<Dim>(h);
         const double Omega =
             scheme_.without_gradients ? 1.0 : 1.0 - spread[i] / (Dim * rho[i] * volume);
         const double per_range = 1.0 / (volume * h * h * Omega);
@@ -253,59 +229,9 @@ std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
         const double rho_dot = -approach[i] * per_range;
         approach[i] = rho_dot;
         spread[i] = P_rho2 * rho_dot;
-        const bool cold = fluid_.conduction && !(temperature_[i] >= 0.0);
-        return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0) || cold};
+        const bool too_cold = !temperature_.empty() && !(temperature_[i] >= 0.0);
+        return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0) || too_cold};
     });
-}
-
-template <int Dim>
-std::vector<double> OwnRanges<Dim>::solve_densities(const Points<Dim>& position) const {
-    const auto& mass = this->particles().mass;
-    using R = PointRecord<Dim>;
-    const double start = scheme_.range * this->particles().spacing, most = most_range();
-    std::vector<double> rho(mass.size());
-    bool found = false;
-    for (double reach = 1.2 * start; !found; reach *= 1.5) {
-        const double look = std::min(reach, 0.999 * most);
-        Neighbourhood<Dim> listed(look, ListUse::once, this->box(), 1, R::numbers, R::kinds);
-        listed.build(position);
-        listed.template write<R>(0, R::numbers, [&](std::size_t i, double* record) {
-            std::copy_n(position.data() + Dim * i, Dim, record);
-            record[Dim] = mass[i];
-        });
-        const auto at = [&](std::size_t slot) {
-            return Eigen::Map<const Point<Dim>>(listed.record(slot));
-        };
-        found = true;
-        for (std::size_t slot = 0; slot < rho.size() && found; ++slot) {
-            const std::size_t i = listed.list().order()[slot];
-            Surroundings near;
-            for (const std::uint32_t entry : listed.list().entries(slot)) {
-                near.mass.push_back(listed.record(entry / R::numbers)[Dim]);
-                near.r.push_back((at(entry / R::numbers) - at(slot)).norm());
-            }
-            const double h =
-                solve_range<Dim>(near, unit_, mass[i] * power<Dim>(scheme_.range), start, look);
-            found = std::isfinite(h);
-            rho[i] = mass[i] * power<Dim>(scheme_.range / h);
-        }
-        found = !Parts::here().any(!found);
-        if (!found && (look < reach || reach > 1e6 * start))
-            throw InputError(fmt::format(
-                "range: with {:g} (m/rho)^(1/D) a particle finds too few neighbours within {:g}, half of "
-                "the periodic box or the distance of two walls; enlarge the box or shorten --range",
-                scheme_.range, most));
-    }
-    return rho;
-}
-
-template <int Dim>
-std::vector<double> OwnRanges<Dim>::start(const Points<Dim>& position, const Points<Dim>& velocity,
-                                          double T) {
-    expect_start<Dim>(*this, position, velocity);
-    return fluid_start<Dim>(
-        this->model(), [&](std::size_t) -> const AnyEquationOfState& { return fluid_.state; },
-        position, velocity, solve_densities(position), T);
 }
 
 template <int Dim>
@@ -314,7 +240,7 @@ void OwnRanges<Dim>::take_over(const Term<Dim>& /*before*/, const ConstState<Dim
     bool all_same = true;
     for (std::size_t k = 0; k < change.parts.size(); ++k) all_same = all_same && change.same(k);
     if (all_same) return;
-    if (fluid_.state.cold) throw InputError("population: " + rezoned_cold());
+    if (any(fluids_, cold)) throw InputError("population: " + rezoned_cold());
     std::ranges::copy(solve_densities(now.position()), now.density().data());
 }
 

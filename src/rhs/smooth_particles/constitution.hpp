@@ -4,8 +4,8 @@
 
 #include "../sweeps/packed_particles.hpp"
 #include "../sweeps/term_sweeps.hpp"
+#include "fluids.hpp"
 #include "resting_body.hpp"
-#include <spam/material/fluid.hpp>
 #include <spam/material/material.hpp>
 #include <spam/rhs/term.hpp>
 
@@ -16,17 +16,6 @@
 #include <vector>
 
 namespace spam {
-
-/// Throws InputError for friction or conduction by which entropy would decrease, and for conduction without a
-/// temperature.
-void check_fluid(const Fluid& fluid, int dim);
-/// Whether its forces have parts across r_ij.
-bool has_shear(const Fluid& fluid);
-/// For passes over pairs (physics/pair_friction.hpp).
-void set_pair_constants(const Fluid& fluid, PassConstants& constants);
-/// What the sum over F of pairs is multiplied by in the rate at which neighbours that move against each other, and what
-/// they differ in temperature, come to rest (physics/pair_friction.hpp), by 2/rho^2; 0 without.
-double pair_damping(const Fluid& fluid, int dim, double rho, double e);
 
 /// The materials of smooth particles, and what sweeps need of them.
 template <int Dim>
@@ -147,17 +136,12 @@ class FluidConstitution final : public Constitution<Dim> {
                          std::span<const double> e) const override;
     double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest,
                    std::span<const double> rho, std::span<const double> e) const override;
-    bool conducts() const override {
-        const auto does = [](const Fluid& f) { return f.conduction && f.conduction->kappa > 0.0; };
-        return std::any_of(fluids_.begin(), fluids_.end(), does);
-    }
+    bool conducts() const override { return any(fluids_, spam::conducts); }
     bool diffuses() const override {
-        return std::any_of(fluids_.begin(), fluids_.end(),
-                           [](const Fluid& f) { return f.diffuses(); });
+        return any(fluids_, [](const Fluid& f) { return f.diffuses(); });
     }
     bool cold() const override {
-        return std::any_of(fluids_.begin(), fluids_.end(),
-                           [](const Fluid& f) { return f.state.cold; });
+        return any(fluids_, [](const Fluid& f) { return f.state.cold; });
     }
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 
@@ -182,22 +166,5 @@ class FluidConstitution final : public Constitution<Dim> {
     std::vector<double> pressure_, temperature_;
     std::vector<std::pair<SymTensor<Dim>, Vec<Dim>>> fluxes_;  ///< A and q, by slot
 };
-
-/// f(material, first, count) for the runs of equal material among the entries [first, first + count) of
-/// `material`; one run where that is empty.
-template <class F>
-void for_each_material(const std::vector<std::int32_t>& material, std::size_t first,
-                       std::size_t count, const F& f) {
-    if (material.empty()) {
-        if (count > 0) f(std::size_t{0}, first, count);
-        return;
-    }
-    for (std::size_t end = first + count; first < end;) {
-        std::size_t next = first + 1;
-        while (next < end && material[next] == material[first]) ++next;
-        f(static_cast<std::size_t>(material[first]), first, next - first);
-        first = next;
-    }
-}
 
 }  // namespace spam

@@ -5,7 +5,6 @@
 #include <spam/core/parallel.hpp>
 #include <spam/physics/fluid_record.hpp>
 #include <spam/physics/mean_density.hpp>
-#include <spam/physics/pair_friction.hpp>
 
 #include <fmt/format.h>
 
@@ -13,127 +12,17 @@
 #include <cmath>
 
 namespace spam {
-namespace {
-
-bool has_gradients(const Fluid& fluid) { return fluid.diffuses() && !fluid.by_pairs; }
-bool has_pairs(const Fluid& fluid) { return fluid.diffuses() && fluid.by_pairs; }
-
-bool any(const std::vector<Fluid>& fluids, bool (*is)(const Fluid&)) {
-    return std::any_of(fluids.begin(), fluids.end(), is);
-}
-
-/// Where friction and conduction are those of pairs.
-void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
-    if (!any(fluids, has_pairs)) return;
-    if (any(fluids, has_gradients))
-        throw InputError(
-            "friction: some of the fluids have that of pairs and others that of gradients, and no law says what "
-            "acts between the two; set by_pairs of all that have friction or conduction, or of none");
-    if (scheme.balances_torques() && any(fluids, has_shear))
-        throw InputError(
-            "friction: that of pairs is no stress, and balanced torques scale what of stresses acts across r_ij; "
-            "take lambda = eta, by which pairs act along r_ij, or friction by gradients, or --angular-momentum "
-            "free");
-}
-
-void check_shifting(const std::vector<Fluid>& fluids, const Scheme& scheme) {
-    if (scheme.transport == Transport::shifting && fluids.size() > 1)
-        throw InputError(
-            "transport: shifting would mix fluids, and several are given; use --transport plain, or "
-            "one fluid");
-}
-
-void check_work(const std::vector<Fluid>& fluids, const Scheme& scheme) {
-    if (scheme.work == Work::mean ||
-        std::any_of(fluids.begin(), fluids.end(), [](const Fluid& f) { return f.state.thermal; }))
-        return;
-    throw InputError(fmt::format(
-        "work: own is for laws with a temperature, and the pressure of ({}) does not depend on the "
-        "energy: no particle can lack heat; use --work mean",
-        fluids.front().state.describe()));
-}
-
-/// <v> changes the angular momentum, and without shear the torques that are to make up for it are rounding
-/// errors.
-void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
-    if (!scheme.balances_torques() || scheme.transport != Transport::average) return;
-    if (any(fluids, has_shear)) return;
-    throw InputError(fmt::format(
-        "angular-momentum: {} scales what of the forces acts across r_ij, of which a fluid without friction "
-        "has nothing; use --angular-momentum free, or --transport plain or monaghan, which keep it",
-        to_string(scheme.angular_momentum)));
-}
-
-void check_temperature(const Fluid& fluid) {
-    if (fluid.state.thermal) return;
-    throw InputError(fmt::format(
-        "conduction: needs a temperature, and the law ({}) has none; use an ideal gas or van der "
-        "Waals, or leave the conductivity out",
-        fluid.state.describe()));
-}
-
-}  // namespace
-
-bool has_shear(const Fluid& fluid) {
-    const auto& newton = fluid.viscosity;
-    return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
-}
-
-void check_fluid(const Fluid& fluid, int dim) {
-    const auto refuse_negative = [](const char* name, double value) {
-        if (!(value >= 0.0) || !std::isfinite(value))
-            throw InputError(fmt::format(
-                "{}: {:g} must be 0 or positive, or entropy would decrease", name, value));
-    };
-    if (fluid.viscosity) {
-        refuse_negative("shear viscosity", fluid.viscosity->eta);
-        const double bulk = fluid.viscosity->bulk_viscosity(dim);
-        // lambda = -eta in the plane is exactly no bulk viscosity, up to rounding.
-        if (std::abs(bulk) > 1e-14 * fluid.viscosity->eta) refuse_negative("bulk viscosity", bulk);
-        if (fluid.by_pairs &&
-            std::abs(fluid.viscosity->lambda) > fluid.viscosity->eta * (1.0 + 1e-14))
-            throw InputError(fmt::format(
-                "friction: that of pairs needs -eta <= lambda <= eta, and eta = {:g}, lambda = {:g}; "
-                "choose another bulk viscosity",
-                fluid.viscosity->eta, fluid.viscosity->lambda));
-    }
-    if (!fluid.conduction) return;
-    refuse_negative("conductivity", fluid.conduction->kappa);
-    check_temperature(fluid);
-}
-
-void set_pair_constants(const Fluid& fluid, PassConstants& constants) {
-    if (const auto& newton = fluid.viscosity) {
-        constants.shear = newton->eta;
-        constants.second_viscosity = newton->lambda;
-    }
-    if (fluid.conduction) constants.conductivity = fluid.conduction->kappa;
-}
-
-double pair_damping(const Fluid& fluid, int dim, double rho, double e) {
-    if (!fluid.by_pairs) return 0.0;
-    double most = 0.0;
-    if (const auto& newton = fluid.viscosity)
-        most = newton->eta - newton->lambda + (dim + 2.0) / dim * (newton->lambda + newton->eta);
-    if (fluid.conduction)
-        most = std::max(most, 2.0 * fluid.conduction->kappa / fluid.state.heat_capacity(rho, e));
-    return most;
-}
-
 template <int Dim>
 FluidConstitution<Dim>::FluidConstitution(const Particles<Dim>& particles,
                                           std::vector<Fluid> fluids)
     : Constitution<Dim>(particles),
       fluids_(std::move(fluids)),
       thermal_(!fluids_.empty()),
-      gradients_(std::any_of(fluids_.begin(), fluids_.end(), has_gradients)),
+      gradients_(any(fluids_, by_gradients)),
       pressure_(particles.size()),
       temperature_(particles.size()) {
-    if (fluids_.empty()) throw InputError("material: none is given; give one at least");
-    for (const Fluid& fluid : fluids_) {
-        thermal_ = thermal_ && fluid.state.thermal;
-        if (conducts()) check_temperature(fluid);
-    }
+    check_fluids(fluids_, Dim);
+    for (const Fluid& fluid : fluids_) thermal_ = thermal_ && fluid.state.thermal;
 }
 
 template <int Dim>
@@ -144,11 +33,7 @@ void FluidConstitution<Dim>::take(const Scheme& scheme) {
             "density: a fluid whose density is summed gains energy without limit where its "
             "particles move with an averaged velocity, because densities then change at another "
             "rate than work is done; use --density continuity, or --transport plain");
-    for (const Fluid& fluid : fluids_) check_fluid(fluid, Dim);
-    check_pairs(fluids_, scheme);
-    check_shifting(fluids_, scheme);
-    check_work(fluids_, scheme);
-    check_torques(fluids_, scheme);
+    check_scheme(fluids_, scheme);
     matter_ = matter(scheme);
     if (numbers(scheme) > 0)
         friction_ = best_sweeps([](auto level) { return friction_sweep<Dim, level>(); });
@@ -163,7 +48,7 @@ Matter FluidConstitution<Dim>::matter(const Scheme& scheme) const {
     const bool plain = scheme.transport == Transport::plain && scheme.viscosity == 0.0 &&
                        (scheme.angular_momentum == AngularMomentum::free ||
                         scheme.angular_momentum == AngularMomentum::gauss);
-    if (plain && fluids_.size() == 1 && has_pairs(first())) return Matter::rubbing;
+    if (plain && fluids_.size() == 1 && by_pairs(first())) return Matter::rubbing;
     return gradients_ || !plain || scheme.work == Work::own ? Matter::conducting : Matter::inviscid;
 }
 
@@ -171,7 +56,7 @@ template <int Dim>
 int FluidConstitution<Dim>::numbers(const Scheme& scheme) const {
     const Matter made = matter(scheme);
     const bool included = made == Matter::rubbing || made == Matter::shifted;
-    return any(fluids_, has_pairs) && !included ? FrictionRecord<Dim>::numbers : 0;
+    return any(fluids_, by_pairs) && !included ? FrictionRecord<Dim>::numbers : 0;
 }
 
 template <int Dim>
@@ -186,8 +71,8 @@ std::string FluidConstitution<Dim>::describe() const {
 /// shifting without regard to where they go.
 template <int Dim>
 bool FluidConstitution<Dim>::central(const Scheme& scheme) const {
-    return std::none_of(fluids_.begin(), fluids_.end(), has_shear) &&
-           scheme.transport != Transport::average && scheme.transport != Transport::shifting;
+    return !any(fluids_, has_shear) && scheme.transport != Transport::average &&
+           scheme.transport != Transport::shifting;
 }
 
 template <int Dim>
@@ -333,19 +218,11 @@ void FluidConstitution<Dim>::add_forces(std::span<const double> rho, const Sweep
     using R = FrictionRecord<Dim>;
     if (friction_ == nullptr) return;
     constexpr int from = R::template at<column::InverseDensity>;
-    static_assert(R::template at<column::Temperature> == from + 1 &&
-                  R::template at<column::FrictionFactor> == from + 2 &&
-                  R::template at<column::AlongFactor> == from + 3 &&
-                  R::template at<column::ConductionFactor> == from + 4);
-    packed.template write<R>(from, 5, [&](std::size_t i, double* number) {
-        PassConstants of_fluid;
-        set_pair_constants(of(i), of_fluid);
-        const auto friction = PairFriction<Dim>::with(of_fluid);
+    static_assert(R::template at<column::Temperature> == from + 1);
+    packed.template write<R>(from, 2 + pair_factors, [&](std::size_t i, double* number) {
         number[0] = 1.0 / rho[i];
         number[1] = temperature_[i];
-        number[2] = friction.a;
-        number[3] = friction.b;
-        number[4] = PairConduction::with(of_fluid).twice_kappa;
+        write_pair_factors<R, Dim, from + 2>(of(i), number + 2);
     });
     SweepOutput<Dim> forces;
     forces.v_dot = out.v_dot;

@@ -74,9 +74,8 @@ SmoothParticles<Dim>::SmoothParticles(const Selection<Dim>& among,
     if (law == AngularMomentum::gauss) {
         if (this->box().periodic())
             throw InputError(
-                "angular-momentum: gauss turns bodies about their centres, which a periodic box "
-                "does "
-                "not have; use free or torque_pair, or a box without periods");
+                "angular-momentum: gauss turns bodies about their centres, which a periodic box does not have; use "
+                "free or torque_pair, or a box without periods");
         gauss_ = std::make_unique<GaussForces<Dim>>();
     } else if (law != AngularMomentum::free) {
         torques_ = std::make_unique<TorqueFactors<Dim>>(n, scheme);
