@@ -8,6 +8,7 @@
 #include <spam/material/ideal_gas.hpp>
 #include <spam/rhs/smooth_particles.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -209,37 +210,37 @@ Gas<2> layers(int n, double second, bool heat) {
         particles.material.push_back(across(particles, i) < 0.5 * n ? 0 : 1);
     return {std::move(particles),
             {layer(1.0), layer(second)},
-            {.density = Density::continuity, .kernel = Kernel::w5, .range = 3.0},
+            {.density = Density::continuity, .range = 3.0},
             box};
 }
 
-/// How fast the slowest motion of two layers dies out: what is cos(2 q x/l) about the middle of the first of length l
-/// and (cos q/cos(q/s)) cos(2 q x/(s l)) about that of the second, s^2 the ratio of coefficients, has one flux at
-/// both borders where tan q + s tan(q/s) = 0, and decays at 4 q^2/l^2. Found as the quotient of its power and itself.
-double decay(int n, double second, double q, bool heat) {
+/// How fast the slowest change of n columns dies out: the smallest eigenvalue but that of what stays, of the rates of
+/// one column after the other.
+double decay(int n, double second, bool heat) {
     Gas<2> gas = layers(n, second, heat);
     std::vector<double> y(gas.model.layout().size(), 0.0);
     const State<2> state(gas.model.layout(), y);
     state.position() = gas.model.particles().reference_position;
     state.density().setOnes();
     state.energy().setOnes();
-    const double l = 0.5 * n, s = std::sqrt(second);
-    Eigen::RowVectorXd shape(state.position().cols());
-    for (Eigen::Index i = 0; i < shape.size(); ++i) {
-        const double x = across(gas.model.particles(), i);
-        shape[i] =
-            x < l ? std::cos(2.0 * q * (x - 0.5 * l) / l)
-                  : std::cos(q) / std::cos(q / s) * std::cos(2.0 * q * (x - 1.5 * l) / (s * l));
+    auto field = state.field(heat ? Field::energy : Field::velocity).row(heat ? 0 : 1);
+    const auto column = [&](Eigen::Index i) {
+        return static_cast<Eigen::Index>(across(gas.model.particles(), i));
+    };
+    Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+        const Eigen::RowVectorXd before = field;
+        for (Eigen::Index i = 0; i < field.size(); ++i)
+            if (column(i) == k) field[i] += 0.5;
+        const auto y_dot = rates_of(gas.model, y);
+        const ConstState<2> rate(gas.model.layout(), y_dot);
+        const Eigen::RowVectorXd found =
+            rate.field(heat ? Field::energy : Field::velocity).row(heat ? 0 : 1);
+        for (Eigen::Index i = 0; i < field.size(); ++i) rates(column(i), k) -= found[i] / (0.5 * 8);
+        field = before;
     }
-    if (heat)
-        state.energy() += 0.1 * shape;
-    else
-        state.velocity().row(1) = 0.1 * shape;
-    const auto rates = rates_of(gas.model, y);
-    const ConstState<2> rate(gas.model.layout(), rates);
-    const Eigen::RowVectorXd change =
-        heat ? rate.energy().row(0).eval() : rate.velocity().row(1).eval();
-    return -change.dot(shape) / (0.1 * shape.squaredNorm());
+    BOOST_TEST((rates - rates.transpose()).norm() < 1e-13 * rates.norm());
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rates).eigenvalues()[1];
 }
 
 }  // namespace
@@ -259,21 +260,21 @@ BOOST_AUTO_TEST_CASE(one_fluid_by_two_names_is_one) {
     BOOST_TEST(two.model.fastest_damping(y) == one.model.fastest_damping(y));
 }
 
-// tan q + 2 tan(q/2) = 0: tan^2(q/2) = 2. In one layer q = pi/2; the quotient of the two leaves out what the lattice
-// makes of a wave.
+// Two layers of length l of coefficients 1 and 4: cos(2 q x/l) about the middle of the first goes on as a multiple of
+// cos(q x/l) about that of the second with one flux at both borders where tan q + 2 tan(q/2) = 0, tan^2(q/2) = 2, and
+// decays at 4 q^2/l^2; in one layer q = pi/2. The ratio of the two leaves out what the lattice makes of a wave. Off by
+// 0.98, 0.44 and 0.20 %; with arithmetic means it would be 7.4, 3.5 and 1.7 %, with geometric ones 4.4, 2.1 and 1.0 %.
 BOOST_AUTO_TEST_CASE(heat_and_shear_in_two_layers) {
     const double one = 0.5 * std::numbers::pi, two = 2.0 * std::atan(std::sqrt(2.0));
     const double expected = (two * two) / (one * one);
     for (const bool heat : {false, true}) {
-        std::vector<double> off;
-        for (const int n : {32, 64, 128})
-            off.push_back(
-                std::abs(decay(n, 4.0, two, heat) / decay(n, 1.0, one, heat) / expected - 1.0));
-        BOOST_TEST_MESSAGE((heat ? "heat: " : "shear: ")
-                           << off[0] << " " << off[1] << " " << off[2]);
-        BOOST_TEST(off[1] < 0.6 * off[0]);
-        BOOST_TEST(off[2] < 0.6 * off[1]);
-        BOOST_TEST(off[2] < 0.02);
+        double before = 0.012;
+        for (const int n : {32, 64, 128}) {
+            const double off = decay(n, 4.0, heat) / decay(n, 1.0, heat) / expected - 1.0;
+            BOOST_TEST_MESSAGE((heat ? "heat " : "shear ") << n << ": " << off);
+            BOOST_TEST(std::abs(off) < before);
+            before = 0.55 * std::abs(off);
+        }
     }
 }
 
