@@ -35,7 +35,7 @@ constexpr std::size_t some = 20000;
 BOOST_AUTO_TEST_CASE(every_index_is_met_once) {
     for (const int threads : {1, 2, 3, 7, 16, 5, 2}) {
         BOOST_TEST(set_threads(threads) == threads);
-        for (const std::size_t n : {0, 1, 2, 3, 8, 13, 100, 4097, 20000})
+        for (const std::size_t n : {0U, 1U, 2U, 3U, 8U, 13U, 100U, 4097U, 20000U})
             for (int again = 0; again < 50; ++again)
                 BOOST_REQUIRE_MESSAGE(each_once(n), n << " on " << threads << " threads");
     }

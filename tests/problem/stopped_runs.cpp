@@ -200,9 +200,9 @@ BOOST_AUTO_TEST_CASE(what_a_run_has_cost_counts_behind_a_restart) {
     const Words go_on{"--restart", "half", "--t-end", "40", "--no-plots", "--quiet", "--out"};
     require_ran(run_in(folder, "rotating_hexagon", half));
     const auto cost = [&](const std::string& results) {
-        const auto all = json_of(folder / (results + "/statistics.json"));
-        return std::pair{all.at("pair_interactions").get<double>(),
-                         all.at("wall_seconds").get<double>()};
+        const auto found = json_of(folder / (results + "/statistics.json"));
+        return std::pair{found.at("pair_interactions").get<double>(),
+                         found.at("wall_seconds").get<double>()};
     };
     const auto first = cost("half");
     require_ran(run_in(folder, "rotating_hexagon", with(go_on, {"both"})));
