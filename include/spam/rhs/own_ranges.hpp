@@ -80,8 +80,9 @@ class OwnRanges final : public Term<Dim> {
     GeneralWeight<Dim> unit_;
     std::unique_ptr<const Sweeps<Dim>> sweeps_;
     std::unique_ptr<PackedParticles<Dim>> packed_;
-    std::unique_ptr<const RestingBody> rest_;                    ///< of friction and conduction
-    std::vector<double> range_, pressure_, pull_, temperature_;  ///< the last of those that conduct
+    std::unique_ptr<const RestingBody> rest_;  ///< of friction and conduction
+    std::vector<double> range_, pressure_, pull_,
+        temperature_;  ///< temperature_: where any conducts
 };
 
 SPAM_COMPILED(extern template class OwnRanges);
