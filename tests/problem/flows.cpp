@@ -34,7 +34,9 @@ BOOST_AUTO_TEST_CASE(friction_by_gradients_is_worse) {
     BOOST_TEST(found.value.at("profile_error") > 0.02);
 }
 
+// What follows is measured in runs of minutes under sanitizers, where smoke runs go the same ways.
 BOOST_AUTO_TEST_CASE(a_shock_tube_converges_to_the_exact_solution) {
+    if (SPAM_SANITIZED) return;
     const Results found("shock_tube", {}, "order");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("order") > 0.8);
@@ -75,7 +77,8 @@ BOOST_AUTO_TEST_CASE(the_mean_work_takes_heat_that_cold_particles_do_not_have) {
 // its particles; and other gases.
 BOOST_AUTO_TEST_CASE(a_blast_runs_like_sedovs) {
     const Results found(
-        "blast", effort(Words{"--single", "--cells", "32"}, Words{"--smoke", "--single"}), "front");
+        "blast", effort(Words{"--single", "--cells", "32"}, Words{"--smoke", "--single"}),
+        effort<const char*>("front", "energy_change"));  // smoke runs end before it is one
     BOOST_TEST(found.value.at("least_energy_ratio") > 0.9);
     if (effort(true, false)) BOOST_TEST(std::abs(found.value.at("front") / 0.8 - 1.0) < 0.05);
     if (!long_runs()) return;
@@ -85,6 +88,7 @@ BOOST_AUTO_TEST_CASE(a_blast_runs_like_sedovs) {
 }
 
 BOOST_AUTO_TEST_CASE(mirrors_act_like_periods_on_an_expanding_gas) {
+    if (SPAM_SANITIZED) return;
     const Words gas{"--cells", "32", "--t-end", "48", "--walls"};
     const auto expanded = [&](const char* walls) {
         Words arguments = gas;
@@ -104,6 +108,7 @@ BOOST_AUTO_TEST_CASE(the_step_follows_the_hotter_plate) {
 }
 
 BOOST_AUTO_TEST_CASE(a_layer_heated_from_below_rolls_as_finite_differences_do) {
+    if (SPAM_SANITIZED) return;
     const Results found("rayleigh_benard", {"--t-end", "1000"}, "nusselt_by_grid");
     BOOST_TEST(std::abs(found.value.at("nusselt_by_grid") - 1.0) < 0.1);
     BOOST_TEST(std::abs(found.value.at("nusselt_difference")) < 0.1);
