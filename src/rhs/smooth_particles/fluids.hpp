@@ -30,8 +30,8 @@ void check_scheme(const std::vector<Fluid>& fluids, const Scheme& scheme);
 bool has_shear(const Fluid& fluid);
 /// For passes over pairs (physics/pair_friction.hpp).
 void set_pair_constants(const Fluid& fluid, PassConstants& constants);
-/// The last columns of records of fluids that may differ (FrictionRecord, RubbingRangeRecord): their numbers from `from`
-/// on.
+/// The last columns of records of fluids that may differ (FrictionRecord, RubbingRangeRecord): their numbers from
+/// `from` on.
 inline constexpr int pair_factors = 3;
 template <class R, int Dim, int from>
 void write_pair_factors(const Fluid& fluid, double* number) {
