@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that rotate in space: balanced torques keep the vector L, and a block tumbles as Jacobi says. A cloud of gas
-// that flies apart, and one that fills a box. A bar that is torn. Under sanitizers, where what is measured takes minutes,
-// smoke runs go the same ways.
+// that flies apart, and one that fills a box. A bar that is torn. Under sanitizers, where what is measured takes
+// minutes, smoke runs go the same ways.
 #include "problem/found.hpp"
 #include "problem/refused.hpp"
 #include "support/effort.hpp"
