@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flows with known answers as a user runs them: plates, a shock, a gas between mirrors.
+// Flows with known answers as a user runs them: plates, a shock, a gas between mirrors. Under sanitizers, where some
+// take minutes, smoke runs go the same ways.
 #include "problem/found.hpp"
 #include "support/effort.hpp"
 
@@ -34,7 +35,6 @@ BOOST_AUTO_TEST_CASE(friction_by_gradients_is_worse) {
     BOOST_TEST(found.value.at("profile_error") > 0.02);
 }
 
-// What follows is measured in runs of minutes under sanitizers, where smoke runs go the same ways.
 BOOST_AUTO_TEST_CASE(a_shock_tube_converges_to_the_exact_solution) {
     if (SPAM_SANITIZED) return;
     const Results found("shock_tube", {}, "order");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Friction and conduction where ranges follow the density: what pairs read, and how fast they act.
-#include "../smooth_particles/constitution.hpp"
+#include "../smooth_particles/fluids.hpp"
+#include "../smooth_particles/resting_body.hpp"
 #include "../sweeps/packed_particles.hpp"
 #include <spam/physics/variable_range.hpp>
 #include <spam/rhs/own_ranges.hpp>

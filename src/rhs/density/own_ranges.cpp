@@ -18,9 +18,6 @@
 namespace spam {
 namespace {
 
-bool diffuses(const Fluid& fluid) { return fluid.diffuses(); }
-bool cold(const Fluid& fluid) { return fluid.state.cold; }
-
 /// Why particles with a cold law are not split or merged.
 std::string rezoned_cold() {
     return "the energy of this law is a function of the density, which is found anew with ranges that follow it where "
@@ -74,10 +71,8 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, std::vector<Fluid> fluids
         GeneralWeight<Dim>(scheme.kernel, this->particles().spacing), ListUse::again_and_again,
         this->box(), *sweeps_);
     this->look_after(*packed_);
-    std::string words;
-    for (const Fluid& fluid : fluids_) words += (words.empty() ? "" : " | ") + fluid.describe();
     this->nature_.description = fmt::format("fluid of smooth particles, {}: density integrated, {}",
-                                            words, scheme_.describe());
+                                            spam::describe(fluids_), scheme_.describe());
     this->nature_.fields = {Field::density, Field::energy};
     this->nature_.potential = false;
     this->nature_.sums_density = true;
@@ -88,8 +83,7 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, std::vector<Fluid> fluids
 
 template <int Dim>
 const Fluid& OwnRanges<Dim>::of(std::size_t i) const {
-    const auto& material = this->particles().material;
-    return fluids_[material.empty() ? 0 : static_cast<std::size_t>(material[i])];
+    return fluid_of(fluids_, this->particles().material, i);
 }
 
 template <int Dim>

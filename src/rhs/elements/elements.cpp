@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../smooth_particles/constitution.hpp"
+#include "../smooth_particles/fluids.hpp"
 #include <spam/core/error.hpp>
 #include <spam/core/exact_sum.hpp>
 #include <spam/core/parallel.hpp>

@@ -137,12 +137,8 @@ class FluidConstitution final : public Constitution<Dim> {
     double damping(const GeneralWeight<Dim>& weight, const RestingBody& rest,
                    std::span<const double> rho, std::span<const double> e) const override;
     bool conducts() const override { return any(fluids_, spam::conducts); }
-    bool diffuses() const override {
-        return any(fluids_, [](const Fluid& f) { return f.diffuses(); });
-    }
-    bool cold() const override {
-        return any(fluids_, [](const Fluid& f) { return f.state.cold; });
-    }
+    bool diffuses() const override { return any(fluids_, spam::diffuses); }
+    bool cold() const override { return any(fluids_, spam::cold); }
     double stress_forces(const ConstState<Dim>& state, std::span<const double> rho) const override;
 
     const Fluid& of(std::size_t i) const;

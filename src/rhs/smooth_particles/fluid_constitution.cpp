@@ -61,10 +61,7 @@ int FluidConstitution<Dim>::numbers(const Scheme& scheme) const {
 
 template <int Dim>
 std::string FluidConstitution<Dim>::describe() const {
-    std::string words = "fluid of smooth particles, ";
-    for (const Fluid& fluid : fluids_)
-        words += (&fluid == fluids_.data() ? "" : " | ") + fluid.describe();
-    return words;
+    return "fluid of smooth particles, " + spam::describe(fluids_);
 }
 
 /// Pressures act along r_ij, viscous stresses do not; <v> moves particles without regard to where they are,
@@ -77,8 +74,7 @@ bool FluidConstitution<Dim>::central(const Scheme& scheme) const {
 
 template <int Dim>
 const Fluid& FluidConstitution<Dim>::of(std::size_t i) const {
-    const auto& material = this->particles_.material;
-    return fluids_[material.empty() ? 0 : static_cast<std::size_t>(material[i])];
+    return fluid_of(fluids_, this->particles_.material, i);
 }
 
 /// Pressure and temperature - A of an inviscid fluid, or gradients, then stress and heat flux.

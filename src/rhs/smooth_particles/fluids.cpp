@@ -113,12 +113,10 @@ void check_scheme(const std::vector<Fluid>& fluids, const Scheme& scheme) {
     check_torques(fluids, scheme);
 }
 
-void set_pair_constants(const Fluid& fluid, PassConstants& constants) {
-    if (const auto& newton = fluid.viscosity) {
-        constants.shear = newton->eta;
-        constants.second_viscosity = newton->lambda;
-    }
-    if (fluid.conduction) constants.conductivity = fluid.conduction->kappa;
+std::string describe(const std::vector<Fluid>& fluids) {
+    std::string words;
+    for (const Fluid& fluid : fluids) words += (words.empty() ? "" : " | ") + fluid.describe();
+    return words;
 }
 
 double pair_damping(const Fluid& fluid, int dim, double rho, double e) {

@@ -8,6 +8,7 @@
 #include <spam/physics/scheme.hpp>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace spam {
@@ -16,7 +17,18 @@ namespace spam {
 bool by_gradients(const Fluid& fluid);
 bool by_pairs(const Fluid& fluid);
 bool conducts(const Fluid& fluid);
+inline bool diffuses(const Fluid& fluid) { return fluid.diffuses(); }
+/// Whether its energy is a function of its density.
+inline bool cold(const Fluid& fluid) { return fluid.state.cold; }
 bool any(const std::vector<Fluid>& fluids, bool (*is)(const Fluid&));
+
+/// "a | b"
+std::string describe(const std::vector<Fluid>& fluids);
+/// That of particle i, by Particles::material.
+inline const Fluid& fluid_of(const std::vector<Fluid>& fluids,
+                             const std::vector<std::int32_t>& material, std::size_t i) {
+    return fluids[material.empty() ? 0 : static_cast<std::size_t>(material[i])];
+}
 
 /// Throws InputError for friction or conduction by which entropy would decrease, and for conduction without a
 /// temperature.
@@ -28,8 +40,14 @@ void check_fluids(const std::vector<Fluid>& fluids, int dim);
 void check_scheme(const std::vector<Fluid>& fluids, const Scheme& scheme);
 /// Whether its forces have parts across r_ij.
 bool has_shear(const Fluid& fluid);
-/// For passes over pairs (physics/pair_friction.hpp).
-void set_pair_constants(const Fluid& fluid, PassConstants& constants);
+/// For passes over pairs (physics/pair_friction.hpp). Inline: of a particle's constants no others are written.
+inline void set_pair_constants(const Fluid& fluid, PassConstants& constants) {
+    if (const auto& newton = fluid.viscosity) {
+        constants.shear = newton->eta;
+        constants.second_viscosity = newton->lambda;
+    }
+    if (fluid.conduction) constants.conductivity = fluid.conduction->kappa;
+}
 /// The last columns of records of fluids that may differ (FrictionRecord, RubbingRangeRecord): their numbers from
 /// `from` on.
 inline constexpr int pair_factors = 3;
