@@ -91,8 +91,10 @@ Rates<Dim> by_hand(const Gas<Dim>& gas, const std::vector<double>& y, bool alone
         for (Eigen::Index j = 0; j < n; ++j) {
             if (i == j) continue;
             const NewtonViscosity own = *gas.of(i).viscosity, other = *gas.of(j).viscosity;
-            const double a = harmonic_mean(own.eta - own.lambda, other.eta - other.lambda),
-                         b = harmonic_mean(own.eta + own.lambda, other.eta + other.lambda),
+            const double M = harmonic_mean(own.eta, other.eta),
+                         L = harmonic_mean(2.0 * own.eta + own.lambda,
+                                           2.0 * other.eta + other.lambda),
+                         a = 3.0 * M - L, b = L - M,
                          c = harmonic_mean(gas.of(i).conduction->kappa,
                                            gas.of(j).conduction->kappa);
             const Point<Dim> r = state.position().col(j) - state.position().col(i),

@@ -27,15 +27,15 @@ struct InverseDensity {
     T inverse_rho{};
 };
 
-/// Of friction and conduction by pairs (pair_friction.hpp): eta - lambda, ...
+/// Of friction and conduction by pairs (pair_friction.hpp): eta, ...
 template <int Dim, class T>
-struct FrictionFactor {
-    T friction{};
+struct ShearViscosity {
+    T shear{};
 };
-/// ... (D + 2)(lambda + eta) ...
+/// ... 2 eta + lambda ...
 template <int Dim, class T>
-struct AlongFactor {
-    T friction_along{};
+struct LongitudinalViscosity {
+    T longitudinal{};
 };
 /// ... and 2 kappa.
 template <int Dim, class T>
@@ -66,9 +66,8 @@ using ShiftedRecord = typename RubbingRecord<Dim, T>::template And<column::Densi
 
 /// Of friction and conduction by pairs in a sweep of their own, where fluids may differ.
 template <int Dim, class T = double>
-using FrictionRecord =
-    typename MotionRecord<Dim, T>::template And<column::InverseDensity, column::Temperature,
-                                                column::FrictionFactor, column::AlongFactor,
-                                                column::ConductionFactor>;
+using FrictionRecord = typename MotionRecord<Dim, T>::template And<
+    column::InverseDensity, column::Temperature, column::ShearViscosity,
+    column::LongitudinalViscosity, column::ConductionFactor>;
 
 }  // namespace spam

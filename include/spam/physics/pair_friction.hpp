@@ -17,9 +17,12 @@
 /// times b = (D + 2)(lambda + eta); heat diffuses as the first times 2 kappa. Coefficients of pairs must not
 /// be negative, or some motion would grow: -eta <= lambda <= eta. With lambda = eta forces are central.
 ///
-/// Between particles of different fluids a, b and kappa are harmonic means, 2 a_i a_j/(a_i + a_j): those by which the
-/// flux through two layers in turn, of a jump (v_j - v_i) across both, is one flux (Cleary and Monaghan 1999).
-/// What has no friction rubs against nothing. Pairs have one factor, so that m, p and E are kept as among equals.
+/// Between particles of different fluids eta, 2 eta + lambda and kappa are harmonic means, 2 c_i c_j/(c_i + c_j): those
+/// by which the flux in shear, along the motion and of heat through two layers in turn, of a jump (v_j - v_i) across both, is
+/// one flux (Cleary and Monaghan 1999; tests/rhs/friction_of_fluids.cpp: means of a and b themselves would let fluids of
+/// one eta slip where their lambda differ). With the means M of eta and L of 2 eta + lambda a = 3 M - L and b = (D + 2)
+/// (L - M), neither negative, as M <= L <= 3 M. A fluid without friction has none with others either. Pairs have one
+/// factor, so that m, p and E are kept as among equals.
 namespace spam {
 
 /// The factor of a pair between two materials; 0 where either has none.
@@ -48,11 +51,14 @@ struct PairFriction {
     }
     template <class T, class Record>
     SPAM_INLINE std::pair<T, T> factors(const Record& i, const Record& j) const {
-        if constexpr (requires { i.friction; })
-            return {pair_factor(i.friction, j.friction),
-                    pair_factor(i.friction_along, j.friction_along)};
-        else
+        if constexpr (requires { i.shear; }) {
+            const T shear = pair_factor(i.shear, j.shear),
+                    longitudinal = pair_factor(i.longitudinal, j.longitudinal);
+            return {positive_part(T(3.0) * shear - longitudinal),
+                    T(Dim + 2.0) * positive_part(longitudinal - shear)};
+        } else {
             return {T(a), T(b)};
+        }
     }
     template <class To, class T>
     static void store(const To& to, const Sums<T>& sums) {

@@ -43,10 +43,9 @@ using RangeRecord = typename MotionRecord<Dim, T>::template And<column::InverseR
 
 /// Of fluids with friction and conduction, which are those of pairs.
 template <int Dim, class T = double>
-using RubbingRangeRecord =
-    typename RangeRecord<Dim, T>::template And<column::HalfSlope, column::InverseDensity,
-                                               column::Temperature, column::FrictionFactor,
-                                               column::AlongFactor, column::ConductionFactor>;
+using RubbingRangeRecord = typename RangeRecord<Dim, T>::template And<
+    column::HalfSlope, column::InverseDensity, column::Temperature, column::ShearViscosity,
+    column::LongitudinalViscosity, column::ConductionFactor>;
 
 /// h^D by products, which units leave as they are to the last bit.
 template <int Dim>

@@ -39,7 +39,7 @@ struct TorqueSearch {
 /// Smooth particles with stress and energy, [HHM04] II, [HH07] 4: y = (x, v, [rho], [sigma], e). The scheme
 /// decides whether density is part of y, what velocity moves the particles, and what keeps the angular
 /// momentum. Solids and fluids differ in where the stress comes from alone: a solid's is part of y, a
-/// fluid's is made from density, energy and, with friction or conduction, gradients.
+/// fluid's is made from density, energy and, with friction or conduction, gradients, or those are added by pairs.
 template <int Dim>
 class SmoothParticles final : public Term<Dim> {
   public:
@@ -50,7 +50,8 @@ class SmoothParticles final : public Term<Dim> {
     /// here (Scheme::validate), the range does not reach a neighbour, pairs are to be reflected at the
     /// spacing or beyond, a periodic box is narrower than a fifth of the range, a particle's material is not
     /// there, a solid's law tells no sound speed and the scheme has viscosity, a fluid has conduction
-    /// without temperature or negative coefficients (eta, bulk viscosity, kappa), or its density is summed
+    /// without temperature or negative coefficients (eta, bulk viscosity, kappa), some fluids have friction by
+    /// pairs and others by gradients, or that of pairs has shear and torques are balanced, or its density is summed
     /// while its particles move with an averaged velocity; where particles are shifted, of a solid, of several
     /// fluids, of one without a sound speed at rest, and in a box that is open somewhere or not full.
     SmoothParticles(const Selection<Dim>& among, std::vector<Material<Dim>> solids,

@@ -168,8 +168,7 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     sweep_walls(*packed_, in, sweeps_->density);
     if (close_own_sums(now) > 0) {
         std::size_t i = 0;
-        const auto too_cold = [&] { return !temperature_.empty() && !(temperature_[i] >= 0.0); };
-        while (std::isfinite(pressure_[i]) && !too_cold() && i + 1 < n) ++i;
+        while (!std::isnan(pull_[i]) && i + 1 < n) ++i;
         return fmt::format(
             "density {} and energy {} of particle {} are outside the law ({}), or its "
             "range changes the wrong way",
@@ -194,7 +193,8 @@ std::string OwnRanges<Dim>::rates(const Now& now) {
     return {};
 }
 
-/// Rates of density and energy in place of the sums they are made of. Returns how many have no meaning.
+/// Rates of density and energy in place of the sums they are made of. Returns how many have no meaning: their pull_ is
+/// NaN.
 template <int Dim>
 std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
     const std::size_t n = range_.size();
@@ -219,12 +219,13 @@ std::size_t OwnRanges<Dim>::close_own_sums(const Now& now) {
             scheme_.without_gradients ? 1.0 : 1.0 - spread[i] / (Dim * rho[i] * volume);
         const double per_range = 1.0 / (volume * h * h * Omega);
         const double P_rho2 = pressure_[i] / (rho[i] * rho[i]);
-        pull_[i] = P_rho2 * per_range;
         const double rho_dot = -approach[i] * per_range;
         approach[i] = rho_dot;
         spread[i] = P_rho2 * rho_dot;
         const bool too_cold = !temperature_.empty() && !(temperature_[i] >= 0.0);
-        return std::size_t{!std::isfinite(pressure_[i]) || !(Omega > 0.0) || too_cold};
+        const bool outside = !std::isfinite(pressure_[i]) || !(Omega > 0.0) || too_cold;
+        pull_[i] = outside ? std::numeric_limits<double>::quiet_NaN() : P_rho2 * per_range;
+        return std::size_t{outside};
     });
 }
 

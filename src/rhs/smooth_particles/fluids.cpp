@@ -11,6 +11,9 @@
 namespace spam {
 namespace {
 
+/// Of lambda by eta, where it is made of a bulk viscosity.
+constexpr double rounding = 1e-14;
+
 /// Where friction and conduction are those of pairs.
 void check_pairs(const std::vector<Fluid>& fluids, const Scheme& scheme) {
     if (any(fluids, by_pairs) && scheme.balances_torques() && any(fluids, has_shear))
@@ -42,8 +45,8 @@ void check_torques(const std::vector<Fluid>& fluids, const Scheme& scheme) {
     if (!scheme.balances_torques() || scheme.transport != Transport::average) return;
     if (any(fluids, has_shear)) return;
     throw InputError(fmt::format(
-        "angular-momentum: {} scales what of the forces acts across r_ij, of which a fluid without friction "
-        "has nothing; use --angular-momentum free, or --transport plain or monaghan, which keep it",
+        "angular-momentum: {} scales what of the forces acts across r_ij, of which a fluid without friction, or "
+        "with that of pairs along r_ij, has nothing; use --angular-momentum free, or --transport plain or monaghan, which keep it",
         to_string(scheme.angular_momentum)));
 }
 
@@ -68,7 +71,8 @@ bool conducts(const Fluid& fluid) { return fluid.conduction && fluid.conduction-
 
 bool has_shear(const Fluid& fluid) {
     const auto& newton = fluid.viscosity;
-    return newton && !(fluid.by_pairs && newton->lambda == newton->eta);
+    return newton &&
+           !(fluid.by_pairs && std::abs(newton->eta - newton->lambda) <= rounding * newton->eta);
 }
 
 void check_fluid(const Fluid& fluid, int dim) {
@@ -81,9 +85,10 @@ void check_fluid(const Fluid& fluid, int dim) {
         refuse_negative("shear viscosity", fluid.viscosity->eta);
         const double bulk = fluid.viscosity->bulk_viscosity(dim);
         // lambda = -eta in the plane is exactly no bulk viscosity, up to rounding.
-        if (std::abs(bulk) > 1e-14 * fluid.viscosity->eta) refuse_negative("bulk viscosity", bulk);
+        if (std::abs(bulk) > rounding * fluid.viscosity->eta)
+            refuse_negative("bulk viscosity", bulk);
         if (fluid.by_pairs &&
-            std::abs(fluid.viscosity->lambda) > fluid.viscosity->eta * (1.0 + 1e-14))
+            std::abs(fluid.viscosity->lambda) > fluid.viscosity->eta * (1.0 + rounding))
             throw InputError(fmt::format(
                 "friction: that of pairs needs -eta <= lambda <= eta, and eta = {:g}, lambda = {:g}; "
                 "choose another bulk viscosity",

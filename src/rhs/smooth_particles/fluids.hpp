@@ -53,14 +53,13 @@ inline void set_pair_constants(const Fluid& fluid, PassConstants& constants) {
 inline constexpr int pair_factors = 3;
 template <class R, int Dim, int from>
 void write_pair_factors(const Fluid& fluid, double* number) {
-    static_assert(R::template at<column::FrictionFactor> == from &&
-                  R::template at<column::AlongFactor> == from + 1 &&
+    static_assert(R::template at<column::ShearViscosity> == from &&
+                  R::template at<column::LongitudinalViscosity> == from + 1 &&
                   R::template at<column::ConductionFactor> == from + 2);
     PassConstants constants;
     set_pair_constants(fluid, constants);
-    const auto friction = PairFriction<Dim>::with(constants);
-    number[0] = friction.a;
-    number[1] = friction.b;
+    number[0] = constants.shear;
+    number[1] = 2.0 * constants.shear + constants.second_viscosity;
     number[2] = PairConduction::with(constants).twice_kappa;
 }
 /// What the sum over F of pairs is multiplied by in the rate at which neighbours that move against each other, and what

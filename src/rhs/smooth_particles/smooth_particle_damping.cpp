@@ -66,26 +66,28 @@ double FluidConstitution<Dim>::fastest_sound(const RestingBody&, std::span<const
 
 /// By the shortest waves felt: momentum diffuses at (2 eta + lambda) k^2/rho or eta k^2/rho, heat at
 /// kappa k^2/(rho c_v). By pairs neighbours that move against each other are stopped: at twice the sum of F
-/// over them.
+/// over them, of volumes as in the body at rest. Each with its own density: of several fluids the thin one is the
+/// fastest.
 template <int Dim>
 double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, const RestingBody& rest,
                                        std::span<const double> rho,
                                        std::span<const double> e) const {
     const double k = steepest_wave<Dim>(weight);
     double diffusion = 0.0, of_pairs = 0.0;
-    for (const Fluid& fluid : fluids_)
-        if (const auto& newton = fluid.viscosity; newton && !fluid.by_pairs)
-            diffusion = std::max({diffusion, newton->eta, 2.0 * newton->eta + newton->lambda});
     for (std::size_t i = 0; i < rho.size(); ++i) {
         const Fluid& fluid = of(i);
-        if (fluid.by_pairs)
-            of_pairs = std::max(of_pairs, pair_damping(fluid, Dim, rho[i], e[i]));
-        else if (fluid.conduction)
-            diffusion = std::max(diffusion,
-                                 fluid.conduction->kappa / fluid.state.heat_capacity(rho[i], e[i]));
+        if (fluid.by_pairs) {
+            of_pairs = std::max(of_pairs, pair_damping(fluid, Dim, rho[i], e[i]) / rho[i]);
+            continue;
+        }
+        if (const auto& newton = fluid.viscosity)
+            diffusion = std::max(
+                diffusion, std::max(newton->eta, 2.0 * newton->eta + newton->lambda) / rho[i]);
+        if (fluid.conduction)
+            diffusion = std::max(diffusion, fluid.conduction->kappa /
+                                                (rho[i] * fluid.state.heat_capacity(rho[i], e[i])));
     }
-    return diffusion * k * k / rest.density +
-           2.0 * of_pairs * rest.slope / (rest.density * rest.density);
+    return diffusion * k * k + 2.0 * of_pairs * rest.slope / rest.density;
 }
 
 #define SPAM_INSTANTIATE(D)                                                                    \
