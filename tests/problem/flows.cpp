@@ -20,6 +20,7 @@ BOOST_AUTO_TEST_CASE(couette_flow_is_linear) {
         BOOST_TEST(std::abs(found.value.at(plate) - 1.0) < 0.01);
 }
 BOOST_AUTO_TEST_CASE(poiseuille_flow_is_a_parabola) {
+    if (!long_runs()) return;  // smoke runs have it, and plates that move the same law
     const Results found("poiseuille", {}, "profile_error");
     BOOST_TEST(found.claims == 1U);
     BOOST_TEST(found.value.at("mean_velocity") > 0.66);

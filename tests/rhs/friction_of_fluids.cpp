@@ -85,9 +85,9 @@ double decay(int n, const Layers& of) {
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rates).eigenvalues()[1];
 }
 
-/// Two layers of length l of coefficients 1 and c^2: cos(c q x/l) about the middle of the first goes on as a multiple of
-/// cos(q x/l) about that of the second with one flux at both borders where tan(c q/2) + c tan(q/2) = 0, and decays at
-/// (c q/l)^2. By that of one layer of 1, (pi/l)^2.
+/// Two layers of length l of coefficients 1 and c^2: cos(c q x/l) about the middle of the first goes on as a
+/// multiple of cos(q x/l) about that of the second with one flux at both borders where tan(c q/2) + c tan(q/2) = 0,
+/// and decays at (c q/l)^2. By that of one layer of 1, (pi/l)^2.
 double slowest_of_two(double c) {
     const auto off = [&](double q) {
         return std::sin(0.5 * c * q) * std::cos(0.5 * q) +
