@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // spam-list: a cavity whose lid moves, until the flow is steady: Ghia's profile; 20 s
 //
-// The flow in a square under a lid that moves, from rest until it is steady. Nobody knows it in closed form;
-// all compare with the multigrid computation of Ghia, Ghia and Shin (1982). Their table is up to 0.005 off
+// The flow in a square under a lid that moves, from rest until it is steady. It is not known in closed form;
+// the usual reference is the multigrid computation of Ghia, Ghia and Shin (1982). Their table is up to 0.005 off
 // what finer grids converge to (Marchi, Suero and Araki 2009), by which orders are measured.
 //
 //      ============= -> U       All four sides are no-slip walls: images of the particles behind them move with

@@ -106,7 +106,7 @@ std::vector<Column<2>> columns(const Contact<2>& contact) {
         closest_pair_column<2>()};
 }
 
-/// Time of the first row from which on nobody touches; negative while they do.
+/// Time of the first row from which on no bodies touch; negative while they do.
 double parted_at(const History& h) {
     const auto t = h.column("t"), energy = h.column("contact_energy");
     std::size_t k = energy.size();

@@ -14,8 +14,8 @@
 //
 // The walls are external (external/rigid_wall.hpp): what they give is in the accounts, and p - impulse,
 // L - angular impulse and E - work are kept through plastic flow and contact. E contains what has been spent
-// on plastic flow. When the walls are gone nobody touches anybody: folds that were pressed together do not
-// stick.
+// on plastic flow. When the walls are gone no particles touch each other: folds that were pressed together do
+// not stick.
 #include "common.hpp"
 #include <spam/external/rigid_wall.hpp>
 #include <spam/material/hencky_solid.hpp>
@@ -37,7 +37,7 @@ struct Parameters {
     double range = 3.0, penalty = 1.0;  // 0.1 lets neighbours meet in sharp folds
     ContactScheme contact{.energy = 0.3, .range = 1.0, .folds_beyond = 2.5};
 
-    /// Half of the distance of the walls at the start: they touch nobody.
+    /// Half of the distance of the walls at the start: they touch no particle.
     double start() const { return 0.5 * columns + 0.5; }
     double turning_time() const { return (start() - 0.5 * width) / speed; }
     double half_width(double t) const { return 0.5 * width + speed * std::abs(turning_time() - t); }

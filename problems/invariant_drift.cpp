@@ -2,7 +2,8 @@
 // spam-list: drift of energy and angular momentum in long runs with many integrators; 1 min on 2 cores
 //
 // Every method integrates for a long time, all with the same number of right-hand sides per time
-// (study/drift_study.hpp). Whose energy keeps drifting, whose stays near what it was?
+// (study/drift_study.hpp). With which methods does the energy keep drifting, with which
+// does it stay near what it was?
 //
 //     total_lagrangian   the hexagon of [HHM04] VI as a total-Lagrangian solid, `turns` turns
 //     material_vectors   the same with material vectors, whose neighbours may change

@@ -60,7 +60,7 @@ enum class ContactKind { none, repulsive };
 inline std::string_view to_string(ContactKind kind) {
     return kind == ContactKind::none ? "none" : "repulsive";
 }
-/// --contact-energy and --contact-range; `who` touch each other.
+/// --contact-energy and --contact-range; the last argument names what touches each other.
 inline void add_contact_options(Options& options, ContactScheme& contact, std::string_view who) {
     options.number("contact-energy", contact.energy, "energy e_c of the contact",
                    between(1e-3, 1e3));

@@ -17,7 +17,7 @@
 //
 // keeps them apart. clumped_fraction: the part of the particles with another one nearer than 0.4.
 //
-// With the s = 0.7 of the standard case nobody is clumped, but particles still line up in chains around
+// With the s = 0.7 of the standard case no particle is clumped, but particles still line up in chains around
 // holes: all along them the density is rho0, and cores shorter than the spacing have nothing against it.
 // Wider ones, --core 0.1 --core-range 1.2, leave an even fluid with one hole (320 particles of density 1
 // do not fill the box).

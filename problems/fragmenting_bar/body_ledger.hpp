@@ -21,7 +21,7 @@ struct BodyTotals {
 /// Of every body of a plane model, by its number. Sums are exact (ExactSum).
 std::vector<BodyTotals> totals_of_bodies(const Model<2>& model, std::span<const double> y);
 
-/// Accounts for bodies that part and join, [HHM04] IX: who they were, who they are, and what each kept
+/// Accounts for bodies that part and join, [HHM04] IX: which they were, which they are, and what each kept
 /// in between. Bodies are connected parts within the model's reach and a margin for how far they move
 /// until bodies are searched for again: so they never act on each other.
 class BodyLedger {

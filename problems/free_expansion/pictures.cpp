@@ -187,7 +187,7 @@ bool draw_frame(const RunFolder& folder, const Gas<Dim>& gas, int number, double
     if (!draw_contours(frames, name, fmt::format("t = {:.1f}", t),
                        {dots<Dim>(gas, state.position()), density, kinetic}, 3, room_of(gas)))
         return false;
-    for (const char* part : {".dat", ".gp"}) {  // a hundred scripts help nobody
+    for (const char* part : {".dat", ".gp"}) {  // a hundred scripts are of no use
         std::error_code ignored;
         std::filesystem::remove(frames / (name + part), ignored);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Yielding as it is done where nobody returns stresses within right-hand sides: elastic steps, and after each
+// Yielding as it is done where stresses are not returned within right-hand sides: elastic steps, and after each
 // the return. Of first order, with an error ten times that of laws that return in every stage, and plastic work
 // taken at stresses beyond the surface. Here to be compared with them.
 #pragma once

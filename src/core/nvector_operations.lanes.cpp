@@ -58,7 +58,7 @@ using Register = Lanes<width>;
 
 Register load(const double* p) { return load_lanes<width>(p); }
 
-/// Sum of term(x_k, y_k). Its bits do not depend on who shares the work.
+/// Sum of term(x_k, y_k). Its bits do not depend on which threads share the work.
 template <class Term>
 double sum(N_Vector x, N_Vector y, const Term& term) {
     const double *const p = of(x).p, *const q = of(y).p;

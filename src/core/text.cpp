@@ -49,7 +49,7 @@ std::optional<double> number_in(std::string_view word) {
 std::optional<int> whole_number_in(std::string_view word) { return read_whole_word<int>(word); }
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
-    if (word.size() > 100) return {};  // nobody's slip
+    if (word.size() > 100) return {};  // no user's slip
     // A candidate that contains the word is what was meant, however much longer it is.
     for (const auto& candidate : candidates)
         if (word.size() >= 3 && candidate.find(word) != std::string::npos) return candidate;

@@ -196,7 +196,7 @@ Arkode::Attempt Arkode::attempt(double t_stop) {
     return step;
 }
 
-/// The same for whoever cannot go on without: returns the time it reached, or throws GuardStop with y
+/// The same for callers that cannot go on without: returns the time it reached, or throws GuardStop with y
 /// as it was. The reason names the rate that was the first not to be finite, where one was.
 double Arkode::evolve(double t_stop) {
     const SundialsMessages::Scope scope(context_, messages_);

@@ -18,7 +18,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_in_step = 10'000, most_at_once = 100;
 constexpr double long_window = 64.0;  // steps
 constexpr std::size_t most_in_long_window = 3200;
-constexpr double smallest_piece = 1e-3;  // of a step: more would take longer than anybody waits
+constexpr double smallest_piece = 1e-3;  // of a step: more would take too long
 constexpr double aim = 0.5;              // of distances in units of the tolerance
 
 /// A length and how far the distance there was from the aim.

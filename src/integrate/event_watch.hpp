@@ -28,7 +28,7 @@ class EventWatch {
 
     /// Applies what is due at (t, y). Returns how many events that were.
     /// Throws GuardStop where events no longer let time go on: more than 10,000 times within a step,
-    /// or 100 times in a row at the same t, or step after step more often than anybody can wait for:
+    /// or 100 times in a row at the same t, or step after step more often than can be waited for:
     /// 3,200 times (for a large y twice its entries) within 64 steps.
     std::size_t apply(double t, std::span<double> y);
 

@@ -78,7 +78,7 @@ InterruptWatch::InterruptWatch(const std::string& program) {
     }
     if (started_with_others())
         for (const int signal : handed_on) std::signal(signal, on_signal);
-    std::signal(SIGPIPE, SIG_IGN);  // whoever reads the output may leave; the run goes on
+    std::signal(SIGPIPE, SIG_IGN);  // the reader of the output may leave; the run goes on
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is a failed write, reported as such
 }
 

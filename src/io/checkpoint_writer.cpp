@@ -79,7 +79,7 @@ struct CheckpointWriter::Image {
         if (!file_) throw std::logic_error("checkpoint: nothing can be added after it was saved");
         return *file_;
     }
-    /// What HDF5 would have left on a disk. Closed, as it would otherwise bear a mark that somebody is
+    /// What HDF5 would have left on a disk. Closed, as it would otherwise bear a mark that a process is
     /// writing.
     std::span<const std::byte> contents() {
         const Silence silence;

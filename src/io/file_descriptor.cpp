@@ -73,7 +73,7 @@ bool FileDescriptor::close() {
     if (!is_open()) return true;
     const int fd = fd_;
     fd_ = -1;
-    // Linux has closed it even when interrupted: a second call could close someone else's file.
+    // Linux has closed it even when interrupted: a second call could close another thread's file.
     return ::close(fd) == 0 || errno == EINTR;
 }
 

@@ -13,7 +13,7 @@
 
 namespace spam {
 
-/// Goes down from all cells of clusters to single ones, half by half, and takes along who is near.
+/// Goes down from all cells of clusters to single ones, half by half, and takes along the slots that are near.
 template <int Dim>
 class ClusterList<Dim>::CellSearch {
     using Cells = ClusterCells<Dim>;

@@ -165,7 +165,7 @@ void ClusterList<Dim>::sort() {
 /// Returns the number of pairs found around the clusters that are counted.
 template <int Dim>
 std::size_t ClusterList<Dim>::search() {
-    // Bounds of members far from each other hold many who are near none of them.
+    // Bounds of members far from each other hold many particles that are near none of them.
     cells_.build({boxes_, ghosts_, place(), order_, slot_of_, x_, static_cast<std::size_t>(width_),
                   strips_.volume(), reach(), 2.0 * boxes_.typical_volume(reach())});
     unsigned bits = 0;  // some parts for each thread

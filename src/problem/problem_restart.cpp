@@ -20,7 +20,7 @@ std::string Problem::recall_case(const std::string& name) {
     fs::path folder = (is_folder ? fs::path(name) / "run.log" : fs::path(name)).parent_path();
     if (folder.empty()) folder = ".";
     // Held before anything in it is read: else another run could put its results in place of these between
-    // reading and going on. Whoever only reads a checkpoint lets go of it soon.
+    // reading and going on. A process that only reads a checkpoint lets go of it soon.
     constexpr std::chrono::seconds patience{1};
     if (!muted() && fs::exists(folder / "run.log", error))
         restarted_ = RunFolder::reopen(folder, patience);

@@ -70,7 +70,7 @@ void Session::choose_threads(std::size_t particles) {
     try {
         start_threads(wanted);
         threads_ = wanted;
-    } catch (const InputError&) {  // nobody asked for them
+    } catch (const InputError&) {  // none were asked for
     }
 }
 

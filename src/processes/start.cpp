@@ -99,7 +99,7 @@ int start_processes(std::size_t count, char** argv) {
     setenv(status_variable, name.c_str(), 1);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         if (std::signal(signal, pass_on) == SIG_IGN) std::signal(signal, SIG_IGN);
-    // A signal waits until it is known whom to pass it on to.
+    // A signal waits until it is known which process to pass it on to.
     sigset_t signals, before;
     sigemptyset(&signals);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);

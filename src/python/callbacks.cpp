@@ -14,7 +14,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// An array of its own: who keeps it holds no memory of ours.
+/// An array of its own: a function that keeps it holds no memory of ours.
 Doubles copy_of(const double* data, const std::vector<py::ssize_t>& shape) {
     Doubles array(shape);
     std::copy_n(data, array.size(), array.mutable_data());

@@ -20,7 +20,7 @@ struct VonMisesSolid {
     double yield, hardening;
 };
 
-/// A law of somebody's own: a function of Python, or an address.
+/// A law of the user's own: a function of Python, or an address.
 struct OwnLaw {
     Function f;
     std::uintptr_t address = 0;

@@ -38,7 +38,7 @@ class HeldModel {
     std::vector<double> start(const py::object& velocity, double temperature);
     /// Its particles were made of others in a run: there is no start, and scales are those of the model before.
     void made_in_a_run() { made_in_a_run_ = scaled_ = true; }
-    /// y that somebody gives. Scales for tolerances are those of start(), where it has been called.
+    /// y that the user gives. Scales for tolerances are those of start(), where it has been called.
     std::vector<double> checked(const py::object& y0);
 
     /// While one is alive no other thread computes with the model: a right-hand side has one memory.

@@ -41,7 +41,7 @@ void material_vectors_over_elastic(benchmark::State& state) {
 }
 
 /// After displacements back and forth, after which rows do not serve: with second argument 1 by half the skin and
-/// more at random, so that every second particle meets somebody, with 0 by more than that along a long wave, as in a
+/// more at random, so that every second particle meets another, with 0 by more than that along a long wave, as in a
 /// body that bends: few do. Counter in_rates: times the right-hand side.
 void material_vectors_update(benchmark::State& state) {
     set_threads(1);
@@ -65,9 +65,9 @@ void material_vectors_update(benchmark::State& state) {
     state.counters["ns_per_particle"] = 1e9 * update / static_cast<double>(n);
 }
 
-/// A body at work, by leapfrog with steps of 0.1: hot, and sheared so that its edges move at 0.45: somebody meets
-/// or leaves somebody in every step. Counters in_rates: what all steps settle over all right-hand sides, one a step;
-/// steps_per_update.
+/// A body at work, by leapfrog with steps of 0.1: hot, and sheared so that its edges move at 0.45: some particle
+/// meets or leaves another in every step. Counters in_rates: what all steps settle over all right-hand sides, one a
+/// step; steps_per_update.
 void material_vectors_at_work(benchmark::State& state) {
     set_threads(1);
     BondedSystem bonded(ElasticSystem(state.range(0), monaghan));

@@ -12,7 +12,7 @@
 #include <vector>
 
 /// Google Benchmark's main, on one thread unless OMP_NUM_THREADS says otherwise. Ten million
-/// particles only for whoever asks for them.
+/// particles only where they are asked for.
 int main(int argc, char** argv) {
     try {
         benchmark::AddCustomContext("instruction set",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops that threads share: every index once, whoever comes to it; exceptions, loops within loops, loops of several
-// threads at once, and a child of fork(), where no thread but one is left.
+// Loops that threads share: every index once, whichever thread comes to it; exceptions, loops within loops, loops
+// of several threads at once, and a child of fork(), where no thread but one is left.
 #include <spam/core/parallel.hpp>
 
 #include <boost/test/unit_test.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How many threads are started where nobody asks for a number.
+// How many threads are started where no number is asked for.
 #include <spam/core/threads.hpp>
 
 #include <boost/test/unit_test.hpp>

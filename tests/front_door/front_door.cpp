@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The front door ./spam in a tree of its own, with a stub in place of cmake: one signal ends a build at
 // once and leaves nothing behind, a wrong option is refused before a build, and a program that is up to
-// date runs for users who may not write. Installed it runs what lies beside it.
+// date runs for users that may not write. Installed it runs what lies beside it.
 #include "support/process.hpp"
 
 #include <boost/test/unit_test.hpp>

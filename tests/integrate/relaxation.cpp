@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps that are rescaled to keep the energy: its gradient, how well it is kept, where steps end, and who is
+// Steps that are rescaled to keep the energy: its gradient, how well it is kept, where steps end, and what is
 // refused. What needs ARKODE's relaxation is not tried before SUNDIALS 6.6, where it is refused.
 #include "support/refusal.hpp"
 #include "support/small_hexagons.hpp"

@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(the_field_that_limits_steps_is_known) {
         BOOST_TEST_CONTEXT(options.method) {
             Ode ode = oscillators();
             const auto fast = Run(options, ode).to(10.0);
-            // An estimate that is exactly zero, which GSL's rk4 makes now and then, blames nobody.
+            // An estimate that is exactly zero, which GSL's rk4 makes now and then, blames no field.
             const auto blamed = [](const auto& s) { return s.limited_by[0] + s.limited_by[1]; };
             BOOST_TEST(fast.limited_by[1] > 9 * fast.limited_by[0]);
             BOOST_TEST(blamed(fast) <= fast.steps);

@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(free_space) {
     check<1>({}, 60.0, 1.0, 0.1);
     check<2>({}, 12.0, 1.0, 0.1);
     check<3>({}, 6.0, 1.0, 0.0);
-    check<2>({}, 1.0, 3.0, 0.3);  // everyone sees everyone
+    check<2>({}, 1.0, 3.0, 0.3);  // each sees all others
     check<2>({}, 1e6, 1.0, 0.1);  // far more bins than particles would be needed
 }
 
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(particles_in_an_order_of_their_own) {
     builds_in_own_order<2>(flung, free, 0.05);
 }
 
-// Many clusters in strips, bodies, gases, boxes: nobody is missed.
+// Many clusters in strips, bodies, gases, boxes: no particle is missed.
 BOOST_AUTO_TEST_CASE(large_lists) {
     const Box<2> box({50.0, 50.0});
     for (const auto& space : {Box<2>(), box, Box<2>({50.0, 0.0})})

@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(one_signal_is_enough) {
             }
 }
 
-/// What the motion has left is complete when the analysis of it begins, and nobody waits for its end.
+/// What the motion has left is complete when the analysis of it begins, and its end is not waited for.
 BOOST_AUTO_TEST_CASE(one_signal_is_enough_after_motion) {
     for (const int signal : {SIGTERM, SIGINT}) BOOST_TEST_CONTEXT("signal " << signal) {
             const Scratch folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run, one folder: whoever comes second is refused, and a lock does not outlive its process.
+// One run, one folder: the process that comes second is refused, and a lock does not outlive its process.
 // SPAM_PHASES=N in the environment: N random phases of each kind of second run, where 4 are tried.
 #include "problem/twins.hpp"
 
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(in_any_phase_no_two_write_and_no_lock_is_left) {
                 if (a.status == 0)
                     check_same(of_one, left_by(folder /
                                                (fs::exists(folder / "o.old-1") ? "o.old-1" : "o")));
-                // A third: nobody is at work any more.
+                // A third: no process is at work any more.
                 const Outcome on = run(
                     problem("rotating_hexagon", {"--restart", "o", "--no-plots"}), {folder.path()});
                 BOOST_TEST(on.err.find("still at work") == std::string::npos, on.err);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups of particles merged into two, and particles split: what is kept group by group, and who may be merged.
+// Groups of particles merged into two, and particles split: what is kept group by group, and which may be merged.
 #include "problem/rezoned_gas.hpp"
 #include "support/refusal.hpp"
 #include <spam/material/gamma_gas.hpp>

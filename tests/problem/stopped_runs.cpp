@@ -71,8 +71,8 @@ BOOST_AUTO_TEST_CASE(whatever_stops_a_run_it_goes_on_bit_for_bit) {
             const double seconds = seconds_of(folder, one, with(common, {"--out", "whole"}));
             const Words command = with(common, {"--out", "stopped"});
             for (const int signal : {SIGTERM, SIGINT}) {
-                // Earlier where it came too late, later where nothing had begun yet: nobody knows how
-                // fast a run will be.
+                // Earlier where it came too late, later where nothing had begun yet: how fast a
+                // run will be is not known.
                 int stopped = 0;
                 double after = seconds * moment(random);
                 for (int attempt = 0; attempt < 20 && stopped == 0; ++attempt) {

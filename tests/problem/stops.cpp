@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(steps_that_are_too_long) {
         {{"--dt", "10", "--transport", "plain", "--size", "3"}, {"density", "particle", "t = "}},
         {{"--dt", "3", "--model", "md", "--size", "3", "--turns", "2"},
          {"rate of velocity_x", "particle", "t = "}},
-        // The first reason counts, whoever integrates: here too it is the density.
+        // The first reason counts, whatever integrates: here too it is the density.
         {{"--dt", "10", "--transport", "plain", "--size", "3", "--integrator", zonneveld},
          {"density", "particle", "t = "}},
     };

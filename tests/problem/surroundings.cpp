@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run among other programs: descriptors closed by whoever started it, readers that leave, bare
+// A run among other programs: descriptors closed by the program that started it, readers that leave, bare
 // environments, little memory. None of it spoils results or turns into a crash.
 #include "problem/result_files.hpp"
 

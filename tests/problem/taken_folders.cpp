@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(snapshots_of_another_run_are_not_copied) {
     BOOST_TEST((f.of("o") == before));
 }
 
-/// Whoever reads a checkpoint for a run elsewhere holds the folder for a moment only, and is waited for.
+/// A process that reads a checkpoint for a run elsewhere holds the folder for a moment only, and is waited for.
 BOOST_AUTO_TEST_CASE(who_only_reads_is_waited_for) {
     const Folders f;
     f.run_both();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact of bodies: forces and energy against every pair, who touches whom, what it keeps, threads, and
+// Contact of bodies: forces and energy against every pair, which particles touch, what it keeps, threads, and
 // what makes no sense.
 #include "support/random_state.hpp"
 #include "support/refusal.hpp"
@@ -49,10 +49,10 @@ struct Touching {
           contact(model.template add_term<Contact<Dim>>(scheme)) {}
 };
 
-/// The law as it is written, of every pair. `nobody`: a wrong one, which forgets whom a particle belongs to.
+/// The law as it is written, of every pair. `without_bodies`: a wrong one, which forgets the bodies of particles.
 template <int Dim>
 EnergyAndForces<Dim> oracle(const ParticleModel<Dim>& model, const ContactScheme& s,
-                            std::span<const double> y, bool nobody = false) {
+                            std::span<const double> y, bool without_bodies = false) {
     const auto& p = model.particles();
     const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
     EnergyAndForces<Dim> sum{0.0, Points<Dim>::Zero(Dim, x.cols())};
@@ -65,10 +65,11 @@ EnergyAndForces<Dim> oracle(const ParticleModel<Dim>& model, const ContactScheme
                 r[a] += shift;
                 R[a] += shift;
             }
-            const bool apart = nobody ? i != j
-                                      : p.body[static_cast<std::size_t>(i)] !=
-                                                p.body[static_cast<std::size_t>(j)] ||
-                                            (s.folds_beyond > 0.0 && R.norm() > s.folds_beyond);
+            const bool apart =
+                without_bodies
+                    ? i != j
+                    : p.body[static_cast<std::size_t>(i)] != p.body[static_cast<std::size_t>(j)] ||
+                          (s.folds_beyond > 0.0 && R.norm() > s.folds_beyond);
             const double q = 1.0 - r.squaredNorm() / (s.range * s.range);
             if (!apart || q <= 0.0) continue;
             sum.energy += 0.5 * s.energy * std::pow(q, 4);
@@ -183,7 +184,7 @@ BOOST_AUTO_TEST_CASE(a_body_feels_nothing_of_itself) {
 }
 
 BOOST_AUTO_TEST_CASE(each_pair_to_the_last_bit) {
-    // Pairs that meet nobody else, of unit mass.
+    // Pairs that meet no other particle, of unit mass.
     constexpr std::size_t n = 200;
     Particles<2> particles = two(0.0, false);
     std::vector<Particles<2>> pairs(n, particles);
@@ -237,7 +238,7 @@ BOOST_AUTO_TEST_CASE(threads_leave_no_trace) {
     set_threads(1);
 }
 
-// What a run finds to be connected has no say in who repels whom.
+// What a run finds to be connected has no say in which particles repel each other.
 BOOST_AUTO_TEST_CASE(bodies_are_those_of_the_beginning) {
     Touching<2> touching(three_bodies<2>(9));
     const auto y = random_state(touching.model, 71);

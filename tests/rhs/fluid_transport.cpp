@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(the_fastest_conduction_is_announced_of_every_gas) {
 
 namespace {
 
-/// The same of a solid without stress and its artificial viscosity. That acts on those who approach: no
+/// The same of a solid without stress and its artificial viscosity. That acts on particles that approach: no
 /// matrix, but changes still tend towards what decays fastest.
 double fastest_decay(Model<2>& model, std::vector<double> y) {
     const State<2> state(model.layout(), y);

@@ -127,7 +127,7 @@ std::vector<double> flowing_state(const Model<Dim>& model, double shear, double 
     return y;
 }
 
-/// In steps so short that nobody enters before he is seen: not a bit of the energy or of the rates changes.
+/// In steps so short that no particle enters before it is seen: not a bit of the energy or of the rates changes.
 template <int Dim>
 void check_that_they_enter_with_no_trace() {
     auto model = model_of<Dim>(1.0);
@@ -165,7 +165,7 @@ void check_that_they_enter_late() {
         for (std::size_t c = 0; c < F[k].c.size(); ++c)
             worst = std::max(worst, std::abs(after[k].c[c] - F[k].c[c]));
     BOOST_TEST(worst < 1e-12);
-    BOOST_TEST(!settle<Dim>(model, y));  // nobody has moved since
+    BOOST_TEST(!settle<Dim>(model, y));  // no particle has moved since
 }
 
 /// Where particles that are not whole find neighbours within the range, what Phi loses is heat.

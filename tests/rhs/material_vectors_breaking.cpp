@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(a_pair_breaks_for_good_until_it_has_been_apart) {
     pulled.pull(0.2);
     pulled.pull(0.0);
     BOOST_TEST(pulled.across() <= mended);
-    // Apart, and back: whoever meets is bound.
+    // Apart, and back: particles that meet are bound.
     pulled.pull(6.0);
     BOOST_TEST(pulled.across() == 0U);
     pulled.pull(0.0);

@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(multistep_methods_where_nothing_flows) {
         motion.advance_to(8.0);
         BOOST_TEST(sheared.model.list_builds() > builds + 4);
         BOOST_TEST(std::abs(total_energy(sheared.model, motion.y()) / energy - 1.0) < 1e-6);
-        // When somebody enters depends on the steps: no two methods agree better than their tables do.
+        // When particles enter depends on the steps: no two methods agree better than their tables do.
         const auto by_rk4 = [](double dt) {
             Sheared twin;
             Motion<2> fine(twin.model, twin.y0, {.method = "rk4", .dt = dt});

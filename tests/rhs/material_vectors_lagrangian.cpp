@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where nobody comes or goes and no weight fades, a solid with material vectors is the total-Lagrangian one, but for
-// the penalty: that of the total-Lagrangian solid is of pairs, by the F of both ends, that of material vectors is of
-// one end each. So neither is a case of the other.
+// Where no neighbour comes or goes and no weight fades, a solid with material vectors is the total-Lagrangian one, but
+// for the penalty: that of the total-Lagrangian solid is of pairs, by the F of both ends, that of material vectors is
+// of one end each. So neither is a case of the other.
 #include "support/turned_body.hpp"
 #include <spam/material/polynomial_solid.hpp>
 #include <spam/material/st_venant_kirchhoff.hpp>

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(long_waves_feel_newton_and_fourier) {
         fluid, [](double y) { return Point<2>(0.0, std::sin(k * y)); }, cold);
     BOOST_TEST(close(sound.amplitude(Field::velocity, 1), -lattice(a, b, 1), 1e-10));
     BOOST_TEST(close(lattice(a, b, 1), (2.0 * eta + lambda) * k * k, 0.03));
-    // T = e in the plane. Pressures change with it, but nobody moves.
+    // T = e in the plane. Pressures change with it, but no particle moves.
     const Wave heat(
         fluid, [](double) { return Point<2>(0.0, 0.0); },
         [](double y) { return 1.0 + 0.1 * std::sin(k * y); });

@@ -81,7 +81,7 @@ struct Outcome {
 };
 
 /// A body thrown obliquely against the wall on its right. Turned, for no two particles are to arrive together:
-/// rounding would then decide who is turned back first.
+/// rounding would then decide which is turned back first.
 Outcome thrown(const Add& add, double angle, double dt, double t_end, double g = 0.0) {
     Points<2> x = triangular_block(8, 5);
     x.colwise() -= x.rowwise().mean().eval();

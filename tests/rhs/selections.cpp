@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(every_part_moves_as_it_would_alone) {
     }
     BOOST_TEST(model->internal_energy(y) == internal, boost::test_tools::tolerance(1e-14));
     BOOST_TEST(model->pairs() == pairs);
-    // Springs have neither density nor stress: what nobody integrates stays as it is.
+    // Springs have neither density nor stress: what is not integrated stays as it is.
     BOOST_TEST(of_all.part(2 * n, n).density().cwiseAbs().maxCoeff() == 0.0);
     BOOST_TEST(of_all.part(n, 2 * n).stress().cwiseAbs().maxCoeff() == 0.0);
     BOOST_TEST(of_all.part(0, n).stress().cwiseAbs().maxCoeff() > 0.0);

@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(bits) {
     BOOST_TEST(v_dot.col(0).norm() > 0.01);
 }
 
-// Between two lists particles come nearer and ranges grow: nobody within a range is missed.
+// Between two lists particles come nearer and ranges grow: no particle within a range is missed.
 BOOST_AUTO_TEST_CASE(lists_reach_as_far_as_ranges_that_grow) {
     const auto particles = jittered_particles<2>(24, 101);
     const VariableRangeScheme scheme{2.4, Kernel::w2};

@@ -58,7 +58,7 @@ class FieldLayout {
         return find(field, holder) != nullptr;
     }
 
-    /// Typical magnitude of a field, in the units of the run, whoever holds it.
+    /// Typical magnitude of a field, in the units of the run, whatever holds it.
     void set_scale(Field field, double scale);
 
     /// Which number entry k of y is.

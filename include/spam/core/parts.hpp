@@ -111,7 +111,7 @@ class Parts {
     void agree() {
         if (!alone()) exchange({});
     }
-    /// As long as it lives models' rates do not agree: whoever asks for them makes another exchange in any case, before
+    /// As long as it lives models' rates do not agree: a caller of them makes another exchange in any case, before
     /// anything of theirs counts, gives up itself where they have a failure(), and takes PartGaveUp for another part's.
     class AgreesLater {
       public:

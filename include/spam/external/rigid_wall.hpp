@@ -5,7 +5,7 @@
 
 namespace spam {
 
-/// A plane that nobody passes, rigid and without friction, which may move: particles nearer to it than s
+/// A plane that no particle passes, rigid and without friction, which may move: particles nearer to it than s
 /// feel
 ///     phi = e_w (1 - d/s)^4,   F = (4 e_w/s) (1 - d/s)^3 n,   d = n . x - h(t) < s,
 /// d being the distance from the plane on the side of the normal n. Three continuous derivatives; on the

@@ -15,8 +15,8 @@ inline constexpr float nowhere = 1e9F;
 
 /// What the clusters of a list choose their neighbours from: all slots in ascending number of their particles,
 /// images of one particle in the order of Ghosts::itself; and the clusters by cells of space, a few in each.
-/// Who goes down from all cells to single ones, and takes along those slots that are near, keeps their order:
-/// nothing is sorted.
+/// A search that goes down from all cells to single ones, and takes along those slots that are near, keeps their
+/// order: nothing is sorted.
 template <int Dim>
 class ClusterCells {
   public:

@@ -102,7 +102,7 @@ struct EnergyAndForces {
     }
 };
 
-/// Particles and who is near whom: `position` Dim x N, `mass` N; the list's reach must not be below the
+/// Particles and which are near each other: `position` Dim x N, `mass` N; the list's reach must not be below the
 /// range. Refers to what it is made of.
 template <int Dim>
 struct ListedParticles {

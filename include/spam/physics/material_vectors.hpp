@@ -118,8 +118,8 @@ struct FitSolver {
 /// How far the neighbours of a particle span space: th, a smoothstep of q/(0.1 N0), q = D/tr(N^-1) between
 /// once and D times the smallest eigenvalue of N, and its derivative, dth = slope N^-2 : dN. 1 inside a
 /// body and at its corners; a particle that has lost its neighbours bears no stress and has no
-/// misfit: along a row of particles F across it follows whoever is near with however little weight, faster than
-/// any step.
+/// misfit: along a row of particles F across it follows any particle that is near with however little weight,
+/// faster than any step.
 struct Wholeness {
     double th, slope;
 

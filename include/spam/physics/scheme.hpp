@@ -19,7 +19,7 @@ enum class MeanDensityKind { arithmetic, geometric };
 enum class AngularMomentum { free, gauss, torque_particle, torque_pair };
 enum class Balance { body, global };      ///< what keeps an angular momentum of its own
 enum class GaussSingular { skip, stop };  ///< where Gauss' principle has no solution
-/// Whose stress does the work that changes a particle's energy: the mean of both of a pair, or its own.
+/// Which stress does the work that changes a particle's energy: the mean of both of a pair, or its own.
 enum class Work { mean, own };
 
 /// How well an invariant is kept by the equations themselves.
@@ -51,13 +51,13 @@ struct Scheme {
     Transport transport = Transport::plain;
     /// --mean-density
     MeanDensityKind mean_density = MeanDensityKind::arithmetic;
-    /// --angular-momentum; other than `free` in the plane and in space.
+    /// --angular-momentum; on a line only `free`.
     AngularMomentum angular_momentum = AngularMomentum::free;
     /// --balance
     Balance balance = Balance::body;
     /// --gauss-singular
     GaussSingular gauss_singular = GaussSingular::skip;
-    /// --work; other than `mean` for gases and other fluids with a temperature only.
+    /// --work; `own` only for fluids with a temperature.
     Work work = Work::mean;
     double viscosity = 0.0;  ///< von Neumann's artificial viscosity: alpha; 0 without
     /// Of Transport::shifting: its coefficient by sound speed at rest times range (physics/shifting.hpp).

@@ -22,11 +22,12 @@ class IntegratorSettings {
     void add_to(Options& options);
     /// What the options, once parsed, mean; throws InputError where they mean nothing.
     IntegratorOptions resolve(Options& options);
-    /// Before resolve(): the step of rk4 when none is given is this part of what it was.
+    /// To be called before resolve(): multiplies the default step of rk4 by `part`.
     void shorten_default(double part) { default_dt_ *= part; }
     /// Another step of rk4 for the case at hand, where none is given. Returns whether it is taken.
     bool prefer_step(double dt, const Options& options);
-    /// The same of leapfrog, where no method is given; the step too, where that is not. To be resolved then.
+    /// Leapfrog as the default method, where --integrator is not given, with step dt, where --dt is not given either;
+    /// call resolve() afterwards.
     bool prefer_leapfrog(double dt, const Options& options);
 
     /// Names of all of them.

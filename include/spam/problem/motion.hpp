@@ -13,7 +13,7 @@ namespace spam {
 template <int Dim>
 Ode as_ode(Model<Dim>& model, const IntegratorOptions& options, std::size_t& pair_interactions);
 
-/// A model on its way through time, step by step, for whoever wants to drive it himself:
+/// A model on its way through time, step by step, for callers that drive it themselves:
 ///     Motion<2> motion(model, y0, {.method = "rk4", .dt = 0.1});
 ///     while (motion.t() < 10.0) motion.step(10.0);
 /// Runs, studies of integrators and tests are made of it. Events of the model are applied.

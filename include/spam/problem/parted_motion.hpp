@@ -12,7 +12,7 @@
 
 namespace spam {
 
-/// Observers that look at the whole run between two steps of all processes, with nothing to exchange.
+/// Observers that are called between steps with the state of the whole run, without communication.
 Observers of_the_whole(Observers observers);
 
 /// A Motion whose particles may be parted among processes, with the bits of one that is not.
@@ -21,9 +21,9 @@ Observers of_the_whole(Observers observers);
 ///                     part of the model, moved by a Motion of its own      <- numbers of its particles
 ///     y()             gathers the parts' y for all processes               <- at rows, snapshots, checkpoints
 ///
-/// Every process then finds the same rows, and makes the same decisions, without another word. Parts are made anew
-/// where the whole y is known anyway and a run that is not parted begins anew, or remembers nothing: at checkpoints,
-/// with fixed steps at rows as well.
+/// Every process then finds the same rows, and makes the same decisions, without further communication. Particles are
+/// redistributed where the whole y is gathered in any case and the integrator starts anew, or has no memory: at
+/// checkpoints, with fixed steps at rows as well.
 template <int Dim>
 class PartedMotion {
   public:

@@ -37,7 +37,7 @@ struct Plan {
     bool own_end = false;
     /// What watches the run, in the order of the calls.
     std::vector<Observer<Dim>> observers{};
-    /// Checked after every row. Off unless the session's options say otherwise.
+    /// Checked after every row. A Session replaces it by --guard (default: warn); off in run_in_memory() unless given.
     DriftLimits guard{};
 
     /// How the number of particles changes on the way; nothing where it stays.
@@ -75,7 +75,7 @@ struct RunRecord {
 };
 
 /// One run to do: a model, where it starts, and a name for its folder when there are several. The model
-/// is shared with whoever looks at it afterwards.
+/// is shared with what looks at it afterwards.
 template <int Dim>
 struct Case {
     /// What moves.
@@ -92,7 +92,7 @@ struct Case {
     std::function<std::vector<double>(const RunRecord& before)> start{};
 };
 
-/// A model that somebody else keeps until the run has ended, for a Case.
+/// A model that the caller keeps until the run has ended, for a Case.
 template <int Dim>
 std::shared_ptr<Model<Dim>> kept_elsewhere(Model<Dim>& model) {
     return {std::shared_ptr<void>{}, &model};

@@ -9,17 +9,8 @@
 
 namespace spam {
 
-/// How the number of particles changes on the way of a run (Plan::rezone): at given times particles that stand for too
-/// much are split, and groups of those that stand for too little are merged into two. Mass, momentum, angular momentum
-/// and energy are kept. Of a problem it takes
-///     plan.rezone({.every = 0.5, .volume = RezoningLimits{2.0, 0.5}, .make = model_of});
-///
-/// A change is made as a checkpoint is written: ids, masses, bodies, y and what laws and integrator remember are all
-/// that goes on, in a model made anew, also of the run that was never stopped. So a run that is restarted, before or
-/// behind a change, has the same bits. It is no case of its own (Case::start), with rows and files of its own: rows,
-/// accounts, events, snapshots and checkpoints are those of one run across it.
-///
-/// Observers and columns must look at the model that they are given, not at one that they know.
+/// Particles are split beyond the first and merged beyond the second: above and below for volumes and gradients,
+/// below and above for numbers of neighbours.
 struct RezoningLimits {
     double split, merge;
 };
@@ -33,7 +24,17 @@ struct RezoningMemory {
     void remember(Archive& archive) { archive(next_id, splits, merges, heat); }
 };
 
-/// See RezoningLimits.
+/// How the number of particles changes on the way of a run (Plan::rezone): at given times particles that stand for too
+/// much are split, and groups of those that stand for too little are merged into two. Mass, momentum, angular momentum
+/// and energy are kept. Of a problem it takes
+///     plan.rezone({.every = 0.5, .volume = RezoningLimits{2.0, 0.5}, .make = model_of});
+///
+/// A change is made as a checkpoint is written: ids, masses, bodies, y and what laws and integrator remember are all
+/// that goes on, in a model made anew, also of the run that was never stopped. So a run that is restarted, before or
+/// behind a change, has the same bits. A change does not begin a new case: rows, accounts, events, snapshots and
+/// checkpoints continue.
+///
+/// Observers and columns must look at the model that they are given, not at one that they know.
 template <int Dim>
 struct Rezoning {
     /// Time between looks at the criteria.

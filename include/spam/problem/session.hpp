@@ -54,11 +54,11 @@ class Session {
     /// The same of leapfrog, which is then the method where none is given.
     void prefer_leapfrog(double dt);
 
-    /// Sums in one thread where --threads does not ask for more: for who measures processor time.
+    /// For bodies that measure processor time: sums in one thread where --threads does not ask for more.
     void prefer_one_thread() { chooses_threads_ = false; }
 
-    /// Those that --ranks has started, one that is alone without: for a body that parts a model itself (PartedMotion).
-    /// To be asked for before begin_analysis(), which else refuses several.
+    /// The processes of --ranks, or a single one; for a body that distributes a model itself (PartedMotion). To be
+    /// called before begin_analysis(), which otherwise refuses several.
     Parts& processes() {
         parts_itself_ = true;
         return problem_.processes();
@@ -202,7 +202,7 @@ class Session {
     std::unique_ptr<SessionMemory> memory_;      ///< of the cases begun
     std::optional<CheckpointPair> checkpoints_;  ///< in the folder
     std::vector<Check> checks_;
-    /// What runs promised and nobody has checked yet.
+    /// What runs promised and has not been checked yet.
     struct Promised {
         std::string label;
         std::vector<Drift> drifts;

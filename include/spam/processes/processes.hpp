@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run on several processes: who starts them, and their exchanges. MPI is known to src/processes/mpi alone.
+// A run on several processes: what starts them, and their exchanges. MPI is known to src/processes/mpi alone.
 #pragma once
 
 #include <spam/core/parts.hpp>

@@ -12,8 +12,9 @@ inline constexpr FieldKind viscous_heat{"viscous_heat", Rank::scalar, Role::inte
 
 /// Von Neumann's artificial viscosity beside any law: the force of physics/viscosity.hpp, [HHM04] IV, between the
 /// present neighbours, for solids that remember (total Lagrangian, material vectors, springs), elements and potentials,
-/// whose own law knows no `Scheme::viscosity`. Densities are those of the start. It keeps p and L exactly, and E with
-/// what it takes from the motion, which y holds as `viscous_heat`: it does not heat the material.
+/// whose own law knows no `Scheme::viscosity`. Densities are those of the start. It keeps p exactly, L and E to
+/// integrator error, E with what it takes from the motion, which y holds as `viscous_heat`: it does not heat the
+/// material.
 template <int Dim>
 class ArtificialViscosity final : public PairTerm<Dim> {
   public:

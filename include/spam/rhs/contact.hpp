@@ -20,8 +20,8 @@ struct ContactScheme {
 /// alone (ParticleModel::add_term_among), or it would glue them to each other.
 ///
 /// Bodies are those of Particles::body when the term is made, and stay so: what a run later finds to be
-/// connected (Model::set_bodies) does not change who repels whom. In a box with mirrors the image of a
-/// particle is of its body.
+/// connected (Model::set_bodies) does not change which particles repel each other. In a box with mirrors
+/// the image of a particle is of its body.
 template <int Dim>
 class Contact final : public PairTerm<Dim> {
   public:

@@ -34,8 +34,9 @@ struct EllipseScheme {
 };
 
 /// A fluid without friction whose particles are ellipses that are drawn out like the gas around them
-/// (physics/ellipse.hpp): y = (x, v, e, G), the density summed. Keeps m, p, L and sum m (e + v^2/2) exactly, whatever
-/// the law. The density of a lattice does not change where it is deformed by the same F everywhere.
+/// (physics/ellipse.hpp): y = (x, v, e, G), the density summed. Keeps m and p exactly, L and E = sum m (e + v^2/2)
+/// to integrator error, whatever the law. The density of a lattice does not change where it is deformed by the same F
+/// everywhere.
 template <int Dim>
 class Ellipses final : public Term<Dim> {
   public:

@@ -31,7 +31,8 @@ struct MaterialVectorScheme {
     double stress_limit = std::numeric_limits<double>::infinity();
     MaterialWeight weight{};  ///< of bonds, by their material vectors
 
-    /// The largest tension (principal Cauchy stress) under which no wave grows: with tau = tension/stiffness
+    /// Estimate of the largest tension (principal Cauchy stress) under which no wave grows, for triangular lattices:
+    /// with tau = tension/stiffness
     ///     kappa >= tau/(2.4 - 1.9 tau) where h is 3 spacings or more, tau/(1.6 - 1.2 tau) below that.
     /// Of the default weight: a less steep one bears less. Under 15 stresses of as many directions, from hydrostatic
     /// to shear, growth begins 1.0 to 2.4 times as high in triangular lattices, and up to a sixth lower in square
@@ -72,11 +73,12 @@ struct BondBreaks {
 ///             other). Where the new fit F would store more, what is left at the particle is given vectors
 ///             X = F^-1 r of the old one
 ///
-/// Heat does not fall: what would store more after one of these changes keeps its F by vectors without misfit to it,
-/// or, with too few neighbours for that, forgets its strain. New weights alone may take back the little above.
+/// Heat never decreases: a particle whose energy would rise by one of these changes keeps its F, with vectors
+/// X = F^-1 r that have no misfit to it, or, with too few neighbours for that, loses its strain. Only new weights may
+/// return the small amount above.
 ///
 /// Between such changes the motion is Hamiltonian, at the first two the energy stays as it is: p is kept exactly, L
-/// and E to integrator error, and there is no tensile instability. Where a step is so long that somebody enters
+/// and E to integrator error, and there is no tensile instability. Where a step is so long that a particle enters
 /// within h, F and the energy of a whole particle stay as they are all the same, and what a particle with few
 /// neighbours loses is booked as heat(). Particles of different bodies do not see each other: let them touch
 /// (Contact). Bodies are those of Particles::body when the term is made.

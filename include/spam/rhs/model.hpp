@@ -88,7 +88,7 @@ class Model {
     /// Whether it leaves the rates as they are but now and then, so that methods which go on from earlier
     /// steps serve, and begin anew where it does not.
     virtual bool settles_seldom() const { return false; }
-    /// After every accepted step, before anybody looks at it: what is not integrated may be changed here
+    /// After every accepted step, before anything else looks at it: what is not integrated may be changed here
     /// (a plastic return: history fields, and the stress that goes with them). Returns whether y was; the
     /// integrator is told.
     virtual bool settle(double, std::span<double>) { return false; }

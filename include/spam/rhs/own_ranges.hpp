@@ -19,8 +19,8 @@ class PackedParticles;
 struct VariableRangeScheme {
     double range = 3.0;  ///< eta: h = eta (m/rho)^(1/D), the range where mass per volume is one
     Kernel kernel = Kernel::lucy;
-    /// Change of the ranges left out of the forces (Omega = 1), as older codes do, for comparison: p, L
-    /// and E stay exact, but e no longer is the work done on the density.
+    /// Change of the ranges left out of the forces (Omega = 1), as older codes do, for comparison: p is
+    /// still kept exactly, L and E to integrator error, but e no longer is the work done on the density.
     bool without_gradients = false;
 
     std::string describe() const;
@@ -28,8 +28,9 @@ struct VariableRangeScheme {
 
 /// Fluids whose particles have ranges that follow their densities
 /// (physics/variable_range.hpp): y = (x, v, rho, e). The density is part of y, summed at the start and
-/// then integrated, so that ranges are a function of y and no equation is solved in the rates. Keeps m, p
-/// and sum m (e + v^2/2) exactly, in open space L as well; friction by pairs takes L where its forces act across r_ij.
+/// then integrated, so that ranges are a function of y and no equation is solved in the rates. Keeps m and p
+/// exactly, E = sum m (e + v^2/2) and in open space L to integrator error; friction by pairs takes L where its
+/// forces act across r_ij.
 template <int Dim>
 class OwnRanges final : public Term<Dim> {
   public:

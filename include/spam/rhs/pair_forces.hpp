@@ -25,7 +25,7 @@ class ForcesOfPairs {
   public:
     virtual ~ForcesOfPairs() = default;
     /// Every pair within reach once, without images behind walls; nothing where a law does not tell (friction, laws
-    /// of somebody's own). Throws InputError where several images of a particle may be within reach.
+    /// of the user's own). Throws InputError where several images of a particle may be within reach.
     virtual std::optional<std::vector<PairForce<Dim>>> pair_forces(
         std::span<const double> y) const = 0;
 };

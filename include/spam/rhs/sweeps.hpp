@@ -57,7 +57,7 @@ struct SweepOutput {
     double *spread = nullptr, *approach = nullptr;                  ///< N, OwnRangeSums
     double* records = nullptr;                                      ///< those of SweepInput
 
-    /// Called once for every block, from any thread; null where nobody is interested.
+    /// Called once for every block, from any thread; null where no caller asks for it.
     void (*close)(const void* context, const SweptBlock&) = nullptr;
     const void* context = nullptr;
 };

@@ -125,7 +125,7 @@ class Term {
         set_bodies();
     }
 
-    /// After an accepted step, and before anybody looks at it: the term may change its history fields,
+    /// After an accepted step, and before anything else looks at it: the term may change its history fields,
     /// and the stress that goes with them, or what it remembers beyond y. Returns whether rates changed.
     virtual bool settle(double, const State<Dim>&) { return false; }
 

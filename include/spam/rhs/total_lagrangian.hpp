@@ -28,7 +28,7 @@ struct TotalLagrangianScheme {
 /// (x, v, history of the material); neighbours and weights are those of particles().reference_position for good,
 /// stresses follow from the deformation gradient. All forces derive from one energy that rotations leave unchanged:
 /// p is kept exactly, E and in open space L to integrator error, and there is no tensile instability. It yields
-/// where its material does, but does not break: who are neighbours stays so.
+/// where its material does, but does not break: neighbours stay neighbours.
 template <int Dim>
 class TotalLagrangian final : public Term<Dim> {
   public:

@@ -22,7 +22,7 @@ struct Trial {
     std::string rough{};
 };
 
-/// One integration from t = 0 to the end, nobody watching.
+/// One integration from t = 0 to the end, without observers.
 struct TrialRun {
     std::vector<double> y;  ///< the last accepted state
     Integrator::Statistics statistics;

@@ -10,7 +10,7 @@ namespace spam {
 
 /// In which order threads sum blocks of particles over their bonds, and where in memory what a block finds of them
 /// is kept meanwhile. A block is found first, and given back what its partners have found as soon as all of these
-/// are there; then the room of those that nobody waits for any more is used again, so that what is found stays in
+/// are there; then the room of those that no block waits for any more is used again, so that what is found stays in
 /// the cache. Every thread has blocks that follow each other; a block with partners among those of another thread is
 /// given last, when all are found; likewise one with partners in other parts of the run. No sum depends on it.
 class BondSchedule {

@@ -55,7 +55,7 @@ struct BondRecord {
                                  c = H + symmetric, numbers = c + 1;
 };
 
-/// What tells who of one or two particles is missing from a row, number by number: how many others there are, the
+/// What tells which one or two particles are missing from a row, number by number: how many others there are, the
 /// sum of their numbers and that of the squares of these; exact below ten million particles.
 struct NeighbourSums {
     static constexpr std::size_t count = 0, sum = 1, squares = 2, numbers = 3;
@@ -68,7 +68,7 @@ struct BondRenewal {
     double N0;      ///< of a whole particle; 0 where there are no bonds yet
     MaterialWeight weight;
     double*
-        missing;  ///< by particle: NeighbourSums within the reach; in the end those of whom rows lack
+        missing;  ///< by particle: NeighbourSums within the reach; in the end those of what rows lack
     double* anchoring;  ///< by particle: F^-1, or 1 where there is none
     struct Lanes {
         unsigned char fewer;  ///< which lanes have fewer bonds left than neighbours

@@ -7,11 +7,11 @@
 
 namespace spam {
 
-/// Who is whose neighbour, and the material vector of each. Rows hold whoever is nearer than range + skin of the
-/// same body: what is beyond the range weighs exactly nothing, so that a neighbour enters and leaves with no
-/// trace, and rows serve until particles have moved by half the skin (a common rigid motion apart). Then a list of
-/// those that are somewhat farther still, which lasts longer, tells how many neighbours each particle has now; who
-/// has as many bonds has nobody new.
+/// The neighbours of each particle, and the material vector of each. Rows hold the particles of the same body that
+/// are nearer than range + skin: what is beyond the range weighs exactly nothing, so that a neighbour enters and
+/// leaves with no trace, and rows serve until particles have moved by half the skin (a common rigid motion apart).
+/// Then a list of those that are somewhat farther still, which lasts longer, tells how many neighbours each particle
+/// has now; one that has as many bonds has no new neighbour.
 template <int Dim>
 class BondTable {
   public:
@@ -23,12 +23,12 @@ class BondTable {
               const Points<Dim>& x, std::vector<std::int32_t> bodies,
               const MaterialWeight& weight = {});
 
-    /// Whether everybody nearer than the range is in these rows.
+    /// Whether every particle nearer than the range is in these rows.
     bool serves(const Eigen::Ref<const Points<Dim>>& x) {
         return motion_.within(0.5 * skin * range_, x, box_);
     }
     /// Drops bonds that are beyond range + skin, gives others that are beyond the range vectors without misfit, and
-    /// finds who has come nearer and is in no row yet. N0: of a whole particle (Wholeness).
+    /// finds particles that have come nearer and are in no row yet. N0: of a whole particle (Wholeness).
     void renew(const Eigen::Ref<const Points<Dim>>& x, double N0);
     /// Of the last renew(), ascending by k, then the number of j, both directions of every pair; to be admitted, and
     /// their vectors set.
@@ -36,7 +36,7 @@ class BondTable {
     void admit() { rows_.enter(newcomers_); }
     /// Bonds within the range that weigh nothing, because their vectors are too long: they may be anchored anew.
     const std::vector<Newcomer>& idle() const { return idle_; }
-    /// F^-1 at the last renew(), before anybody was admitted; 1 where there is none.
+    /// F^-1 at the last renew(), before any newcomer was admitted; 1 where there is none.
     Mat<Dim> anchoring(std::size_t k) const;
 
     const BondUpdates<Dim>& loops() const { return loops_; }

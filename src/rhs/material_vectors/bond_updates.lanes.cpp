@@ -87,7 +87,7 @@ SPAM_INLINE T weight_of(const MaterialWeight& weight, const T& length, double ra
     return g;
 }
 
-/// Takes what rows hold off the sums of neighbours; the lanes that are left with somebody.
+/// Takes what rows hold off the sums of neighbours; the lanes where some are left.
 SPAM_INLINE unsigned take_off(const Sums& held, double* missing) {
     using N = NeighbourSums;
     const auto left = [&](std::size_t at, const T& own) SPAM_FLAT {

@@ -92,7 +92,7 @@ bool MaterialVectors<Dim>::settle(double, const State<Dim>& state) {
     return changed;
 }
 
-/// Whether somebody has entered who weighs something: else the rates are the same bits as before.
+/// Whether a particle has entered that weighs something: else the rates are the same bits as before.
 template <int Dim>
 bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
     Parts& p = *parts_;
@@ -104,7 +104,7 @@ bool MaterialVectors<Dim>::update(const ConstState<Dim>& state) {
         return dot(bond.r, bond.r) < scheme_.range * scheme_.range &&
                scheme_.weight(std::sqrt(dot(X, X)), scheme_.range) > 0.0;
     };
-    std::vector<std::uint32_t> changed;  // whose sums are others
+    std::vector<std::uint32_t> changed;  // particles whose sums are others
     for (const auto* bonds : {&p.table.newcomers(), &p.table.idle()})
         for (const auto& bond : *bonds)
             if (weighs(bond) && !p.excludes(bond.k, bond.j)) changed.push_back(bond.k);

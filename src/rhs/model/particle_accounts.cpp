@@ -166,7 +166,7 @@ bool ParticleModel<Dim>::settle(double t, std::span<double> y) {
 template <int Dim>
 bool ParticleModel<Dim>::reflect(const State<Dim>& state) {
     const std::size_t before = reflections_;
-    // Whose motion is prescribed altogether passes.
+    // A particle whose motion is prescribed altogether passes.
     const auto held = [&](Eigen::Index i) {
         const std::size_t number = Parts::here().number(static_cast<std::size_t>(i));
         return std::ranges::any_of(externals_, [&](const auto& external) {

@@ -9,7 +9,7 @@
 namespace spam {
 namespace {
 
-/// Made by the first who asks: objects of other files are constructed in no certain order.
+/// Made by the first call: objects of other files are constructed in no certain order.
 template <int Dim>
 auto& registry() {
     static std::map<std::pair<std::string, InstructionSet>, typename RegisterSweeps<Dim>::Make>
