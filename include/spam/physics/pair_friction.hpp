@@ -17,12 +17,12 @@
 /// times b = (D + 2)(lambda + eta); heat diffuses as the first times 2 kappa. Coefficients of pairs must not
 /// be negative, or some motion would grow: -eta <= lambda <= eta. With lambda = eta forces are central.
 ///
-/// Between particles of different fluids eta, 2 eta + lambda and kappa are harmonic means, 2 c_i c_j/(c_i + c_j): those
-/// by which the flux in shear, along the motion and of heat through two layers in turn, of a jump (v_j - v_i) across both, is
-/// one flux (Cleary and Monaghan 1999; tests/rhs/friction_of_fluids.cpp: means of a and b themselves would let fluids of
-/// one eta slip where their lambda differ). With the means M of eta and L of 2 eta + lambda a = 3 M - L and b = (D + 2)
-/// (L - M), neither negative, as M <= L <= 3 M. A fluid without friction has none with others either. Pairs have one
-/// factor, so that m, p and E are kept as among equals.
+/// Between particles of different fluids eta, 2 eta + lambda and kappa are harmonic means, 2 c_i c_j/(c_i + c_j):
+/// those by which the flux in shear, along the motion and of heat through two layers in turn, of a jump (v_j - v_i)
+/// across both, is one flux (Cleary and Monaghan 1999; tests/rhs/friction_of_fluids.cpp: means of a and b themselves
+/// would let fluids of one eta slip where their lambda differ). With the means M of eta and L of 2 eta + lambda
+/// a = 3 M - L and b = (D + 2)(L - M), neither negative, as M <= L <= 3 M. A fluid without friction has none with
+/// others either. Pairs have one factor, so that m, p and E are kept as among equals.
 namespace spam {
 
 /// The factor of a pair between two materials; 0 where either has none.
