@@ -71,7 +71,8 @@ std::string anchor_of(const std::string& heading) {
 
 /// Words for persons that a text uses of particles and programs.
 Words persons_in(const std::string& text) {
-    static const std::regex person("\\b([Ww]hoever|[Nn]obody|[Ss]omebody|[Aa]nybody|[Ee]verybody)\\b");
+    static const std::regex person(
+        "\\b([Ww]hoever|[Nn]obody|[Ss]omebody|[Aa]nybody|[Ee]verybody)\\b");
     Words found;
     for (std::sregex_iterator it(text.begin(), text.end(), person), end; it != end; ++it)
         found.push_back((*it)[1]);
