@@ -4,6 +4,7 @@
 #include <spam/core/error.hpp>
 #include <spam/io/image_file.hpp>
 
+#include <boost/property_tree/ptree.hpp>
 #include <boost/test/unit_test.hpp>
 
 using namespace spam;

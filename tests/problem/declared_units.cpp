@@ -4,6 +4,7 @@
 #include "problem/result_files.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include "problem/refused.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 using namespace spam::test;
 

@@ -3,6 +3,8 @@
 // an analysis, also one that follows motion.
 #include "problem/twins.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <thread>
 

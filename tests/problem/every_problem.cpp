@@ -6,6 +6,7 @@
 #include "support/effort.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <set>
 

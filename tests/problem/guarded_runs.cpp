@@ -7,6 +7,7 @@
 #include <spam/spam.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 

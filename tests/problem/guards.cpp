@@ -3,6 +3,7 @@
 #include "problem/result_files.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 using namespace spam::test;
 using Words = std::vector<std::string>;

@@ -6,6 +6,7 @@
 #include <spam/spam.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <functional>

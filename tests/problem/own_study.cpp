@@ -9,6 +9,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <cmath>

@@ -5,6 +5,8 @@
 #include "support/effort.hpp"
 #include <spam/core/program.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <sstream>
 #include <thread>
 

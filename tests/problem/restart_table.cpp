@@ -6,6 +6,8 @@
 #include "problem/short_runs.hpp"
 #include "support/effort.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cmath>
 #include <cstdlib>

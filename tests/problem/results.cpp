@@ -4,6 +4,7 @@
 #include <spam/core/threads.hpp>
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <numbers>
 

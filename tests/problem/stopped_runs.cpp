@@ -4,6 +4,8 @@
 // reflections are where it matters.
 #include "problem/twins.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cmath>
 #include <random>
