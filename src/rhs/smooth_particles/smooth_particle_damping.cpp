@@ -67,7 +67,8 @@ double FluidConstitution<Dim>::fastest_sound(const RestingBody&, std::span<const
 /// By the shortest waves felt: momentum diffuses at (2 eta + lambda) k^2/rho or eta k^2/rho, heat at
 /// kappa k^2/(rho c_v). By pairs neighbours that move against each other are stopped: at twice the sum of F
 /// over them, of volumes as in the body at rest. Each with its own density: of several fluids the thin one is the
-/// fastest.
+/// fastest. Two particles of different fluids approach each other at the rate c_ij (1/rho_i + 1/rho_j), with the
+/// harmonic mean c_ij a mean of 2 c_i/rho_i and 2 c_j/rho_j: never faster than the faster of the two fluids.
 template <int Dim>
 double FluidConstitution<Dim>::damping(const GeneralWeight<Dim>& weight, const RestingBody& rest,
                                        std::span<const double> rho,
