@@ -55,10 +55,9 @@ void require_bravais(const SmoothParticleModel<Dim>& model, const Points<Dim>& p
     for (std::size_t i = 1; i < list.size(); ++i) {
         const auto own = separations(i);
         const bool same =
-            own.size() == first.size() && std::all_of(own.begin(), own.end(), [&](const auto& s) {
-                return std::any_of(first.begin(), first.end(), [&](const auto& other) {
-                    return (s - other).norm() < tolerance;
-                });
+            own.size() == first.size() && std::ranges::all_of(own, [&](const auto& s) {
+                return std::ranges::any_of(
+                    first, [&](const auto& other) { return (s - other).norm() < tolerance; });
             });
         if (!same) refuse("the particles must be a Bravais lattice, all with the same neighbours");
     }
@@ -178,8 +177,8 @@ std::vector<LatticeMode<Dim>> LatticeModes<Dim>::modes(const Point<Dim>& k) cons
     std::vector<LatticeMode<Dim>> all;
     for (Eigen::Index c = 0; c < found.values.size(); ++c)  // velocities follow positions
         all.push_back({found.values[c], found.vectors.col(c).template segment<Dim>(Dim)});
-    std::stable_sort(all.begin(), all.end(),
-                     [](const auto& a, const auto& b) { return a.rate.real() > b.rate.real(); });
+    std::ranges::stable_sort(
+        all, [](const auto& a, const auto& b) { return a.rate.real() > b.rate.real(); });
     return all;
 }
 
@@ -192,7 +191,7 @@ template <int Dim>
 std::vector<double> LatticeModes<Dim>::frequencies(const Point<Dim>& k) const {
     const Eigen::VectorXd all = complex_modes(jacobian(k)).values.imag();
     std::vector<double> result(all.begin(), all.end());
-    std::sort(result.begin(), result.end(), std::greater<>());
+    std::ranges::sort(result, std::greater<>());
     result.resize(Dim);
     for (double& omega : result) omega = std::max(omega, 0.0);
     return result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/analysis/wave_vectors.hpp>
+#include <spam/setup/lattices.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -10,17 +11,8 @@ using std::numbers::pi;
 
 template <int Dim>
 Points<Dim> allowed_wave_vectors(const Box<Dim>& box, const std::array<int, Dim>& cells) {
-    Eigen::Index count = 1;
-    for (const int c : cells) count *= c;
-    Points<Dim> all(Dim, count);
-    for (Eigen::Index number = 0; number < count; ++number) {
-        Eigen::Index rest = number;
-        for (int a = 0; a < Dim; ++a) {
-            const int n = cells[static_cast<std::size_t>(a)];
-            all(a, number) = 2.0 * pi * static_cast<double>(rest % n) / box.length(a);
-            rest /= n;
-        }
-    }
+    Points<Dim> all = square_lattice<Dim>(cells, 2.0 * pi);
+    for (int a = 0; a < Dim; ++a) all.row(a) /= box.length(a);
     return all;
 }
 

@@ -95,20 +95,13 @@ InvariantScales measure_scales(const Model<Dim>& model, std::span<const double> 
     });
     const auto [momentum, angular_momentum, distance, speed] = sums;
     const auto n = static_cast<double>(x.cols());
-    InvariantScales scales;
-    scales.momentum = momentum;
-    scales.angular_momentum = angular_momentum;
-    scales.force = model.neighbour_forces(y);
-    scales.torque = scales.force * distance / n;
-    scales.power = scales.force * speed / n;
-    return scales;
+    const double force = model.neighbour_forces(y);
+    return {momentum, angular_momentum, force, force * distance / n, force * speed / n};
 }
 
-template Invariants<1> measure_invariants(const Model<1>&, std::span<const double>);
-template Invariants<2> measure_invariants(const Model<2>&, std::span<const double>);
-template Invariants<3> measure_invariants(const Model<3>&, std::span<const double>);
-template InvariantScales measure_scales(const Model<1>&, std::span<const double>);
-template InvariantScales measure_scales(const Model<2>&, std::span<const double>);
-template InvariantScales measure_scales(const Model<3>&, std::span<const double>);
+#define SPAM_INSTANTIATE(D)                                                              \
+    template Invariants<D> measure_invariants(const Model<D>&, std::span<const double>); \
+    template InvariantScales measure_scales(const Model<D>&, std::span<const double>);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -19,8 +19,7 @@ std::vector<Eigen::Index> outline(const Points<2>& reference, double spacing) {
         const Point<2> r = reference.col(i) - centre;
         return std::atan2(r.y(), r.x());
     };
-    std::sort(ring.begin(), ring.end(),
-              [&](Eigen::Index a, Eigen::Index b) { return angle(a) < angle(b); });
+    std::ranges::sort(ring, [&](Eigen::Index a, Eigen::Index b) { return angle(a) < angle(b); });
     return ring;
 }
 

@@ -59,11 +59,9 @@ WallImages<Dim> images_behind_walls(const Box<Dim>& box, double reach, const Poi
 }
 
 SPAM_COMPILED(template struct WallImages);
-template WallImages<1> images_behind_walls(const Box<1>&, double, const Points<1>&,
-                                           const Points<1>&);
-template WallImages<2> images_behind_walls(const Box<2>&, double, const Points<2>&,
-                                           const Points<2>&);
-template WallImages<3> images_behind_walls(const Box<3>&, double, const Points<3>&,
-                                           const Points<3>&);
+#define SPAM_INSTANTIATE(D)                                                             \
+    template WallImages<D> images_behind_walls(const Box<D>&, double, const Points<D>&, \
+                                               const Points<D>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

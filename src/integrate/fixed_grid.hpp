@@ -16,15 +16,14 @@ class FixedGrid {
 
     struct Step {
         double length, to;
-        bool on_grid;  ///< both ends, within a rounding error
-        bool whole;    ///< it ends at a time of the grid to the last bit: no stop had an influence
+        bool whole;  ///< it ends at a time of the grid to the last bit: no stop had an influence
     };
     /// The step from t to the next grid time, or a shorter one to t_stop.
     Step next(double t, double t_stop) const {
         const double grid = time(n_ + 1);
         const double to = grid >= t_stop - slack() ? t_stop : grid;
         const bool on_grid = near(t, time(n_)) && near(to, grid);
-        return {on_grid ? dt_ : to - t, to, on_grid, to == grid};
+        return {on_grid ? dt_ : to - t, to, to == grid};
     }
     /// After that step, at step.to.
     void arrive(const Step& step) {
@@ -36,7 +35,6 @@ class FixedGrid {
     void reset(double t) {
         if (!near(t, time(n_))) begin(t);
     }
-    double dt() const { return dt_; }
 
     void remember(Archive& archive) { archive(t0_, n_); }
 

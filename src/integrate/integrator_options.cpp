@@ -54,8 +54,7 @@ void validate_tolerances(const IntegratorOptions& options) {
 
 void validate_control(const IntegratorOptions& options) {
     const auto& names = arkode_controllers();
-    if (!options.controller.empty() &&
-        std::find(names.begin(), names.end(), options.controller) == names.end())
+    if (!options.controller.empty() && std::ranges::find(names, options.controller) == names.end())
         throw InputError(fmt::format("controller: '{}' is unknown{} There are: {}",
                                      options.controller, suggestion(options.controller, names),
                                      fmt::join(names, ", ")));

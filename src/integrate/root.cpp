@@ -17,15 +17,8 @@
 namespace spam {
 namespace {
 
-std::span<const double> entries_of(N_Vector x) {
-    return {N_VGetArrayPointer(x), static_cast<std::size_t>(N_VGetLength(x))};
-}
-std::span<double> entries_to(N_Vector x) {
-    return {N_VGetArrayPointer(x), static_cast<std::size_t>(N_VGetLength(x))};
-}
-
 int kinsol_residual(N_Vector x, N_Vector F, void* of) {
-    return (*static_cast<const Residual*>(of))(entries_of(x), entries_to(F)) ? 0 : 1;
+    return (*static_cast<const Residual*>(of))(entries(x), entries(F)) ? 0 : 1;
 }
 
 }  // namespace

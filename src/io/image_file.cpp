@@ -54,11 +54,9 @@ void write_image(const RunFolder& folder, std::string_view name, double t, const
     });
 }
 
-template void write_image(const RunFolder&, std::string_view, double, const Box<1>&,
-                          const FieldGrid<1>&, const std::vector<ImageField>&);
-template void write_image(const RunFolder&, std::string_view, double, const Box<2>&,
-                          const FieldGrid<2>&, const std::vector<ImageField>&);
-template void write_image(const RunFolder&, std::string_view, double, const Box<3>&,
-                          const FieldGrid<3>&, const std::vector<ImageField>&);
+#define SPAM_INSTANTIATE(D)                                                              \
+    template void write_image(const RunFolder&, std::string_view, double, const Box<D>&, \
+                              const FieldGrid<D>&, const std::vector<ImageField>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -51,8 +51,8 @@ const Options::Added& Options::Added::unit(const std::string& name) const {
 }
 
 Options::Entry& Options::entry(std::string_view name) const {
-    const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                    [name](const auto& e) { return e->name == name; });
+    const auto found =
+        std::ranges::find_if(entries_, [name](const auto& e) { return e->name == name; });
     if (found == entries_.end())
         throw std::logic_error(fmt::format("there is no option '{}'", name));
     return **found;
@@ -89,14 +89,12 @@ void Options::one_of(const std::vector<std::string>& names, const std::string& w
 
 void Options::leave_out(const std::vector<std::string>& names) {
     for (const auto& one : entries_)
-        if (std::find(names.begin(), names.end(), one->name) != names.end())
-            one->has_meaning = false;
+        if (std::ranges::find(names, one->name) != names.end()) one->has_meaning = false;
 }
 
 void Options::command_line_wins(const std::vector<std::string>& names,
                                 const std::vector<std::string>& over) {
-    if (std::none_of(names.begin(), names.end(),
-                     [this](const auto& name) { return entry(name).on_command; }))
+    if (std::ranges::none_of(names, [this](const auto& name) { return entry(name).on_command; }))
         return;
     for (const auto& name : over) {
         Entry& other = entry(name);
@@ -132,8 +130,7 @@ void Options::settle() {
 }
 
 bool Options::at_default(const std::vector<std::string>& names) const {
-    return std::all_of(names.begin(), names.end(),
-                       [this](const auto& name) { return entry(name).at_default; });
+    return std::ranges::all_of(names, [this](const auto& name) { return entry(name).at_default; });
 }
 
 }  // namespace spam

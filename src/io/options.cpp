@@ -138,7 +138,7 @@ Options::Added Options::choice(std::string name, std::vector<std::string> names,
     entry.allowed = fmt::format("one of \"{}\"", fmt::join(names, "\", \""));
     entry.is_text = true;
     entry.set = [&entry, names, set = std::move(set)](const std::string& text) {
-        const auto it = std::find(names.begin(), names.end(), text);
+        const auto it = std::ranges::find(names, text);
         if (it == names.end())
             throw InputError(fmt::format("{}: '{}' is unknown{} Allowed: {}", entry.name, text,
                                          suggestion(text, names), fmt::join(names, ", ")));
@@ -154,8 +154,7 @@ void Options::unit(const std::vector<std::string>& names, const std::string& uni
 
 void Options::exclude_from_case(const std::vector<std::string>& names) {
     for (auto& entry : entries_)
-        if (std::find(names.begin(), names.end(), entry->name) != names.end())
-            entry->in_case = false;
+        if (std::ranges::find(names, entry->name) != names.end()) entry->in_case = false;
 }
 
 std::vector<std::string> Options::names() const {
@@ -166,12 +165,11 @@ std::vector<std::string> Options::names() const {
 
 /// A flag that a file sets to false was left out on the command line that wrote it.
 bool Options::has(std::string_view name) const {
-    return std::any_of(entries_.begin(), entries_.end(),
-                       [name](const auto& e) { return e->name == name; });
+    return std::ranges::any_of(entries_, [name](const auto& e) { return e->name == name; });
 }
 
 bool Options::given(std::string_view name) const {
-    return std::any_of(entries_.begin(), entries_.end(), [name](const auto& e) {
+    return std::ranges::any_of(entries_, [name](const auto& e) {
         return e->name == name && (e->in_file || e->on_command) &&
                !(e->is_flag && e->get() == "false");
     });

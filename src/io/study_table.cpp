@@ -223,8 +223,7 @@ bool StudyTable::run(const std::vector<StudyTask>& tasks, int threads,
 namespace {
 
 std::size_t place_of(const std::vector<std::string>& columns, std::string_view name) {
-    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
-                                    columns.begin());
+    return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
 }
 
 }  // namespace

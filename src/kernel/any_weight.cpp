@@ -41,8 +41,7 @@ AnyWeight<Dim> weight_function(std::string_view name, double range) {
         least_power, greatest_power));
 }
 
-template AnyWeight<1> weight_function<1>(std::string_view, double);
-template AnyWeight<2> weight_function<2>(std::string_view, double);
-template AnyWeight<3> weight_function<3>(std::string_view, double);
+#define SPAM_INSTANTIATE(D) template AnyWeight<D> weight_function<D>(std::string_view, double);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

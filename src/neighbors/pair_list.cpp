@@ -39,9 +39,8 @@ PairList<Dim>::PairList(const Points<Dim>& position, double reach, const Box<Dim
     }
 }
 
-template void require_one_image(const Box<1>&, double);
-template void require_one_image(const Box<2>&, double);
-template void require_one_image(const Box<3>&, double);
+#define SPAM_INSTANTIATE(D) template void require_one_image(const Box<D>&, double);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 SPAM_COMPILED(template class PairList);
 
 }  // namespace spam

@@ -229,8 +229,7 @@ Search<Dim> search_for(int width) {
     }
 }
 
-template Search<1> search_for<1, InstructionSet::SPAM_LEVEL>(int);
-template Search<2> search_for<2, InstructionSet::SPAM_LEVEL>(int);
-template Search<3> search_for<3, InstructionSet::SPAM_LEVEL>(int);
+#define SPAM_INSTANTIATE(D) template Search<D> search_for<D, InstructionSet::SPAM_LEVEL>(int);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

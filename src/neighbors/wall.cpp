@@ -69,11 +69,9 @@ std::string Box<Dim>::describe_walls() const {
 }
 
 SPAM_COMPILED(template struct Wall);
-template void Box<1>::set_wall(int, bool, const Wall<1>&);
-template void Box<2>::set_wall(int, bool, const Wall<2>&);
-template void Box<3>::set_wall(int, bool, const Wall<3>&);
-template std::string Box<1>::describe_walls() const;
-template std::string Box<2>::describe_walls() const;
-template std::string Box<3>::describe_walls() const;
+#define SPAM_INSTANTIATE(D)                                    \
+    template void Box<D>::set_wall(int, bool, const Wall<D>&); \
+    template std::string Box<D>::describe_walls() const;
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -97,66 +97,29 @@ std::string Scheme::describe() const {
         to_string(angular_momentum), more, to_string(kernel), range);
 }
 
-std::string_view to_string(Density d) {
-    switch (d) {
-        case Density::continuity:
-            return "continuity";
-        case Density::summed:
-            return "summed";
-        case Density::chain_rule:
-            break;
-    }
-    return "chain_rule";
+namespace {
+
+/// Names in the order of the enumerators.
+template <class E>
+std::string_view name_of(E e, std::initializer_list<std::string_view> names) {
+    return names.begin()[static_cast<std::size_t>(e)];
 }
 
+}  // namespace
+
+std::string_view to_string(Density d) { return name_of(d, {"continuity", "summed", "chain_rule"}); }
 std::string_view to_string(Transport t) {
-    switch (t) {
-        case Transport::plain:
-            return "plain";
-        case Transport::average:
-            return "average";
-        case Transport::monaghan:
-            return "monaghan";
-        case Transport::shifting:
-            break;
-    }
-    return "shifting";
+    return name_of(t, {"plain", "average", "monaghan", "shifting"});
 }
-
-std::string_view to_string(MeanDensityKind m) {
-    return m == MeanDensityKind::arithmetic ? "arithmetic" : "geometric";
-}
-
+std::string_view to_string(MeanDensityKind m) { return name_of(m, {"arithmetic", "geometric"}); }
 std::string_view to_string(AngularMomentum a) {
-    switch (a) {
-        case AngularMomentum::free:
-            return "free";
-        case AngularMomentum::gauss:
-            return "gauss";
-        case AngularMomentum::torque_particle:
-            return "torque_particle";
-        case AngularMomentum::torque_pair:
-            break;
-    }
-    return "torque_pair";
+    return name_of(a, {"free", "gauss", "torque_particle", "torque_pair"});
 }
-
-std::string_view to_string(Balance b) { return b == Balance::body ? "body" : "global"; }
-
-std::string_view to_string(GaussSingular g) { return g == GaussSingular::skip ? "skip" : "stop"; }
-
-std::string_view to_string(Work w) { return w == Work::mean ? "mean" : "own"; }
-
+std::string_view to_string(Balance b) { return name_of(b, {"body", "global"}); }
+std::string_view to_string(GaussSingular g) { return name_of(g, {"skip", "stop"}); }
+std::string_view to_string(Work w) { return name_of(w, {"mean", "own"}); }
 std::string_view to_string(Promise p) {
-    switch (p) {
-        case Promise::exact:
-            return "exact";
-        case Promise::integrator_error:
-            return "to integrator error";
-        case Promise::not_kept:
-            break;
-    }
-    return "not kept";
+    return name_of(p, {"exact", "to integrator error", "not kept"});
 }
 
 }  // namespace spam

@@ -29,8 +29,7 @@ std::vector<std::string> key_titles(const CurvePanel& panel) {
 }
 
 bool same_titles(const std::vector<CurvePanel>& panels) {
-    return panels.size() > 1 &&
-           std::all_of(panels.begin(), panels.end(), [&](const CurvePanel& panel) {
+    return panels.size() > 1 && std::ranges::all_of(panels, [&](const CurvePanel& panel) {
                return key_titles(panel) == key_titles(panels.front());
            });
 }

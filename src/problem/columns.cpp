@@ -64,11 +64,9 @@ Column<Dim> closest_pair_column() {
             }};
 }
 
-template Column<1> shape_error_column();
-template Column<2> shape_error_column();
-template Column<3> shape_error_column();
-template Column<1> closest_pair_column();
-template Column<2> closest_pair_column();
-template Column<3> closest_pair_column();
+#define SPAM_INSTANTIATE(D)                  \
+    template Column<D> shape_error_column(); \
+    template Column<D> closest_pair_column();
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -99,9 +99,8 @@ void Motion<Dim>::remember(Archive& archive) {
     integrator_->remember(archive);
 }
 
-template Ode as_ode(Model<1>&, const IntegratorOptions&, std::size_t&);
-template Ode as_ode(Model<2>&, const IntegratorOptions&, std::size_t&);
-template Ode as_ode(Model<3>&, const IntegratorOptions&, std::size_t&);
+#define SPAM_INSTANTIATE(D) template Ode as_ode(Model<D>&, const IntegratorOptions&, std::size_t&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 SPAM_COMPILED(template class Motion);
 
 }  // namespace spam

@@ -70,8 +70,7 @@ void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles) {
     };
     // All are looked at before the first one is marked: a merge that is refused changes nothing.
     for (const std::size_t i : particles) {
-        require_unchanged(i, change_, before_.id,
-                          std::count(particles.begin(), particles.end(), i));
+        require_unchanged(i, change_, before_.id, std::ranges::count(particles, i));
         if (material(i) != material(particles.front()))
             throw InputError(fmt::format(
                 "population: particles {} and {} are of different materials and cannot be one",
@@ -82,7 +81,7 @@ void Repopulation<Dim>::merge(const std::vector<std::size_t>& particles) {
                 before_.id[particles.front()], before_.id[i]));
     }
     for (const std::size_t i : particles) change_[i] = -2;
-    const std::size_t first = *std::min_element(particles.begin(), particles.end());
+    const std::size_t first = *std::ranges::min_element(particles);
     change_[first] = static_cast<int>(changes_.size());
     changes_.push_back({particles});
 }

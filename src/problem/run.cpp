@@ -122,7 +122,7 @@ template <int Dim>
 void Run<Dim>::recall(const CaseMemory& memory) {
     const auto y = state_of(memory, *one_.model);
     motion_->edit([&](std::span<double> now) {
-        std::copy(y.begin(), y.end(), now.begin());
+        std::ranges::copy(y, now.begin());
         return true;
     });
     Archive motion(memory.motion), records(memory.records);
@@ -217,8 +217,7 @@ template <int Dim>
 std::vector<RunStatistics::Limit> Run<Dim>::limits() const {
     std::vector<RunStatistics::Limit> limits;
     const auto& s = statistics();
-    if (std::all_of(s.limited_by.begin(), s.limited_by.end(), [](auto n) { return n == 0; }))
-        return limits;
+    if (std::ranges::all_of(s.limited_by, [](auto n) { return n == 0; })) return limits;
     for (std::size_t b = 0; b < std::min(motion_->ode().blocks.size(), s.limited_by.size()); ++b)
         limits.push_back({motion_->ode().blocks[b].name, s.limited_by[b], s.error_share[b]});
     return limits;
@@ -274,7 +273,7 @@ std::string Run<Dim>::drive(const Watchers& watchers) {
     if (plan.rezoning) observers.change = [&](double t) { return rezone(t, watchers); };
     if (plan.may_change()) observers.revise = [&](double t) { return revise(t); };
     observers.enough = [&](double) {
-        return std::any_of(plan.observers.begin(), plan.observers.end(), [&](const auto& one) {
+        return std::ranges::any_of(plan.observers, [&](const auto& one) {
             return one.enough && one.enough(recorder_.history());
         });
     };

@@ -223,7 +223,7 @@ void Session::check_promises(const std::vector<Drift>& drifts, const std::string
     for (const Drift& drift : drifts) {
         if (drift.promise == Promise::not_kept) continue;
         std::string name = prefix + drift.name + "_drift";
-        std::replace(name.begin(), name.end(), ' ', '_');
+        std::ranges::replace(name, ' ', '_');
         check({name, drift.change, 0.0, drift.limit,
                fmt::format("promise of the scheme: {}", to_string(drift.promise))});
     }
@@ -327,9 +327,7 @@ int Session::finish() {
         terminal_.warn(fmt::format("{}: stopped: {}", problem_.name_, guard_reason_));
         return 3;
     }
-    return std::all_of(checks_.begin(), checks_.end(), [](const Check& c) { return c.holds(); })
-               ? 0
-               : 1;
+    return std::ranges::all_of(checks_, [](const Check& c) { return c.holds(); }) ? 0 : 1;
 }
 
 }  // namespace spam

@@ -334,11 +334,9 @@ RunRecord Session::run_one(Case<Dim>& one, const RunFolder& folder) {
     return std::move(record);
 }
 
-template RunRecord Session::run(Model<1>&, std::vector<double>, Plan<1>);
-template RunRecord Session::run(Model<2>&, std::vector<double>, Plan<2>);
-template RunRecord Session::run(Model<3>&, std::vector<double>, Plan<3>);
-template std::vector<RunRecord> Session::run_all(std::vector<Case<1>>);
-template std::vector<RunRecord> Session::run_all(std::vector<Case<2>>);
-template std::vector<RunRecord> Session::run_all(std::vector<Case<3>>);
+#define SPAM_INSTANTIATE(D)                                                   \
+    template RunRecord Session::run(Model<D>&, std::vector<double>, Plan<D>); \
+    template std::vector<RunRecord> Session::run_all(std::vector<Case<D>>);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

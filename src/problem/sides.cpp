@@ -120,15 +120,11 @@ class Reader {
 
     double number(const std::string& text, const char* what, double least, double most,
                   const char* example) const {
-        double value = 0.0;
-        const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-        const char *const first = text.data() + (plus ? 1 : 0), *const last =
-                                                                    text.data() + text.size();
-        const auto [end, error] = std::from_chars(first, last, value);
-        if (error != std::errc{} || end != last || !(value >= least && value <= most))
+        const auto value = number_in(text);
+        if (!value || !(*value >= least && *value <= most))
             refuse(fmt::format("has '{}' for a {}; give a number between {:g} and {:g}, {}", text,
                                what, least, most, example));
-        return value;
+        return *value;
     }
 
     std::string option_, words_, kind_;

@@ -25,14 +25,24 @@ Points<2> triangular_hexagon(int n, double spacing) {
     return points;
 }
 
+namespace {
+
+/// Those of which the first `axes` coordinates are not farther than the radius.
+template <int Dim>
+Points<Dim> within(const Points<Dim>& points, Eigen::Index axes, double radius) {
+    std::vector<Eigen::Index> inside;
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+        if (points.col(k).head(axes).norm() <= radius * (1.0 + 1e-12)) inside.push_back(k);
+    return points(Eigen::all, inside);
+}
+
+}  // namespace
+
 Points<2> triangular_disk(double radius, double spacing) {
     // The hexagon around it: its sides are sqrt(3/4) of its corners' distance away.
     const Points<2> hexagon =
         triangular_hexagon(static_cast<int>(radius / spacing / std::sqrt(0.75)) + 1, spacing);
-    std::vector<Eigen::Index> inside;
-    for (Eigen::Index k = 0; k < hexagon.cols(); ++k)
-        if (hexagon.col(k).norm() <= radius * (1.0 + 1e-12)) inside.push_back(k);
-    return hexagon(Eigen::all, inside);
+    return within(hexagon, 2, radius);
 }
 
 Points<2> triangular_block(int columns, int rows, double spacing) {
@@ -88,18 +98,6 @@ Points<3> cubic_lattice(CubicLattice lattice, const std::array<int, 3>& cells, d
             points.col(k++) = spacing * cubic_edge(lattice) * (corner + site);
     return points;
 }
-
-namespace {
-
-/// Those of which the first `axes` coordinates are not farther than the radius.
-Points<3> within(const Points<3>& points, Eigen::Index axes, double radius) {
-    std::vector<Eigen::Index> inside;
-    for (Eigen::Index k = 0; k < points.cols(); ++k)
-        if (points.col(k).head(axes).norm() <= radius * (1.0 + 1e-12)) inside.push_back(k);
-    return points(Eigen::all, inside);
-}
-
-}  // namespace
 
 Points<3> ball_of(const Points<3>& points, double radius) { return within(points, 3, radius); }
 Points<3> cylinder_of(const Points<3>& points, double radius) { return within(points, 2, radius); }
@@ -157,14 +155,11 @@ Particles<Dim> joined(const std::vector<Particles<Dim>>& parts) {
     return all;
 }
 
-template Particles<1> joined<1>(const std::vector<Particles<1>>&);
-template Particles<2> joined<2>(const std::vector<Particles<2>>&);
-template Particles<3> joined<3>(const std::vector<Particles<3>>&);
-template Points<1> square_lattice<1>(const std::array<int, 1>&, double);
-template Points<2> square_lattice<2>(const std::array<int, 2>&, double);
-template Points<3> square_lattice<3>(const std::array<int, 3>&, double);
-template Particles<1> make_particles<1>(const Points<1>&, double, double, const Box<1>&, double);
-template Particles<2> make_particles<2>(const Points<2>&, double, double, const Box<2>&, double);
-template Particles<3> make_particles<3>(const Points<3>&, double, double, const Box<3>&, double);
+#define SPAM_INSTANTIATE(D)                                                                  \
+    template Particles<D> joined<D>(const std::vector<Particles<D>>&);                       \
+    template Points<D> square_lattice<D>(const std::array<int, D>&, double);                 \
+    template Particles<D> make_particles<D>(const Points<D>&, double, double, const Box<D>&, \
+                                            double);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

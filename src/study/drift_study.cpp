@@ -118,8 +118,7 @@ void DriftStudy::run(Session& session, const std::vector<Trial<Dim>>& trials) {
     report(session, words, methods, runs, table.rows(tasks), calls_per_time_);
 }
 
-template void DriftStudy::run(Session&, const std::vector<Trial<1>>&);
-template void DriftStudy::run(Session&, const std::vector<Trial<2>>&);
-template void DriftStudy::run(Session&, const std::vector<Trial<3>>&);
+#define SPAM_INSTANTIATE(D) template void DriftStudy::run(Session&, const std::vector<Trial<D>>&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

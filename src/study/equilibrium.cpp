@@ -36,11 +36,9 @@ Equilibrium equilibrium(Model<Dim>& model, std::span<const double> y, const std:
     return rest;
 }
 
-template Equilibrium equilibrium<1>(Model<1>&, std::span<const double>, const std::vector<bool>&,
-                                    double, double);
-template Equilibrium equilibrium<2>(Model<2>&, std::span<const double>, const std::vector<bool>&,
-                                    double, double);
-template Equilibrium equilibrium<3>(Model<3>&, std::span<const double>, const std::vector<bool>&,
-                                    double, double);
+#define SPAM_INSTANTIATE(D)                                                 \
+    template Equilibrium equilibrium<D>(Model<D>&, std::span<const double>, \
+                                        const std::vector<bool>&, double, double);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

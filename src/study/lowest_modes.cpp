@@ -126,11 +126,9 @@ LowestModes lowest_modes(Model<Dim>& model, std::span<const double> y,
     return lowest;
 }
 
-template LowestModes lowest_modes<1>(Model<1>&, std::span<const double>, const std::vector<bool>&,
-                                     std::size_t, double);
-template LowestModes lowest_modes<2>(Model<2>&, std::span<const double>, const std::vector<bool>&,
-                                     std::size_t, double);
-template LowestModes lowest_modes<3>(Model<3>&, std::span<const double>, const std::vector<bool>&,
-                                     std::size_t, double);
+#define SPAM_INSTANTIATE(D)                                                  \
+    template LowestModes lowest_modes<D>(Model<D>&, std::span<const double>, \
+                                         const std::vector<bool>&, std::size_t, double);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

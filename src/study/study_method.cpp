@@ -26,8 +26,8 @@ const IntegrationMethod& method_of_list(const std::string& name) {
 std::string StudyMethod::title() const {
     std::string words, word;
     const auto finish = [&] {
-        const bool numeral = std::all_of(word.begin(), word.end(),
-                                         [](unsigned char c) { return std::isdigit(c) != 0; });
+        const bool numeral =
+            std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
         const bool code = word.find_first_of("0123456789") != std::string::npos;
         if (!word.empty() && !numeral && word != "ERK") {
             for (std::size_t k = 1; !code && k < word.size(); ++k)
@@ -39,7 +39,7 @@ std::string StudyMethod::title() const {
     const std::string orders = (multistep ? "1-" : "") + std::to_string(order);
     if (!name.starts_with("arkode:")) {
         words = name;
-        std::replace(words.begin(), words.end(), ':', ' ');
+        std::ranges::replace(words, ':', ' ');
         return fmt::format("{} ({})", words, orders);
     }
     for (const char c : name.substr(name.find(':') + 1))
@@ -58,18 +58,10 @@ std::string StudyMethod::word() const {
     return text;
 }
 
-IntegratorOptions StudyMethod::with_step(double dt) const {
-    IntegratorOptions options;
-    options.method = name;
-    options.dt = dt;
-    return options;
-}
+IntegratorOptions StudyMethod::with_step(double dt) const { return {.method = name, .dt = dt}; }
 
 IntegratorOptions StudyMethod::with_tolerance(double tolerance) const {
-    IntegratorOptions options;
-    options.method = name;
-    options.rtol = options.atol = tolerance;
-    return options;
+    return {.method = name, .rtol = tolerance, .atol = tolerance};
 }
 
 std::vector<StudyMethod> study_methods(std::string_view list,
@@ -113,8 +105,7 @@ void add_system_option(Options& options, std::vector<std::string> names, std::st
         "problem", names, "the system to study, or all of them",
         [&chosen, names](std::size_t k) { chosen = names[k]; },
         [&chosen, names] {
-            return static_cast<std::size_t>(std::find(names.begin(), names.end(), chosen) -
-                                            names.begin());
+            return static_cast<std::size_t>(std::ranges::find(names, chosen) - names.begin());
         });
 }
 

@@ -63,10 +63,7 @@ double least_seconds(const Start<Dim>& start, const IntegratorOptions& options, 
 
 template <int Dim>
 double calls_per_step(const Start<Dim>& start, const std::string& method, double dt) {
-    IntegratorOptions options;
-    options.method = method;
-    options.dt = dt;
-    Motion<Dim> motion(*start.model, start.y0, options);
+    Motion<Dim> motion(*start.model, start.y0, {.method = method, .dt = dt});
     const auto calls = [&] { return static_cast<double>(motion.statistics().rhs_evaluations); };
     motion.step(1e3 * dt);  // the first may cost more
     const double before = calls();

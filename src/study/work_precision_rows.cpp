@@ -100,11 +100,10 @@ std::optional<StudyTable::Row> measure(const Trial<Dim>& trial, Reference<Dim>& 
     return row;
 }
 
-template std::optional<StudyTable::Row> measure(const Trial<1>&, Reference<1>&, const StudyMethod&,
-                                                const IntegratorOptions&, std::size_t);
-template std::optional<StudyTable::Row> measure(const Trial<2>&, Reference<2>&, const StudyMethod&,
-                                                const IntegratorOptions&, std::size_t);
-template std::optional<StudyTable::Row> measure(const Trial<3>&, Reference<3>&, const StudyMethod&,
-                                                const IntegratorOptions&, std::size_t);
+#define SPAM_INSTANTIATE(D)                                                                       \
+    template std::optional<StudyTable::Row> measure(const Trial<D>&, Reference<D>&,               \
+                                                    const StudyMethod&, const IntegratorOptions&, \
+                                                    std::size_t);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam::work_precision

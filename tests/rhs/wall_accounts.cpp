@@ -66,6 +66,7 @@ struct Accounts {
     };
     Of all;
     std::array<Of, 2 * Dim> side;
+    Eigen::VectorXd torque;
 };
 template <int Dim>
 Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
@@ -88,7 +89,8 @@ Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
     const auto vector = [&](Field field) {
         return rate.has(field) ? Point<Dim>(rate.field(field)) : Point<Dim>(Point<Dim>::Zero());
     };
-    Accounts<Dim> found{{vector(Field::impulse), number(Field::work), number(Field::heat)}, {}};
+    Accounts<Dim> found{{vector(Field::impulse), number(Field::work), number(Field::heat)}, {}, {}};
+    found.torque = rate.field(Field::angular_impulse);
     for (int side = 0; side < 2 * Dim; ++side) {
         const int a = side / 2;
         const bool upper = side % 2 == 1;
@@ -227,6 +229,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_a_pair_potential_are_those_of_all_pairs,
     const Lucy<Dim> w(range);
     std::array<Point<Dim>, 2 * Dim> expected;
     expected.fill(Point<Dim>::Zero());
+    Eigen::VectorXd torque = Eigen::VectorXd::Zero(2 * Dim - 3);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
         for (Eigen::Index k = 0; k < images.count(); ++k) {
             const Point<Dim> apart = x.col(i) - images.position.col(k);
@@ -237,13 +240,36 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(forces_of_a_pair_potential_are_those_of_all_pairs,
                 if (s % 2 == 1 ? images.position(s / 2, k) > box.wall(s / 2, true).at
                                : images.position(s / 2, k) < box.wall(s / 2, false).at)
                     side = s;
-            expected[static_cast<std::size_t>(side)] += all.mass[static_cast<std::size_t>(i)] *
-                                                        all.mass[static_cast<std::size_t>(j)] *
-                                                        w.minus_slope_over_r(apart.norm()) * apart;
+            const Point<Dim> force = all.mass[static_cast<std::size_t>(i)] *
+                                     all.mass[static_cast<std::size_t>(j)] *
+                                     w.minus_slope_over_r(apart.norm()) * apart;
+            expected[static_cast<std::size_t>(side)] += force;
+            const Point<Dim> at = x.col(i);
+            if constexpr (Dim == 2) torque[0] += at.x() * force.y() - at.y() * force.x();
+            if constexpr (Dim == 3) torque += at.cross(force);
         }
+    BOOST_TEST((found.torque - torque).norm() < 1e-12 * expected[0].norm() * x.norm());
+    BOOST_TEST(torque.norm() > 1e-3);
     for (std::size_t side = 0; side < 2 * Dim; ++side)
         BOOST_TEST((found.side[side].impulse - expected[side]).norm() <
                    1e-12 * expected[side].norm());
+}
+
+/// Stress acts across r_ij and turns a body: that is not what walls give that nothing is near.
+BOOST_AUTO_TEST_CASE_TEMPLATE(walls_out_of_reach_give_no_torque, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    Box<Dim> box;
+    for (int a = 0; a < Dim; ++a)
+        for (const bool upper : {false, true}) {
+            Wall<Dim> wall = mirror<Dim>;
+            wall.at = upper ? 100.0 : -100.0;
+            box.set_wall(a, upper, wall);
+        }
+    for (const Law<Dim>& law : laws<Dim>()) BOOST_TEST_CONTEXT(law.name) {
+            const Accounts<Dim> found = accounts_of(law.build, box);
+            BOOST_TEST(found.torque.norm() == 0.0);
+            BOOST_TEST(found.all.heat == 0.0);
+        }
 }
 
 /// Over a run: reflections, lists of many ages, gravity. What the walls have given, wall by wall, is what has

@@ -16,8 +16,7 @@ Sweeps<Dim> ellipse_sweeps() {
     return sweeps;
 }
 
-template Sweeps<1> ellipse_sweeps<1, InstructionSet::SPAM_LEVEL>();
-template Sweeps<2> ellipse_sweeps<2, InstructionSet::SPAM_LEVEL>();
-template Sweeps<3> ellipse_sweeps<3, InstructionSet::SPAM_LEVEL>();
+#define SPAM_INSTANTIATE(D) template Sweeps<D> ellipse_sweeps<D, InstructionSet::SPAM_LEVEL>();
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -112,8 +112,8 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
     damping_ = Parts::here().most(damping_);
     nature_.reach = Parts::here().most(nature_.reach);
     set_nature();
-    const bool fluids = std::any_of(materials_.begin(), materials_.end(),
-                                    [](const Material& m) { return m.fluid(); });
+    const bool fluids =
+        std::ranges::any_of(materials_, [](const Material& m) { return m.fluid(); });
     if (materials_.size() > 1)
         for (const Field field : nature_.element_fields)
             if (fluids || (field != Field::stress && field != Field::energy))
@@ -130,12 +130,9 @@ Elements::Elements(const Selection<2>& nodes, std::vector<Quadrilateral> corners
 void Elements::set_nature() {
     auto& fields = nature_.element_fields;
     const auto add = [&fields](Field field, bool wanted) {
-        if (wanted && std::find(fields.begin(), fields.end(), field) == fields.end())
-            fields.push_back(field);
+        if (wanted && std::ranges::find(fields, field) == fields.end()) fields.push_back(field);
     };
-    const auto any = [this](const auto& holds) {
-        return std::any_of(materials_.begin(), materials_.end(), holds);
-    };
+    const auto any = [this](const auto& holds) { return std::ranges::any_of(materials_, holds); };
     add(Field::stress, any([](const Material& one) { return one.solid(); }));
     add(Field::energy, any([](const Material& one) { return !one.cold(); }));
     add(field_kind::hourglass_force, elastic_hourglass_);
@@ -256,7 +253,7 @@ std::string Elements::rates(const Now& now) {
                                                     returned_.data(), state, rate);
                           });
     });
-    const auto inverted = std::find(inverted_.begin(), inverted_.end(), 1);
+    const auto inverted = std::ranges::find(inverted_, 1);
     if (inverted != inverted_.end())
         return fmt::format("element {} is turned inside out",
                            number_of(static_cast<std::size_t>(inverted - inverted_.begin())));

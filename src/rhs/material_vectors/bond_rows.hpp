@@ -30,8 +30,6 @@ class BondRows {
     std::size_t particles() const { return count_.size(); }
     std::size_t groups() const { return first_.size() - 1; }
     std::size_t lanes() const { return lanes_; }
-    /// Without vacancies; both directions of each pair.
-    std::size_t bonds() const { return bonds_; }
     /// Each pair is counted in one part of the run.
     std::size_t pairs() const;
 
@@ -93,9 +91,6 @@ class BondRows {
         return static_cast<std::uint32_t>(first_[k / lanes_] + m * lanes_ +
                                           place_of_lane(k % lanes_, lanes_)) +
                shift_[k / block];
-    }
-    std::size_t capacity(std::size_t k) const {
-        return (first_[k / lanes_ + 1] - first_[k / lanes_]) / lanes_;
     }
     class Meetings;
     void add(BondNumbers& contents, std::size_t k, std::size_t m) const;

@@ -23,7 +23,6 @@ class OtherPartners {
 
     /// Whether the run is in one part.
     bool none() const { return home_.empty(); }
-    std::size_t count() const { return others_.size(); }
     /// One behind the last one.
     std::size_t places() const { return behind_ + others_.size(); }
     bool elsewhere(std::size_t place) const { return place >= behind_; }

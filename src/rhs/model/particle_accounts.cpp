@@ -61,12 +61,12 @@ void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<
     book(external, {exact_sums_of_blocks<Given::count>(now.particles.size(), give)}, now.rate);
 }
 
-/// What particles do to each other cancels in the sums over all of them: what is left came through the
-/// walls. Of the energy that passes them a moving wall's force times its velocity is work, the rest heat.
+/// Of momentum and energy what particles do to each other cancels in the sums over all of them: what is left came
+/// through the walls. Of the energy that passes them a moving wall's force times its velocity is work, the rest heat.
+/// Torques do not cancel where forces act across r_ij: of them only those by images are the walls' (book_wall).
 template <int Dim>
 void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
-    const auto x = now.state.position(), v = now.state.velocity();
-    const auto u = now.rate.position(), v_dot = now.rate.velocity();
+    const auto v = now.state.velocity(), v_dot = now.rate.velocity();
     const bool energy = this->box().passes_energy() && now.rate.has(Field::energy);
     Given sum = Given::to_all(now.particles.size(), [&](std::size_t k) {
         const auto i = static_cast<Eigen::Index>(k);
@@ -74,12 +74,10 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
         const Point<Dim> force = m * v_dot.col(i);
         Given given;
         given.force() = force;
-        given.torque() = moment<Dim>(x.col(i), force) + m * moment<Dim>(u.col(i), v.col(i));
         if (energy) given.power() = force.dot(v.col(i)) + m * now.rate.energy()(0, i);
         return given;
     });
     now.rate.field(Field::impulse) += sum.force();
-    if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque();
     double work = 0.0;
     for_each_wall([&](int a, bool upper, const Wall<Dim>& wall) {
         if (!wall.has_images()) return;
@@ -95,29 +93,31 @@ void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
 template <int Dim>
 void ParticleModel<Dim>::book_wall(const typename External<Dim>::Now& now, int a, bool upper,
                                    const Wall<Dim>& wall) const {
-    const auto v = now.state.velocity();
+    const auto x = now.state.position(), v = now.state.velocity();
     const bool energy = wall.passes_energy() && now.rate.has(Field::energy);
     Given sum;
     const auto give = [&](std::size_t first, const BehindWall<Dim>& rates) {
         Given given = Given::to_all(rates.particle.size(), [&](std::size_t k) {
-            const std::size_t i = first + rates.particle[k];
-            const double m = now.particles.mass[i];
+            const std::size_t number = first + rates.particle[k];
+            const auto i = static_cast<Eigen::Index>(number);
+            const double m = now.particles.mass[number];
             const Point<Dim> one =
                 m * Eigen::Map<const Point<Dim>>(&rates.v_dot[Dim * rates.place[k]]);
             Given to;
             to.force() = one;
-            if (energy)
-                to.power() =
-                    one.dot(v.col(static_cast<Eigen::Index>(i))) + m * rates.e_dot[rates.place[k]];
+            to.torque() = moment<Dim>(x.col(i), one);
+            if (energy) to.power() = one.dot(v.col(i)) + m * rates.e_dot[rates.place[k]];
             return to;
         });
         sum.force() += given.force();
+        sum.torque() += given.torque();
         sum.power() += given.power();
     };
     for (const auto& term : terms_)
         for (const auto* near : term->neighbourhoods())
             if (const auto* rates = near->behind(a, upper)) give(term->among().first(), *rates);
     now.rate.field(Field::wall_impulse(a, upper)) += sum.force();
+    if constexpr (Dim > 1) now.rate.field(Field::angular_impulse) += sum.torque();
     if (!energy) return;
     const double work = sum.force().dot(wall.velocity);
     now.rate.field(Field::wall_work(a, upper))(0, 0) += work;

@@ -86,8 +86,8 @@ void ParticleModel<Dim>::add(std::shared_ptr<External<Dim>> external) {
 
 template <int Dim>
 bool ParticleModel<Dim>::moves_with_velocity() const {
-    return std::all_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return term->nature().moves_with_velocity; });
+    return std::ranges::all_of(terms_,
+                               [](const auto& term) { return term->nature().moves_with_velocity; });
 }
 
 /// In their order. The first finds its v_dot in place, where it finds all of it; what the others find is
@@ -99,7 +99,7 @@ bool ParticleModel<Dim>::term_rates(double t, std::span<const double> y, std::sp
     double* const v_dot = rate.velocity().data();
     bool moved = false;
     if (!whole_ || terms_.empty()) {
-        std::fill(y_dot.begin(), y_dot.end(), 0.0);
+        std::ranges::fill(y_dot, 0.0);
         rate.position() = state.velocity();
         moved = true;
     }
@@ -187,7 +187,7 @@ std::vector<double> ParticleModel<Dim>::density(std::span<const double> y) const
             known[first + k] = of_term[first + k] = true;
         }
     }
-    if (std::find(known.begin(), known.end(), false) != known.end()) rho.clear();
+    if (std::ranges::find(known, false) != known.end()) rho.clear();
     if (!rho.empty())
         for (const auto& external : externals_) external->add_density({this->layout(), y}, rho);
     return rho;
@@ -209,13 +209,12 @@ std::vector<Event> ParticleModel<Dim>::events() const {
             for (Event& event : term->nature().events(held)) events.push_back(std::move(event));
     Parts& parts = Parts::here();
     // What does not move never meets.
-    if (events.empty() || !parts.any(std::find(held.begin(), held.end(), false) != held.end()))
-        return {};
+    if (events.empty() || !parts.any(std::ranges::find(held, false) != held.end())) return {};
     if (parts.any(guided))
         throw InputError(
             "closest-approach: a reflection would change the velocity that is prescribed along one "
             "axis; hold those particles altogether, or leave the closest approach out");
-    if (!parts.any(std::find(held.begin(), held.end(), true) != held.end())) return events;
+    if (!parts.any(std::ranges::find(held, true) != held.end())) return events;
     for (Event& event : events)
         event.apply = [this, apply = std::move(event.apply)](double t, std::span<double> y) {
             const State<Dim> state(this->layout(), y);
@@ -265,16 +264,14 @@ std::string ParticleModel<Dim>::inseparable() const {
 template <int Dim>
 bool ParticleModel<Dim>::settles() const {
     return walled_ || Model<Dim>::settles() ||
-           std::any_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return term->nature().settles; });
+           std::ranges::any_of(terms_, [](const auto& term) { return term->nature().settles; });
 }
 
 template <int Dim>
 bool ParticleModel<Dim>::settles_seldom() const {
-    return !walled_ && !Model<Dim>::settles() &&
-           std::all_of(terms_.begin(), terms_.end(), [](const auto& term) {
-               return !term->nature().settles || term->nature().settles_seldom;
-           });
+    return !walled_ && !Model<Dim>::settles() && std::ranges::all_of(terms_, [](const auto& term) {
+        return !term->nature().settles || term->nature().settles_seldom;
+    });
 }
 
 template <int Dim>
@@ -295,8 +292,7 @@ double ParticleModel<Dim>::neighbour_forces(std::span<const double> y) const {
 
 template <int Dim>
 bool ParticleModel<Dim>::smooth() const {
-    return std::all_of(terms_.begin(), terms_.end(),
-                       [](const auto& term) { return term->nature().smooth; });
+    return std::ranges::all_of(terms_, [](const auto& term) { return term->nature().smooth; });
 }
 
 template <int Dim>

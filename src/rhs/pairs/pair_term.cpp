@@ -65,8 +65,7 @@ PairTerm<Dim>::~PairTerm() = default;
 template <int Dim>
 std::vector<NumberKind> PairTerm<Dim>::record_kinds() const {
     std::vector<NumberKind> kinds(static_cast<std::size_t>(law_.sweeps.numbers));
-    std::copy(law_.kinds.begin(), law_.kinds.end(),
-              kinds.begin() + static_cast<std::ptrdiff_t>(own_columns()));
+    std::ranges::copy(law_.kinds, kinds.begin() + static_cast<std::ptrdiff_t>(own_columns()));
     return kinds;
 }
 

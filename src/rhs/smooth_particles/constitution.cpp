@@ -21,8 +21,7 @@ void check_materials(const Particles<Dim>& particles, std::size_t materials) {
                             particles.id[i], particles.material[i], materials));
 }
 
-template void check_materials(const Particles<1>&, std::size_t);
-template void check_materials(const Particles<2>&, std::size_t);
-template void check_materials(const Particles<3>&, std::size_t);
+#define SPAM_INSTANTIATE(D) template void check_materials(const Particles<D>&, std::size_t);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

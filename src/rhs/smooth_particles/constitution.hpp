@@ -143,8 +143,10 @@ class FluidConstitution final : public Constitution<Dim> {
 
     const Fluid& of(std::size_t i) const;
     const Fluid& first() const { return fluids_.front(); }
-    std::vector<double> pressures(std::span<const double> rho, std::span<const double> e) const;
-    std::vector<double> temperatures(std::span<const double> rho, std::span<const double> e) const;
+    /// Pressures, say, of all particles.
+    using Value = double (AnyEquationOfState::*)(double rho, double e) const;
+    std::vector<double> of_all(Value value, std::span<const double> rho,
+                               std::span<const double> e) const;
 
   private:
     void find_pressures(std::span<const double> rho, std::span<const double> e);

@@ -251,7 +251,7 @@ double FluidConstitution<Dim>::sound_speed_of(std::size_t i) const {
 template <int Dim>
 double FluidConstitution<Dim>::stress_forces(const ConstState<Dim>& state,
                                              std::span<const double> rho) const {
-    const auto P = pressures(rho, {state.energy().data(), rho.size()});
+    const auto P = of_all(&AnyEquationOfState::pressure, rho, {state.energy().data(), rho.size()});
     return exact_sum(P.size(), [&](std::size_t i) {
         return this->particles_.mass[i] * std::abs(P[i]) / rho[i];
     });

@@ -71,7 +71,7 @@ bool conducts(const Fluid& fluid) { return fluid.conduction && fluid.conduction-
 
 bool has_shear(const Fluid& fluid) {
     const auto& newton = fluid.viscosity;
-    return newton &&
+    return newton && newton->eta > 0.0 &&
            !(fluid.by_pairs && std::abs(newton->eta - newton->lambda) <= rounding * newton->eta);
 }
 
@@ -96,7 +96,7 @@ void check_fluid(const Fluid& fluid, int dim) {
     }
     if (!fluid.conduction) return;
     refuse_negative("conductivity", fluid.conduction->kappa);
-    check_temperature(fluid);
+    if (conducts(fluid)) check_temperature(fluid);
 }
 
 void check_fluids(const std::vector<Fluid>& fluids, int dim) {

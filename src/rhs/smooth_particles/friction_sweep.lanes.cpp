@@ -9,8 +9,7 @@ Sweep<Dim> friction_sweep() {
     return run_sweep<GeneralSweep, W, Dim, FrictionRecord<Dim>, PairFriction<Dim>, PairConduction>;
 }
 
-template Sweep<1> friction_sweep<1, InstructionSet::SPAM_LEVEL>();
-template Sweep<2> friction_sweep<2, InstructionSet::SPAM_LEVEL>();
-template Sweep<3> friction_sweep<3, InstructionSet::SPAM_LEVEL>();
+#define SPAM_INSTANTIATE(D) template Sweep<D> friction_sweep<D, InstructionSet::SPAM_LEVEL>();
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -70,8 +70,7 @@ double GaussForces<Dim>::health() const {
 
 template <int Dim>
 bool GaussForces<Dim>::singular() const {
-    return std::any_of(multipliers_.begin(), multipliers_.end(),
-                       [](const auto& m) { return m.singular; });
+    return std::ranges::any_of(multipliers_, [](const auto& m) { return m.singular; });
 }
 
 template class GaussForces<2>;

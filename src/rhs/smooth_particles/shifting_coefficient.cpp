@@ -55,11 +55,9 @@ double shifting_coefficient(const Selection<Dim>& among, const Scheme& scheme, d
     return scheme.shifting * *sound_speed * scheme.range;
 }
 
-template double shifting_coefficient(const Selection<1>&, const Scheme&, double,
-                                     std::optional<double>);
-template double shifting_coefficient(const Selection<2>&, const Scheme&, double,
-                                     std::optional<double>);
-template double shifting_coefficient(const Selection<3>&, const Scheme&, double,
-                                     std::optional<double>);
+#define SPAM_INSTANTIATE(D)                                                          \
+    template double shifting_coefficient(const Selection<D>&, const Scheme&, double, \
+                                         std::optional<double>);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

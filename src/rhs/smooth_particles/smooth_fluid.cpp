@@ -15,33 +15,27 @@ const Fluid& SmoothParticles<Dim>::fluid() const {
 }
 
 template <int Dim>
-std::vector<double> FluidConstitution<Dim>::pressures(std::span<const double> rho,
-                                                      std::span<const double> e) const {
-    std::vector<double> P(rho.size());
-    for (std::size_t i = 0; i < P.size(); ++i) P[i] = of(i).state.pressure(rho[i], e[i]);
-    return P;
-}
-
-template <int Dim>
-std::vector<double> FluidConstitution<Dim>::temperatures(std::span<const double> rho,
-                                                         std::span<const double> e) const {
-    std::vector<double> T(rho.size());
-    for (std::size_t i = 0; i < T.size(); ++i) T[i] = of(i).state.temperature(rho[i], e[i]);
-    return T;
+std::vector<double> FluidConstitution<Dim>::of_all(Value value, std::span<const double> rho,
+                                                   std::span<const double> e) const {
+    std::vector<double> all(rho.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = (of(i).state.*value)(rho[i], e[i]);
+    return all;
 }
 
 template <int Dim>
 std::vector<double> SmoothParticles<Dim>::pressure(std::span<const double> y) const {
     const auto rho = this->densities(y);
     return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
-        .pressures(rho, {this->state_of(y).energy().data(), rho.size()});
+        .of_all(&AnyEquationOfState::pressure, rho,
+                {this->state_of(y).energy().data(), rho.size()});
 }
 
 template <int Dim>
 std::vector<double> SmoothParticles<Dim>::temperature(std::span<const double> y) const {
     const auto rho = this->densities(y);
     return dynamic_cast<const FluidConstitution<Dim>&>(*constitution_)
-        .temperatures(rho, {this->state_of(y).energy().data(), rho.size()});
+        .of_all(&AnyEquationOfState::temperature, rho,
+                {this->state_of(y).energy().data(), rho.size()});
 }
 
 template <int Dim>
@@ -79,10 +73,8 @@ void SmoothParticles<Dim>::take_over(const Term<Dim>& /*before*/, const ConstSta
 }
 
 #define SPAM_INSTANTIATE(D)                                                                      \
-    template std::vector<double> FluidConstitution<D>::pressures(std::span<const double>,        \
-                                                                 std::span<const double>) const; \
-    template std::vector<double> FluidConstitution<D>::temperatures(                             \
-        std::span<const double>, std::span<const double>) const;                                 \
+    template std::vector<double> FluidConstitution<D>::of_all(Value, std::span<const double>,    \
+                                                              std::span<const double>) const;    \
     template const Fluid& SmoothParticles<D>::fluid() const;                                     \
     template std::vector<double> SmoothParticles<D>::pressure(std::span<const double>) const;    \
     template std::vector<double> SmoothParticles<D>::temperature(std::span<const double>) const; \

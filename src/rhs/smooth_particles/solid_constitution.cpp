@@ -19,8 +19,8 @@ class SolidConstitution final : public Constitution<Dim> {
         : Constitution<Dim>(particles),
           materials_(std::move(materials)) {
         if (materials_.empty()) throw InputError("material: none is given; give one at least");
-        if (std::any_of(materials_.begin(), materials_.end(),
-                        [](const auto& material) { return material.returns(); }))
+        if (std::ranges::any_of(materials_,
+                                [](const auto& material) { return material.returns(); }))
             returned_.resize(symmetric_size(Dim) * particles.size());
     }
 
@@ -43,8 +43,7 @@ class SolidConstitution final : public Constitution<Dim> {
         std::vector<Field> fields{Field::stress, Field::energy};
         for (const auto& material : materials_)
             for (const Field field : material.history())
-                if (std::find(fields.begin(), fields.end(), field) == fields.end())
-                    fields.push_back(field);
+                if (std::ranges::find(fields, field) == fields.end()) fields.push_back(field);
         return fields;
     }
     std::string describe() const override {
@@ -151,11 +150,9 @@ std::unique_ptr<Constitution<Dim>> solid_constitution(const Particles<Dim>& part
     return std::make_unique<SolidConstitution<Dim>>(particles, std::move(solids));
 }
 
-template std::unique_ptr<Constitution<1>> solid_constitution(const Particles<1>&,
-                                                             std::vector<Material<1>>);
-template std::unique_ptr<Constitution<2>> solid_constitution(const Particles<2>&,
-                                                             std::vector<Material<2>>);
-template std::unique_ptr<Constitution<3>> solid_constitution(const Particles<3>&,
-                                                             std::vector<Material<3>>);
+#define SPAM_INSTANTIATE(D)                                                           \
+    template std::unique_ptr<Constitution<D>> solid_constitution(const Particles<D>&, \
+                                                                 std::vector<Material<D>>);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam

@@ -36,8 +36,7 @@ Sweeps<Dim> registered_sweeps(const std::string& name) {
 }
 
 SPAM_COMPILED(template struct RegisterSweeps);
-template Sweeps<1> registered_sweeps(const std::string&);
-template Sweeps<2> registered_sweeps(const std::string&);
-template Sweeps<3> registered_sweeps(const std::string&);
+#define SPAM_INSTANTIATE(D) template Sweeps<D> registered_sweeps(const std::string&);
+SPAM_IN_EACH_DIMENSION(SPAM_INSTANTIATE)
 
 }  // namespace spam
