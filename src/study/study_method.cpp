@@ -61,7 +61,7 @@ std::string StudyMethod::word() const {
 IntegratorOptions StudyMethod::with_step(double dt) const { return {.method = name, .dt = dt}; }
 
 IntegratorOptions StudyMethod::with_tolerance(double tolerance) const {
-    return {.method = name, .rtol = tolerance, .atol = tolerance};
+    return {.method = name, .dt = {}, .rtol = tolerance, .atol = tolerance};
 }
 
 std::vector<StudyMethod> study_methods(std::string_view list,
