@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <spam/core/error.hpp>
+#include <spam/core/text.hpp>
 #include <spam/problem/sides.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <utility>
 

@@ -254,6 +254,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
     BOOST_TEST(says(why_refused(gas, {.range = 0.9}), "range"));
     BOOST_TEST(says(why_refused(gas, {.range = 41.0}, periodic<2>(8.0)), "box: periodic length 8"));
     BOOST_TEST(says(why_refused({LucyGas{}, {}, FourierConduction{1.0}}, {}), "has none"));
+    BOOST_TEST(why_refused({LucyGas{}, {}, FourierConduction{0.0}}, {}) == "accepted");
     BOOST_TEST(says(why_refused({IdealGas{}, NewtonViscosity{0.0, -1.0}}, {}), "shear viscosity"));
     BOOST_TEST(says(why_refused({IdealGas{}, NewtonViscosity{-2.0, 1.0}}, {}), "bulk viscosity"));
     BOOST_TEST(why_refused({IdealGas{}, NewtonViscosity{-1.0, 1.0}}, {}) == "accepted");
@@ -262,6 +263,8 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
     for (const auto law : {AngularMomentum::torque_pair, AngularMomentum::torque_particle}) {
         Scheme balanced{.transport = Transport::average, .angular_momentum = law, .viscosity = 1.0};
         BOOST_TEST(says(why_refused(gas, balanced), "has nothing"));
+        BOOST_TEST(says(why_refused({IdealGas{}, NewtonViscosity{0.1, 0.0}}, balanced),
+                        "has nothing"));  // bulk viscosity alone
         BOOST_TEST(why_refused({IdealGas{}, NewtonViscosity{0.0, 1.0}}, balanced) == "accepted");
         balanced.transport = Transport::monaghan;
         BOOST_TEST(why_refused(gas, balanced) == "accepted");

@@ -68,6 +68,7 @@ struct Accounts {
     Of all;
     std::array<Of, 2 * Dim> side;
     Eigen::VectorXd torque;
+    double turning = 0.0;  ///< of sum m x cross a that in the plane of x and y, whatever gives it
 };
 template <int Dim>
 Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
@@ -90,8 +91,13 @@ Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
     const auto vector = [&](Field field) {
         return rate.has(field) ? Point<Dim>(rate.field(field)) : Point<Dim>(Point<Dim>::Zero());
     };
-    Accounts<Dim> found{{vector(Field::impulse), number(Field::work), number(Field::heat)}, {}, {}};
+    Accounts<Dim> found{};
+    found.all = {vector(Field::impulse), number(Field::work), number(Field::heat)};
     found.torque = rate.field(Field::angular_impulse);
+    const auto x = here.position(), a = rate.velocity();
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        found.turning += model->particles().mass[static_cast<std::size_t>(i)] *
+                         (x(0, i) * a(1, i) - x(1, i) * a(0, i));
     for (int side = 0; side < 2 * Dim; ++side) {
         const int a = side / 2;
         const bool upper = side % 2 == 1;
@@ -269,6 +275,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(walls_out_of_reach_give_no_torque, In, PlaneAndSpa
     for (const Law<Dim>& law : laws<Dim>()) BOOST_TEST_CONTEXT(law.name) {
             const Accounts<Dim> found = accounts_of(law.build, box);
             BOOST_TEST(found.torque.norm() == 0.0);
+            if (law.name == std::string("solid")) BOOST_TEST(std::abs(found.turning) > 1e-2);
             BOOST_TEST(found.all.heat == 0.0);
         }
 }
