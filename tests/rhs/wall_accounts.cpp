@@ -94,10 +94,10 @@ Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
     Accounts<Dim> found{};
     found.all = {vector(Field::impulse), number(Field::work), number(Field::heat)};
     found.torque = rate.field(Field::angular_impulse);
-    const auto x = here.position(), a = rate.velocity();
+    const auto x = here.position(), dv = rate.velocity();
     for (Eigen::Index i = 0; i < x.cols(); ++i)
         found.turning += model->particles().mass[static_cast<std::size_t>(i)] *
-                         (x(0, i) * a(1, i) - x(1, i) * a(0, i));
+                         (x(0, i) * dv(1, i) - x(1, i) * dv(0, i));
     for (int side = 0; side < 2 * Dim; ++side) {
         const int a = side / 2;
         const bool upper = side % 2 == 1;
