@@ -236,7 +236,12 @@ void Ghosts<Dim>::build(const Box<Dim>& box, double reach, const Points<Dim>& po
     first_ = static_cast<std::uint32_t>(first);
     places_.clear();
     images_.clear();
-    for (int a = 0; a < Dim; ++a) walled_[static_cast<std::size_t>(a)] = box.walled(a);
+    for (std::size_t side = 0; side < gives_.size(); ++side) {
+        const Wall<Dim>& wall = box.wall(static_cast<int>(side / 2), side % 2 == 1);
+        gives_[side] = wall.open()            ? Gives::nothing
+                       : wall.passes_energy() ? Gives::energy
+                                              : Gives::forces;
+    }
     if (alone && !box.periodic() && !box.walled()) return take_places(box, x);
     at_.fill(unseen);
     const Corners own = around_ = bounds_of(position);

@@ -94,7 +94,8 @@ Accounts<Dim> accounts_of(const Build<Dim>& build, const Box<Dim>& box) {
     Accounts<Dim> found{};
     found.all = {vector(Field::impulse), number(Field::work), number(Field::heat)};
     found.torque = rate.field(Field::angular_impulse);
-    const auto x = here.position(), dv = rate.velocity();
+    const auto x = here.position();
+    const auto dv = rate.velocity();
     for (Eigen::Index i = 0; i < x.cols(); ++i)
         found.turning += model->particles().mass[static_cast<std::size_t>(i)] *
                          (x(0, i) * dv(1, i) - x(1, i) * dv(0, i));
@@ -205,6 +206,27 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(all_walls_together_give_what_is_given, In, PlaneAn
             BOOST_TEST(std::abs(sum.heat - found.all.heat) < 1e-12 * size);
             if (!mirrors) BOOST_TEST(std::abs(found.side[3].work) > 1e-3);
         }
+}
+
+/// Of images in a corner those of the moving warm wall take energy, not those of the mirror beside it: whatever the order
+/// of directions.
+BOOST_AUTO_TEST_CASE_TEMPLATE(mirrors_take_no_energy_in_corners, In, PlaneAndSpace) {
+    constexpr int Dim = In::value;
+    for (const Law<Dim>& law : laws<Dim>()) {
+        if (law.only_mirrors) continue;
+        BOOST_TEST_CONTEXT(law.name) for (const std::size_t warm_side : {0U, 3U}) {
+            Walls<Dim> walls;
+            walls.fill(mirror<Dim>);
+            walls[warm_side] = law.upper();
+            if (warm_side < 2) walls[warm_side]->velocity = 0.3 * Point<Dim>::Unit(1);
+            const Accounts<Dim> found = accounts_of(law.build, room<Dim>(walls));
+            const auto& of = found.side[warm_side];
+            const double size = std::abs(found.all.work) + std::abs(found.all.heat);
+            BOOST_TEST(size > 1e-3);
+            BOOST_TEST(std::abs(of.work - found.all.work) < 1e-11 * size);
+            BOOST_TEST(std::abs(of.heat - found.all.heat) < 1e-11 * size);
+        }
+    }
 }
 
 /// Walls that face each other are farther apart than particles see: each gives as if it were alone.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace spam {
@@ -44,14 +45,21 @@ class Ghosts {
     /// Where its slot is.
     std::size_t slot(std::size_t g) const { return first_ + g; }
 
-    /// Whether ghost number g is behind that wall across direction a; where it is an image of an image, the
-    /// wall of the last direction counts. Precondition: the side is not open.
+    /// Whether ghost number g is behind that wall across direction a. In a corner of two walls it is behind one of
+    /// them: that which passes energy, for what it takes does not stay with an insulated mirror; of two that are alike
+    /// the one across the last direction. Precondition: the side is not open.
     bool behind(std::size_t g, int a, bool upper) const {
-        for (int b = Dim - 1; b > a; --b)
-            if (walled_[static_cast<std::size_t>(b)] && number_along(code_[g], b) != middle)
+        const auto side_of = [&](int b) {
+            const std::uint32_t number = number_along(code_[g], b);
+            const std::size_t side = 2 * static_cast<std::size_t>(b) + (number > middle ? 1 : 0);
+            return std::pair(number == middle ? Gives::nothing : gives_[side], side);
+        };
+        const auto [own, side] = side_of(a);
+        if (own == Gives::nothing || (side % 2 == 1) != upper) return false;
+        for (int b = 0; b < Dim; ++b)
+            if (const Gives other = side_of(b).first; other > own || (other == own && b > a))
                 return false;
-        const std::uint32_t number = number_along(code_[g], a);
-        return upper ? number > middle : number < middle;
+        return true;
     }
 
     /// The numbers from `from` on in the records of all ghosts, as those of their owners are now. Returns whether
@@ -75,6 +83,8 @@ class Ghosts {
         std::uint32_t owner, number, code, unused;
         std::array<double, Dim> x;
     };
+    /// What is behind a side.
+    enum class Gives : unsigned char { nothing, forces, energy };
     struct Corners {
         std::array<double, Dim> low, high;
     };
@@ -114,11 +124,11 @@ class Ghosts {
     Corners around_{};  ///< the particles of a part, for which images are looked for
     std::uint32_t first_ = 0;
     std::vector<std::uint32_t> owner_, number_, code_, image_;
-    std::array<bool, Dim> walled_{};               ///< across that direction
-    std::vector<Image<Dim>> images_;               ///< those that occur
-    std::array<std::uint32_t, 1U << 4 * Dim> at_;  ///< in images_, by code
-    std::vector<Exchange> parts_;                  ///< empty where there is one part
-    mutable std::vector<double> changes_;          ///< sign and shift of every number, by image
+    std::array<Gives, 2 * std::size_t{Dim}> gives_{};  ///< lower and upper side of each direction
+    std::vector<Image<Dim>> images_;                   ///< those that occur
+    std::array<std::uint32_t, 1U << 4 * Dim> at_;      ///< in images_, by code
+    std::vector<Exchange> parts_;                      ///< empty where there is one part
+    mutable std::vector<double> changes_;              ///< sign and shift of every number, by image
 };
 
 SPAM_COMPILED(extern template class Ghosts);
