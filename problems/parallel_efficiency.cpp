@@ -155,12 +155,14 @@ void report(Session& session, std::size_t count, const Measured& found) {
     const Findings findings(session, found.name + "_");
     findings.check("different_numbers", static_cast<double>(found.different), 0.0, 0.0,
                    "the state does not depend on the number of processes");
-    findings.measure("efficiency", found.strong(count),
-                     "strong: processor time and least exchanges");
-    findings.measure("efficiency_by_clock", found.by_clock(count), "of the least turns");
-    findings.measure("speed_up", static_cast<double>(count) * found.strong(count));
-    if (std::isfinite(found.one_of_share.busy))
-        findings.measure("weak_efficiency", found.weak(), "one process with an equal share");
+    // A short turn may take no time at all by the clock of the processor, and there may be no share.
+    const auto measure = [&](const char* what, double ratio, const char* remark) {
+        if (std::isfinite(ratio)) findings.measure(what, ratio, remark);
+    };
+    measure("efficiency", found.strong(count), "strong: processor time and least exchanges");
+    measure("efficiency_by_clock", found.by_clock(count), "of the least turns");
+    measure("speed_up", static_cast<double>(count) * found.strong(count), "measured");
+    measure("weak_efficiency", found.weak(), "one process with an equal share");
     findings.measure("images_per_particle", found.images);
     findings.measure("exchanges_per_rhs", found.exchanges, "of each process");
     findings.measure("bytes_per_particle_and_rhs", found.bytes);

@@ -110,7 +110,8 @@ void run(Session& session, const Parameters& p, Drive drive) {
     for (int a = 0; a < 2; ++a)
         for (const bool upper : {false, true})
             rigid = rigid || box.wall(a, upper).kind == WallKind::rigid;
-    session.prefer_step(std::min(rigid ? 0.125 : 0.25, 0.4 / flows.back().exact.nu));
+    session.prefer_step(
+        std::min({rigid ? 0.125 : 0.25, 0.4 / flows.back().exact.nu, 0.6 / box.fastest_wall()}));
     const auto runs = run_all(session, flows, [&](Flow& flow) { return plan_of(session, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
     if (runs.size() == 3 && flows.front().known)
@@ -179,7 +180,8 @@ Flow make_flow(const Parameters& p, Drive drive, int cells, bool only_described)
 
 int main_of(int argc, char** argv, const std::string& name, const std::string& summary,
             Drive drive) {
-    Problem problem(name, summary, 0.25, "0.25, or shorter where friction is strong");
+    Problem problem(name, summary, 0.25,
+                    "0.25, or shorter where friction is strong or a side moves fast");
     problem.units(fluid_units());
     Parameters p;
     auto& options = problem.options();

@@ -44,7 +44,7 @@ void add_options(Options& options, Parameters& p, const std::string& speed_of_wh
 
 /// Of --help: step_of() in words, and what sides need.
 constexpr const char* step_words =
-    "0.1 h, or shorter where friction or shifting are strong, 0.025 h beside open or rigid sides";
+    "0.1 h, or shorter where friction or shifting are strong or a side moves fast, 0.025 h beside open or rigid sides";
 constexpr const char* sides_remark = "open and rigid sides need --transport plain";
 
 /// Where these are the defaults, something is known.

@@ -105,6 +105,10 @@ BOOST_AUTO_TEST_CASE(other_plates) {
                          "1.5e-5", "--speed", "0.001"},
                         "period");
     BOOST_TEST(near(stiff.value.at("period"), 0.5 * 0.29734, 1e-3));
+    for (const char* const ratio : {"--poisson=-0.9", "--poisson=-0.5"}) {
+        const Results widens("cantilever", {"--smoke", ratio}, "energy_drift");
+        BOOST_TEST(widens.value.at("energy_drift") < 5e-5);
+    }
     if (!long_runs()) return;  // the same law once more
     const Results heavy("cantilever", quick(5, {"--gravity", "2", "--speed", "0.001"}), "period");
     BOOST_TEST(near(heavy.value.at("period"), 0.297, 0.01));

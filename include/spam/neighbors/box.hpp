@@ -5,6 +5,7 @@
 #include <spam/core/vec.hpp>
 #include <spam/neighbors/wall.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -73,12 +74,12 @@ class Box {
                 if (!side.open() && side.passes_energy()) return true;
         return false;
     }
-    /// Whether a wall moves along itself.
-    bool moving_walls() const {
+    /// The largest speed of a wall along itself; 0 where none moves.
+    double fastest_wall() const {
+        double fastest = 0.0;
         for (const auto& sides : walls_)
-            for (const Wall<Dim>& side : sides)
-                if (!side.velocity.isZero()) return true;
-        return false;
+            for (const Wall<Dim>& side : sides) fastest = std::max(fastest, side.velocity.norm());
+        return fastest;
     }
     /// The same space with its walls taken away.
     Box without_walls() const {
