@@ -267,6 +267,28 @@ BOOST_AUTO_TEST_CASE(densities_at_the_start_know_of_walls) {
     BOOST_TEST(without > 0.3);
 }
 
+/// Particles that are closer than their spacing have shorter ranges, and friction finds room between walls that are
+/// nearer to each other than the usual range; how fast it acts is what it is where there is more room.
+BOOST_AUTO_TEST_CASE(friction_between_near_walls) {
+    const auto damping = [](int rows) {
+        Box<2> box({8.0, 0.0});
+        box.set_wall(1, false, {WallKind::mirror, 0.0});
+        box.set_wall(1, true, {WallKind::mirror, 0.5 * rows});
+        Points<2> x = cell_centres<2>({16, rows});
+        x *= 0.5;
+        Fluid water{IdealGas{2, 1.0}, NewtonViscosity{0.05, 0.1}};
+        water.by_pairs = true;
+        VariableRangeModel<2> model(make_particles<2>(x, 1.0), water, {3.0}, box);
+        const auto y = model.state(x, Points<2>::Zero(2, x.cols()), 1.0);
+        const auto y_dot = rates_of(model, y);
+        BOOST_TEST(model.failure().empty(), model.failure());
+        return model.fastest_damping(y);
+    };
+    const double near = damping(5), far = damping(16);
+    BOOST_TEST(far > 0.1);
+    BOOST_TEST(std::abs(near / far - 1.0) < 0.1);
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense) {
     const auto particles = jittered_particles<2>(8, 96);
     using Model = VariableRangeModel<2>;

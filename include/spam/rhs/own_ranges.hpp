@@ -70,6 +70,7 @@ class OwnRanges final : public Term<Dim> {
     const Fluid& of(std::size_t i) const;
     double range_of(std::size_t i, double rho) const;
     double most_range() const;
+    double resting_range() const;
     std::string find_ranges(const ConstState<Dim>& state);
     std::size_t close_own_sums(const Now& now);
     void load_friction(const Now& now);

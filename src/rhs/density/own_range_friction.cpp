@@ -40,7 +40,7 @@ double OwnRanges<Dim>::fastest_damping_in(std::span<const double> y) const {
         std::copy_n(state.density().data(), n, rho.data());
         std::copy_n(state.energy().data(), n, e.data());
     }
-    const double usual = scheme_.range * this->particles().spacing;
+    const double usual = resting_range();
     double fastest = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         const double wider = range_of(i, rho[i]) / usual;

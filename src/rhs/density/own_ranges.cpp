@@ -63,8 +63,7 @@ OwnRanges<Dim>::OwnRanges(const Selection<Dim>& among, std::vector<Fluid> fluids
                 "friction: with ranges that follow the density friction and conduction are those of pairs; set "
                 "Fluid::by_pairs, or use one range for all");
         rest_ = std::make_unique<const RestingBody>(resting_body(
-            this->particles(), this->box(),
-            GeneralWeight<Dim>(scheme.kernel, scheme.range * this->particles().spacing)));
+            this->particles(), this->box(), GeneralWeight<Dim>(scheme.kernel, resting_range())));
     }
     // How far it reaches is known with the first state.
     packed_ = std::make_unique<PackedParticles<Dim>>(
@@ -105,6 +104,14 @@ double OwnRanges<Dim>::most_range() const {
                  lower.has_images() && upper.has_images())
             most = std::min(most, upper.at - lower.at);
     return most;
+}
+
+/// Of the body at rest, whose sums say how fast friction acts: walls may be nearer than that where particles are closer
+/// to each other than their spacing.
+template <int Dim>
+double OwnRanges<Dim>::resting_range() const {
+    const double usual = scheme_.range * this->particles().spacing;
+    return usual < most_range() ? usual : 0.9 * most_range();
 }
 
 /// range_ and this->nature_.reach. Returns why they make no sense.
