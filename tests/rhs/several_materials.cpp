@@ -26,8 +26,8 @@ using Laws = std::vector<HyperelasticMaterial<2>>;
 constexpr double density = 1.1547005383792515;  // of the triangular lattice
 
 /// A block, the right two thirds of number 1.
-Particles<2> two_parts() {
-    auto particles = make_particles<2>(triangular_block(12, 10), 1.0);
+Particles<2> two_parts(int columns = 12) {
+    auto particles = make_particles<2>(triangular_block(columns, 10), 1.0);
     const double border = particles.reference_position.row(0).mean() - 2.0;
     for (std::size_t i = 0; i < particles.size(); ++i)
         particles.material.push_back(
@@ -136,6 +136,60 @@ BOOST_AUTO_TEST_CASE(one_flows_beside_one_that_does_not) {
     }
     BOOST_TEST(most[0] == 0.0);
     BOOST_TEST(most[1] > 1e-3);
+}
+
+/// The penalty is in units of a particle's own stiffness: the motion of particles that see their own kind alone, and what
+/// they store, are what they are in a body of one material, however stiff others are.
+BOOST_AUTO_TEST_CASE(the_penalty_is_that_of_a_particles_own_law) {
+    const PolynomialSolid steel{43.0, 43.0};
+    auto one_material = two_parts(24);
+    one_material.material.clear();
+    const auto alone = material_vectors(soft, one_material),
+               beside = material_vectors(Laws{soft, steel}, two_parts(24));
+    auto y = strained(*alone, stretch);
+    Eigen::Map<Eigen::ArrayXd> all(y.data(), static_cast<Eigen::Index>(y.size()));
+    all += 0.02 * (37.0 * Eigen::ArrayXd::LinSpaced(all.size(), 0.0, 1.0)).sin();  // misfits
+    const auto of_alone = rates_of(*alone, y), of_both = rates_of(*beside, y);
+    const auto a = ConstState<2>(alone->layout(), of_alone).velocity(),
+               b = ConstState<2>(beside->layout(), of_both).velocity();
+    const Points<2>& X = alone->particles().reference_position;
+    const double border = X.row(0).mean() - 2.0;
+    std::size_t inside = 0;
+    for (Eigen::Index i = 0; i < X.cols(); ++i) {
+        if (X(0, i) > border - 7.5) continue;  // two ranges, and a little
+        ++inside;
+        BOOST_TEST((a.col(i) - b.col(i)).norm() < 1e-12 * a.norm());
+    }
+    BOOST_TEST(inside > 10U);
+    BOOST_TEST((a - b).norm() > 1e-3 * a.norm());
+    // A soft particle bears as little tension beside steel as it does alone.
+    const auto bears = [&](const ParticleModel<2>& model) {
+        const auto& law = *model.term<MaterialVectors<2>>();
+        return law.largest_tension(y) / law.safe_tension();
+    };
+    BOOST_TEST(bears(*alone) > 0.0);
+    BOOST_TEST(bears(*beside) > 0.9 * bears(*alone));
+}
+
+/// Bonds of a law that does not flow keep their misfits, beside one whose bonds yield.
+BOOST_AUTO_TEST_CASE(bonds_yield_by_the_law_of_their_particle) {
+    const Laws laws{FlowingSolid{soft, 0.001}, stiff};
+    const auto particles = two_parts(24);
+    const auto model = std::make_unique<MaterialVectorModel<2>>(
+        particles, laws, MaterialVectorScheme{.density = density, .bond_yield = 1.0});
+    Motion<2> motion(*model, strained(*model, stretch), {.method = "rk4", .dt = 0.05});
+    motion.advance_to(2.0);
+    double heat[2] = {0.0, 0.0};
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        double& most = heat[particles.material[i]];
+        // Particles that see none of the others: what enters at the border may be booked there.
+        if (const double x = particles.reference_position(0, static_cast<Eigen::Index>(i)),
+            border = particles.reference_position.row(0).mean() - 2.0;
+            std::abs(x - border) > 3.5)
+            most = std::max(most, std::abs(model->law.heat_of_particles()[i]));
+    }
+    BOOST_TEST(heat[0] > 0.0);
+    BOOST_TEST(heat[1] == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(numbers_without_a_material_are_refused) {

@@ -37,6 +37,14 @@ struct Vec {
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
+/// The Vec, Mat or SymTensor whose numbers begin there.
+template <class Value>
+Value numbers_at(const double* from) {
+    Value value;
+    for (std::size_t k = 0; k < value.c.size(); ++k) value.c[k] = from[k];
+    return value;
+}
+
 template <int Dim, class T>
 constexpr T dot(const Vec<Dim, T>& a, const Vec<Dim, T>& b) {
     T s = a[0] * b[0];

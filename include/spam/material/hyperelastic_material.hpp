@@ -80,6 +80,11 @@ class HyperelasticMaterial {
     /// Infinite where the law does not flow; of several the least, and the largest stiffness.
     double yield_strain() const { return loop_->yield_strain(); }
     double stiffness() const { return loop_->stiffness(); }
+    /// The law of particle i alone.
+    const HyperelasticMaterial& law(std::size_t i) const {
+        const HyperelasticMaterial* const one = loop_->law(i);
+        return one != nullptr ? *one : *this;
+    }
     std::string describe() const { return loop_->describe(); }
 
   private:
@@ -100,6 +105,8 @@ class HyperelasticMaterial {
         virtual double yield_strain() const = 0;
         virtual double stiffness() const = 0;
         virtual std::string describe() const = 0;
+        /// Null where there is one for all.
+        virtual const HyperelasticMaterial* law(std::size_t) const { return nullptr; }
         /// Null where it does not depend on the numbers of materials.
         virtual std::shared_ptr<const Loop> of(const std::vector<std::int32_t>&) const {
             return nullptr;
@@ -205,26 +212,26 @@ class HyperelasticMaterial {
             bound->number = material;
             return bound;
         }
-        const HyperelasticMaterial& law(std::size_t i) const {
-            return all[number.empty() ? 0 : static_cast<std::size_t>(number[i])];
+        const HyperelasticMaterial* law(std::size_t i) const override {
+            return &all[number.empty() ? 0 : static_cast<std::size_t>(number[i])];
         }
         /// Each run of particles of one material at once.
         bool stresses(double t, std::span<const std::uint32_t> particles, std::size_t stride,
                       const double* F, double* P, const ConstState<Dim>& state) const override {
             bool finite = true;
             for (std::size_t first = 0, last = 0; first < particles.size(); first = last) {
-                const HyperelasticMaterial& one = law(particles[first]);
-                for (last = first + 1; last < particles.size() && &law(particles[last]) == &one;)
+                const HyperelasticMaterial* const one = law(particles[first]);
+                for (last = first + 1; last < particles.size() && law(particles[last]) == one;)
                     ++last;
-                finite = one.stresses(particles.subspan(first, last - first), stride,
-                                      F + first * stride, P + first * stride, state, t) &&
+                finite = one->stresses(particles.subspan(first, last - first), stride,
+                                       F + first * stride, P + first * stride, state, t) &&
                          finite;
             }
             return finite;
         }
         double energy(std::size_t i, const Mat<Dim>& F,
                       const ConstState<Dim>& state) const override {
-            return law(i).energy(i, F, state);
+            return law(i)->energy(i, F, state);
         }
         std::vector<Field> history() const override {
             std::vector<Field> fields;
@@ -241,12 +248,12 @@ class HyperelasticMaterial {
         bool has_rates() const override { return any(&HyperelasticMaterial::has_rates); }
         void rates(double t, std::size_t i, const Mat<Dim>& F, const Mat<Dim>& F_dot,
                    const ConstState<Dim>& state, const State<Dim>& rate) const override {
-            law(i).rates(t, i, F, F_dot, state, rate);
+            law(i)->rates(t, i, F, F_dot, state, rate);
         }
         bool settles() const override { return any(&HyperelasticMaterial::settles); }
         bool settle(double t, std::size_t i, const Mat<Dim>& F,
                     const State<Dim>& state) const override {
-            return law(i).settle(t, i, F, state);
+            return law(i)->settle(t, i, F, state);
         }
         bool keeps_energy() const override {
             return std::all_of(all.begin(), all.end(),
@@ -254,17 +261,13 @@ class HyperelasticMaterial {
         }
         bool flows() const override { return any(&HyperelasticMaterial::flows); }
         std::optional<Mat<Dim>> flow(std::size_t i, const Mat<Dim>& F) const override {
-            return law(i).flow(i, F);
+            return law(i)->flow(i, F);
         }
         double yield_strain() const override {
-            double least = all.front().yield_strain();
-            for (const auto& one : all) least = std::min(least, one.yield_strain());
-            return least;
+            return std::ranges::min(all, {}, &HyperelasticMaterial::yield_strain).yield_strain();
         }
         double stiffness() const override {
-            double most = all.front().stiffness();
-            for (const auto& one : all) most = std::max(most, one.stiffness());
-            return most;
+            return std::ranges::max(all, {}, &HyperelasticMaterial::stiffness).stiffness();
         }
         std::string describe() const override {
             std::string words;

@@ -18,8 +18,8 @@ struct MaterialVectorScheme {
     double density;  ///< rho_0 at the start, free of stress; sqrt(4/3) m in the triangular lattice
     double range = 3.0;  ///< h, beyond which bonds weigh nothing
     static constexpr double default_penalty = 2.0;
-    /// kappa, against motion that no deformation gradient sees, in units of the law's stiffness; above 3 short
-    /// waves become stiff.
+    /// kappa, against motion that no deformation gradient sees, in units of the stiffness of a particle's law;
+    /// above 3 short waves become stiff.
     double penalty = default_penalty;
     /// Where the law yields: no misfit e_kj is longer than this times the yield strain Y/(2 eta) times
     /// |F_k X_kj|; 0: misfits do not flow. Without, plastic flow leaves misfits that harden the body; 2 or less
@@ -111,7 +111,8 @@ class MaterialVectors final : public Term<Dim> {
     /// because what grows takes longer than that. And when the first pairs break, and whenever twice as many have as
     /// at the last remark.
     std::vector<Remark> watch(double t, std::span<const double> y) override;
-    /// The largest principal Cauchy stress of all whole particles; below 0 where all are compressed.
+    /// The largest principal Cauchy stress of all whole particles, below 0 where all are compressed; of a law that is
+    /// less stiff than the stiffest by as much larger, as it bears less.
     double largest_tension(std::span<const double> y) const;
 
     const MaterialVectorScheme& scheme() const { return scheme_; }
@@ -166,16 +167,7 @@ extern template class MaterialVectors<3>;
 
 /// A solid with material vectors and nothing else.
 template <int Dim>
-class MaterialVectorModel final : public ParticleModel<Dim> {
-  public:
-    MaterialVectorModel(Particles<Dim> particles, const HyperelasticMaterial<Dim>& material,
-                        const MaterialVectorScheme& scheme, const Box<Dim>& box = {})
-        : ParticleModel<Dim>(std::move(particles), box),
-          law(this->template add_term<MaterialVectors<Dim>>(material, scheme)) {}
-
-    const MaterialVectorScheme& scheme() const { return law.scheme(); }
-
-    MaterialVectors<Dim>& law;
-};
+using MaterialVectorModel =
+    ModelOf<Dim, MaterialVectors<Dim>, HyperelasticMaterial<Dim>, MaterialVectorScheme>;
 
 }  // namespace spam

@@ -19,8 +19,9 @@ struct Sweeps;
 struct TotalLagrangianScheme {
     double
         density;  ///< rho_0 of the reference configuration; sqrt(4/3) m in the triangular lattice
-    double range = 3.0;            ///< of the weight function
-    double penalty = 0.1;          ///< kappa, against zero-energy modes; 0 leaves them free
+    double range = 3.0;  ///< of the weight function
+    /// kappa, against zero-energy modes, in units of the stiffness of the stiffest law; 0 leaves them free.
+    double penalty = 0.1;
     Kernel kernel = Kernel::lucy;  ///< the weight function
 };
 
@@ -78,16 +79,7 @@ SPAM_COMPILED(extern template class TotalLagrangian);
 
 /// A total-Lagrangian solid and nothing else.
 template <int Dim>
-class TotalLagrangianModel final : public ParticleModel<Dim> {
-  public:
-    TotalLagrangianModel(Particles<Dim> particles, const HyperelasticMaterial<Dim>& material,
-                         const TotalLagrangianScheme& scheme, const Box<Dim>& box = {})
-        : ParticleModel<Dim>(std::move(particles), box),
-          law(this->template add_term<TotalLagrangian<Dim>>(material, scheme)) {}
-
-    const TotalLagrangianScheme& scheme() const { return law.scheme(); }
-
-    TotalLagrangian<Dim>& law;
-};
+using TotalLagrangianModel =
+    ModelOf<Dim, TotalLagrangian<Dim>, HyperelasticMaterial<Dim>, TotalLagrangianScheme>;
 
 }  // namespace spam

@@ -92,11 +92,7 @@ void BondTable<Dim>::load_others(const double* x) {
 template <int Dim>
 void BondTable<Dim>::place_others(const double* x, std::vector<double>& placed, double* at) const {
     others().template fetch<Vec<Dim>>(
-        [&](std::size_t i) {
-            Vec<Dim> own;
-            std::copy_n(x + i * Dim, Dim, own.c.begin());
-            return own;
-        },
+        [&](std::size_t i) { return numbers_at<Vec<Dim>>(x + i * Dim); },
         [&](std::size_t j, const Vec<Dim>& theirs) {
             for (std::size_t a = 0; a < Dim; ++a) {
                 if (at != nullptr) at[j * Dim + a] = theirs.c[a];

@@ -213,9 +213,8 @@ void BondRows<Dim>::hold(const BondNumbers& contents) {
     for (std::size_t k = 0; k < particles(); ++k)
         for (std::size_t m = 0; m < row(k); ++m, ++at) {
             partner_[slot(k, m)] = contents.partners[at];
-            Vec<Dim> X;
-            std::copy_n(&contents.numbers[at * (Dim + 1)], Dim, X.c.begin());
-            set(k, m, X, contents.numbers[at * (Dim + 1) + Dim]);
+            const double* const bond = &contents.numbers[at * (Dim + 1)];
+            set(k, m, numbers_at<Vec<Dim>>(bond), bond[Dim]);
             if (!vacant(k, m)) ++bonds_;
         }
     parallel_for(particles(), [&](std::size_t k) {

@@ -96,10 +96,7 @@ void BondTable<Dim>::set_bond(std::size_t k, std::size_t m, const Vec<Dim>& X, d
 template <int Dim>
 Vec<Dim> BondTable<Dim>::separation(const double* x, std::size_t k, std::size_t j) const {
     const auto at = [x](std::size_t i) { return Eigen::Map<const Point<Dim>>(x + Dim * i); };
-    const Point<Dim> r_jk = box_.separation(at(j), at(k));
-    Vec<Dim> r;
-    std::copy_n(r_jk.data(), Dim, r.c.begin());
-    return r;
+    return numbers_at<Vec<Dim>>(box_.separation(at(j), at(k)).data());
 }
 
 template <int Dim>
@@ -296,9 +293,7 @@ void BondTable<Dim>::renew(const Eigen::Ref<const Points<Dim>>& x, double N0) {
 
 template <int Dim>
 Mat<Dim> BondTable<Dim>::anchoring(std::size_t k) const {
-    Mat<Dim> back;
-    std::copy_n(&anchoring_[k * back.c.size()], back.c.size(), back.c.begin());
-    return back;
+    return numbers_at<Mat<Dim>>(&anchoring_[k * Dim * Dim]);
 }
 
 template <int Dim>

@@ -17,11 +17,9 @@ namespace spam {
 template <int Dim>
 struct MaterialVectors<Dim>::Fit {
     Fit() = default;
-    explicit Fit(const double* record) {
-        using Record = BondRecord<Dim>;
-        std::copy_n(record + Record::F, F.c.size(), F.c.begin());
-        std::copy_n(record + Record::K, K.c.size(), K.c.begin());
-    }
+    explicit Fit(const double* record)
+        : F(numbers_at<Mat<Dim>>(record + BondRecord<Dim>::F)),
+          K(numbers_at<SymTensor<Dim>>(record + BondRecord<Dim>::K)) {}
     Mat<Dim> F;
     SymTensor<Dim> K;  ///< N^-1
     double misfit = 0.0;
@@ -35,9 +33,10 @@ struct MaterialVectors<Dim>::Parts {
     BondTable<Dim> table;
     double N0 = 0.0;  ///< tr N/D of a whole particle
     std::vector<double> volume{}, heat{};
-    double stiffness = 0.0;  ///< c_k/V_k = kappa eta/N0
+    double stiffness = 0.0;       ///< c_k/V_k = kappa eta/N0 of the stiffest law
+    std::vector<double> share{};  ///< of that stiffness, by particle
     std::vector<std::uint32_t> numbers{};
-    double misfit_limit = HUGE_VAL;  ///< |e|/|F X|
+    double misfit_limit = HUGE_VAL;  ///< |e|/|F X| of the law that yields first
     bool brittle = false;
     BondBreaks breaks{};
     std::size_t told = 0;  ///< pairs, by the latest remark
@@ -48,6 +47,7 @@ struct MaterialVectors<Dim>::Parts {
     std::size_t watched = 0;                ///< states that watch() was shown
     bool warned = false;
 
+    double penalty(std::size_t k) const { return stiffness * share[k]; }
     /// Sum of body(records, first, last) over blocks of groups, whose records are fitted in lanes.
     template <class Body>
     std::size_t count_blocks(const BondView<Dim>& shown, const Body& body) const {

@@ -68,15 +68,6 @@ MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particl
     return scheme;
 }
 
-template <int Dim>
-void read(const double* from, Mat<Dim>& t) {
-    std::copy_n(from, t.c.size(), t.c.begin());
-}
-template <int Dim>
-void read(const double* from, SymTensor<Dim>& t) {
-    std::copy_n(from, t.c.size(), t.c.begin());
-}
-
 }  // namespace
 
 template <int Dim>
@@ -114,10 +105,15 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     }
     p.N0 = spam::Parts::here().most(p.N0);
     if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
-    p.stiffness = scheme.penalty * material.stiffness() / p.N0;
+    const double stiffest = material.stiffness();
+    p.stiffness = scheme.penalty * stiffest / p.N0;
     if (scheme.bond_yield > 0.0) p.misfit_limit = scheme.bond_yield * material.yield_strain();
     p.brittle = std::min(scheme.stretch_limit, scheme.stress_limit) < HUGE_VAL;
-    for (std::size_t k = 0; k < n; ++k) p.volume.push_back(all.mass[k] / scheme.density);
+    for (std::size_t k = 0; k < n; ++k) {
+        p.volume.push_back(all.mass[k] / scheme.density);
+        const double own = material_.law(k).stiffness();
+        p.share.push_back(own == stiffest ? 1.0 : own / stiffest);
+    }
     set_nature();
 }
 
@@ -131,9 +127,8 @@ bool MaterialVectors<Dim>::close(const BondView<Dim>& view, std::size_t first, s
                             records + Record::G, state))
         return false;
     const auto spans_of = [&](std::size_t i) {
-        SymTensor<Dim> K;
-        read(records + i * Record::numbers + Record::K, K);
-        return Wholeness::of(K, parts_->N0);
+        return Wholeness::of(numbers_at<SymTensor<Dim>>(records + i * Record::numbers + Record::K),
+                             parts_->N0);
     };
     for (std::size_t i = 0; i < count && whole; ++i) whole = !(spans_of(i).slope > 0.0);
     if (!whole) {
@@ -143,27 +138,26 @@ bool MaterialVectors<Dim>::close(const BondView<Dim>& view, std::size_t first, s
     }
     for (std::size_t i = 0; i < count; ++i) {
         double* const record = records + i * Record::numbers;
-        SymTensor<Dim> K, H;
-        Mat<Dim> P;
-        read(record + Record::K, K);
-        read(record + Record::G, P);
+        const auto K = numbers_at<SymTensor<Dim>>(record + Record::K);
+        const auto P = numbers_at<Mat<Dim>>(record + Record::G);
+        SymTensor<Dim> H;
         const double V = parts_->volume[first + i];
         const Wholeness spans = Wholeness::of(K, parts_->N0);
         const Mat<Dim> G = (V * spans.th) * (P * K);
         std::copy(G.c.begin(), G.c.end(), record + Record::G);
         if (spans.slope > 0.0) {
-            Mat<Dim> F, root;
-            read(record + Record::F, F);
+            const auto F = numbers_at<Mat<Dim>>(record + Record::F);
+            Mat<Dim> root;
             for (int a = 0; a < Dim; ++a)
                 for (int b = 0; b < Dim; ++b) root(a, b) = K(a, b);
             const Mat<Dim> square = root * K;
             const double by = V * spans.slope *
                               (material_.energy(first + i, F, state) +
-                               0.5 * parts_->stiffness * record[Record::c]);
+                               0.5 * parts_->penalty(first + i) * record[Record::c]);
             for (int a = 0; a < Dim; ++a)
                 for (int b = a; b < Dim; ++b) H(a, b) = by * square(a, b);
         }
-        record[Record::c] = spans.th * V * parts_->stiffness;
+        record[Record::c] = spans.th * V * parts_->penalty(first + i);
         std::copy(H.c.begin(), H.c.end(), record + Record::H);
     }
     return true;

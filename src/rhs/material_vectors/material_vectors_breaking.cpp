@@ -106,7 +106,7 @@ template <int Dim>
 double MaterialVectors<Dim>::book_loss(std::size_t k, double energy, const Fit& kept,
                                        const ConstState<Dim>& state) {
     const double* const x = parts_->table.places(state.position().data());
-    const double rounding = 1e-12 * parts_->volume[k] * material_.stiffness();
+    const double rounding = 1e-12 * parts_->volume[k] * material_.law(k).stiffness();
     const auto loss = [&] { return energy - energy_of(fit(x, k), k, state); };
     double lost = loss();
     if (lost < -rounding && anchor(k, kept, x)) lost = loss();

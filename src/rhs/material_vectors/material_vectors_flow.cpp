@@ -50,7 +50,8 @@ bool MaterialVectors<Dim>::flow_of_bonds(std::size_t k, const Mat<Dim>& F,
                                          const ConstState<Dim>& state) {
     Parts& p = *parts_;
     const double* const x = p.table.places(state.position().data());
-    const double limit2 = p.misfit_limit * p.misfit_limit, range2 = scheme_.range * scheme_.range;
+    const double limit = scheme_.bond_yield * material_.law(k).yield_strain();
+    const double limit2 = limit * limit, range2 = scheme_.range * scheme_.range;
     // How far the misfit is beyond its limit, as part of it; 0 where it is not.
     const auto excess = [&](const Mat<Dim>& gradient, std::size_t m, Vec<Dim>& e) {
         if (!(p.table.g(k, m) > 0.0)) return 0.0;
@@ -105,7 +106,7 @@ bool MaterialVectors<Dim>::weigh(const ConstState<Dim>& state) {
                for (; m < p.table.row(k); ++m)
                    if (changed(m)) p.table.set_X(k, m, p.table.X(k, m));
                const double loss = before - energy_of(fit(x, k), k, state);
-               if (loss < -stored_by_weights * p.volume[k] * material_.stiffness()) {
+               if (loss < -stored_by_weights * p.volume[k] * material_.law(k).stiffness()) {
                    for (std::size_t n = 0; n < p.table.row(k); ++n)
                        p.table.set_bond(k, n, p.table.X(k, n), weights[n]);
                    return 0;

@@ -38,7 +38,7 @@ double MaterialVectors<Dim>::energy_of(const Fit& fit, std::size_t k,
                                        const ConstState<Dim>& state) const {
     const double V = parts_->volume[k], th = Wholeness::of(fit.K, parts_->N0).th;
     if (th == 0.0) return 0.0;
-    return V * th * (material_.energy(k, fit.F, state) + 0.5 * parts_->stiffness * fit.misfit);
+    return V * th * (material_.energy(k, fit.F, state) + 0.5 * parts_->penalty(k) * fit.misfit);
 }
 
 template <int Dim>

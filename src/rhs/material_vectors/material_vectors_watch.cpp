@@ -26,7 +26,8 @@ double MaterialVectors<Dim>::largest_tension(std::span<const double> y) const {
             for (int b = a; b < Dim; ++b)
                 for (int c = 0; c < Dim; ++c) cauchy(a, b) += P(a, c) * now.F(b, c) / J;
         const Vec<Dim> principal = symmetric_eigen(cauchy).value;
-        for (int a = 0; a < Dim; ++a) largest[k] = std::max(largest[k], principal[a]);
+        for (int a = 0; a < Dim; ++a)
+            largest[k] = std::max(largest[k], principal[a] / parts_->share[k]);
     });
     double most = -HUGE_VAL;
     for (const double of_one : largest) most = std::max(most, of_one);
