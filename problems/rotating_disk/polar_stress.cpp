@@ -14,7 +14,7 @@ Point<2> direction(const Point<2>& r) {
 Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y, double rho) {
     const auto* bonded = dynamic_cast<const BondedModel<2>*>(&model);
     if (bonded == nullptr) return ConstState<2>(model.layout(), y).stress();
-    const auto virial = bonded->stress(y, 1.0 / rho);
+    const auto virial = bonded->law.stress(y, 1.0 / rho);
     Points<3> all(3, static_cast<Eigen::Index>(virial.size()));
     for (Eigen::Index i = 0; i < all.cols(); ++i)
         all.col(i) = Point<3>::Map(virial[static_cast<std::size_t>(i)].c.data());

@@ -66,10 +66,7 @@ void MaterialPoint<Dim>::advance_to(double t) {
 
 template <int Dim>
 SymTensor<Dim> MaterialPoint<Dim>::stress() const {
-    SymTensor<Dim> stress;
-    const auto in_y = ConstState<Dim>(layout_, y_.span()).stress();
-    std::copy_n(in_y.data(), stress.c.size(), stress.c.begin());
-    return stress;
+    return numbers_at<SymTensor<Dim>>(ConstState<Dim>(layout_, y_.span()).stress().data());
 }
 
 template <int Dim>

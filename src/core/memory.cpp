@@ -62,9 +62,7 @@ void ascending_once(std::vector<std::array<std::uint32_t, 2>>& pairs) {
 
 template <int Dim>
 Vec<Dim> vector_of(const Point<Dim>& r) {
-    Vec<Dim> v;
-    std::copy_n(r.data(), Dim, v.c.begin());
-    return v;
+    return numbers_at<Vec<Dim>>(r.data());
 }
 
 }  // namespace

@@ -77,11 +77,6 @@ CheckpointReader::~CheckpointReader() {
     const Silence silence;
     image_.reset();
 }
-CheckpointReader::CheckpointReader(CheckpointReader&&) noexcept = default;
-CheckpointReader& CheckpointReader::operator=(CheckpointReader&& other) noexcept {
-    std::swap(image_, other.image_);
-    return *this;
-}
 
 bool CheckpointReader::has(std::string_view path) const {
     const Silence silence;

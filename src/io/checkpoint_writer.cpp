@@ -105,11 +105,6 @@ CheckpointWriter::~CheckpointWriter() {
     const Silence silence;
     image_.reset();
 }
-CheckpointWriter::CheckpointWriter(CheckpointWriter&&) noexcept = default;
-CheckpointWriter& CheckpointWriter::operator=(CheckpointWriter&& other) noexcept {
-    std::swap(image_, other.image_);
-    return *this;
-}
 
 void CheckpointWriter::text(std::string_view path, std::string_view value) {
     const Silence silence;

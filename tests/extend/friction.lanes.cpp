@@ -19,10 +19,6 @@ struct CentralFriction {
         // By the mass of j, as forces of smooth particles are: f/(m_i m_j).
         sums.add(j.m, (T(gamma) * weight * along / (i.m * j.m)) * pair.r_ji, pair.v_ji);
     }
-    template <class To, class T>
-    static void store(const To& to, const Sums<T>& sums) {
-        sums.store(to);
-    }
 };
 const RegisterSweeps<2> friction(
     "central friction", InstructionSet::SPAM_LEVEL,

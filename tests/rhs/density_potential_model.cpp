@@ -89,7 +89,7 @@ template <int Dim, class... Mutated>
 double force_error(DensityPotentialModel<Dim>& model, std::span<const double> y) {
     const Points<Dim> x = ConstState<Dim>(model.layout(), y).position();
     const auto exact =
-        oracle<Dim, Mutated...>(model.particles(), model.potentials(), model.box(), x);
+        oracle<Dim, Mutated...>(model.particles(), model.law.potentials(), model.box(), x);
     return (forces(model, rates_of(model, y)) - exact.force).cwiseAbs().maxCoeff() /
            exact.force.cwiseAbs().maxCoeff();
 }

@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(virial_stress_is_that_of_the_elastic_solid) {
     Mat<2> strain;
     strain(0, 0) = xx, strain(1, 1) = yy, strain(0, 1) = strain(1, 0) = xy;
     const auto expected = ElasticSolid::triangular_lattice().stress_rate(strain, SymTensor<2>{});
-    const auto stress = model.stress(y, std::sqrt(0.75));
+    const auto stress = model.law.stress(y, std::sqrt(0.75));
     for (std::size_t i = 0; i < stress.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(i);
         if (model.particles().reference_position.col(at).norm() > 3.0) continue;  // six bonds

@@ -176,10 +176,6 @@ class Parts {
     }
     /// The other way round.
     template <class Value>
-    std::vector<Value> own_of(std::span<const Value> all, std::size_t components = 1) const {
-        return own_of(all, components, numbers_);
-    }
-    template <class Value>
     std::vector<Value> own_of(std::span<const Value> all, std::size_t components,
                               std::span<const std::uint32_t> numbers) const {
         if (alone()) return {all.begin(), all.end()};

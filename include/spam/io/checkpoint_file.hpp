@@ -23,8 +23,6 @@ class CheckpointWriter {
     /// `expected`: bytes it will hold, roughly; where it is right, nothing is copied as the file grows.
     explicit CheckpointWriter(std::size_t expected = 0);
     ~CheckpointWriter();
-    CheckpointWriter(CheckpointWriter&&) noexcept;
-    CheckpointWriter& operator=(CheckpointWriter&&) noexcept;
 
     /// A scalar string, UTF-8; may be empty.
     void text(std::string_view path, std::string_view value);
@@ -55,8 +53,6 @@ class CheckpointReader {
     /// format.
     explicit CheckpointReader(const std::filesystem::path& path);
     ~CheckpointReader();
-    CheckpointReader(CheckpointReader&&) noexcept;
-    CheckpointReader& operator=(CheckpointReader&&) noexcept;
 
     bool has(std::string_view path) const;
 

@@ -64,8 +64,7 @@ struct LogarithmicStrain {
             e.strain(0, 0) = std::numeric_limits<double>::quiet_NaN();
             return e;
         }
-        SymTensor<Dim> inverse_Cp;
-        std::copy_n(metric, inverse_Cp.c.size(), inverse_Cp.c.begin());
+        auto inverse_Cp = numbers_at<SymTensor<Dim>>(metric);
         for (int a = 0; a < Dim; ++a) inverse_Cp(a, a) += 1.0;
         e.strain = half_logarithm(transformed(F, inverse_Cp));
         if (metric_zz != 0.0) e.zz = 0.5 * std::log1p(metric_zz);

@@ -55,9 +55,8 @@ class StressInReference {
         double density;
 
         SymTensor<Dim> sigma(std::size_t i) const {
-            SymTensor<Dim> trial;
-            std::copy_n(stress_in_y + trial.c.size() * i, trial.c.size(), trial.c.begin());
-            return returned(i, trial);
+            constexpr std::size_t size = SymTensor<Dim>::size;
+            return returned(i, numbers_at<SymTensor<Dim>>(stress_in_y + size * i));
         }
         Mat<Dim> stress(std::size_t i, const Mat<Dim>& F) const { return of(sigma(i), F); }
         /// P of this sigma.

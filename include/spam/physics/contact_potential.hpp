@@ -72,10 +72,7 @@ struct ContactForce {
     static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
         return (T(1.0) / i.m) * sums.force;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.set(to.out.v_dot, v_dot);
-    }
+    static double* sets(const auto& out) { return out.v_dot; }
 };
 
 /// Half of each pair's energy.

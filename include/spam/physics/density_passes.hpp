@@ -89,10 +89,7 @@ struct DensityForces {
     static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
         return sums.v_dot + (T(1.0) / i.m) * sums.core_force;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.set(to.out.v_dot, v_dot);
-    }
+    static double* sets(const auto& out) { return out.v_dot; }
 
   private:
     template <class T, class Record, std::size_t... K>
@@ -124,10 +121,7 @@ struct DistanceForce {
     static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
         return (T(1.0) / i.m) * sums.force;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.set(to.out.v_dot, v_dot);
-    }
+    static double* sets(const auto& out) { return out.v_dot; }
 };
 
 /// sum_j of half of the pair's energy: each pair is found from both ends. A particle itself is counted
@@ -150,10 +144,7 @@ struct DistanceEnergy {
     T result(const Record&, const Sums<T>& sums) const {
         return T(0.5) * (sums.energy - T(potential.energy(0.0)));
     }
-    template <class To, class T>
-    static void store(const To& to, const T& energy) {
-        to.set(to.out.energy, energy);
-    }
+    static double* sets(const auto& out) { return out.energy; }
 };
 
 template <int Dim>

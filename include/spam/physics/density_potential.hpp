@@ -116,9 +116,7 @@ struct ListedParticles {
     Vec<Dim> separation(std::size_t i, std::size_t j) const {
         const Point<Dim> r = box.nearest(position.col(static_cast<Eigen::Index>(i)) -
                                          position.col(static_cast<Eigen::Index>(j)));
-        Vec<Dim> r_ij;
-        std::copy_n(r.data(), Dim, r_ij.c.begin());
-        return r_ij;
+        return numbers_at<Vec<Dim>>(r.data());
     }
 };
 

@@ -59,10 +59,7 @@ struct LongRangeForce {
     Vec<Dim, T> result(const Record& i, const Sums<T>& sums) const {
         return (T(law.strength) * i.q / i.m) * sums.field;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.set(to.out.v_dot, v_dot);
-    }
+    static double* sets(const auto& out) { return out.v_dot; }
 };
 
 /// Half of each pair's energy.
@@ -84,10 +81,7 @@ struct LongRangeEnergy {
     T result(const Record& i, const Sums<T>& sums) const {
         return T(0.5 * law.strength) * i.q * sums.potential;
     }
-    template <class To, class T>
-    static void store(const To& to, const T& energy) {
-        to.set(to.out.energy, energy);
-    }
+    static double* sets(const auto& out) { return out.energy; }
 };
 
 }  // namespace spam

@@ -27,10 +27,7 @@ struct PairPotential {
     Vec<Dim, T> result(const Record&, const Sums<T>& sums) const {
         return T(a) * sums.v_dot;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& v_dot) {
-        to.set(to.out.v_dot, v_dot);
-    }
+    static double* sets(const auto& out) { return out.v_dot; }
 };
 
 /// Half of a m_i m_j w_ij, summed over the others.
@@ -55,10 +52,7 @@ struct PairPotentialEnergy {
     T result(const Record& i, const Sums<T>& sums) const {
         return T(0.5 * a) * i.m * (sums.m_w - i.m * T(w_0));
     }
-    template <class To, class T>
-    static void store(const To& to, const T& energy) {
-        to.set(to.out.energy, energy);
-    }
+    static double* sets(const auto& out) { return out.energy; }
 };
 
 }  // namespace spam

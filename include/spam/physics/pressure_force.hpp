@@ -20,10 +20,6 @@ struct PressureForce {
         else
             sums.add(j.m, f, pair.v_ji);
     }
-    template <class To, class T>
-    static void store(const To& to, const Sums<T>& sums) {
-        sums.store(to);
-    }
 };
 
 }  // namespace spam

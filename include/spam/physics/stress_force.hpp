@@ -72,10 +72,6 @@ struct StressForce {
         else
             sums.add(j.m, stress_force(pair, i, j), pair.v_ji);
     }
-    template <class To, class T>
-    static void store(const To& to, const Sums<T>& sums) {
-        sums.store(to);
-    }
 };
 
 }  // namespace spam

@@ -147,10 +147,6 @@ struct BalancedStressForce {
     static void add(const Pair<Dim, T>& pair, const Record& i, const Record& j, Sums<T>& sums) {
         sums.add(j.m, scale_torque(pair, i, j, stress_force(pair, i, j)), pair.v_ji);
     }
-    template <class To, class T>
-    static void store(const To& to, const Sums<T>& sums) {
-        sums.store(to);
-    }
 };
 
 }  // namespace spam

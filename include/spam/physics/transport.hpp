@@ -19,10 +19,7 @@ struct PlainTransport {
     static Vec<Dim, T> result(const Record& i, const Sums<T>&) {
         return i.v;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& u) {
-        to.set(to.out.x_dot, u);
-    }
+    static double* sets(const auto& out) { return out.x_dot; }
 };
 
 /// ⟨v⟩: u_i = sum_j m_j v_j w_ij / sum_j m_j w_ij, self included, [HHM04] IV. The paper divides by
@@ -44,10 +41,7 @@ struct AverageTransport {
     static Vec<Dim, T> result(const Record&, const Sums<T>& sums) {
         return (T(1.0) / sums.weight) * sums.momentum;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& u) {
-        to.set(to.out.x_dot, u);
-    }
+    static double* sets(const auto& out) { return out.x_dot; }
 };
 
 /// ⟨v⟩_Monaghan: u_i = v_i + sum_j m_j (v_j - v_i) w_ij / rho_ij, [HHM04] IV. Keeps sum m u = sum m
@@ -72,10 +66,7 @@ struct MonaghanTransport {
     static Vec<Dim, T> result(const Record& i, const Sums<T>& sums) {
         return i.v + T(MeanDensity::factor) * sums.correction;
     }
-    template <class To, class T>
-    static void store(const To& to, const Vec<Dim, T>& u) {
-        to.set(to.out.x_dot, u);
-    }
+    static double* sets(const auto& out) { return out.x_dot; }
 };
 
 }  // namespace spam

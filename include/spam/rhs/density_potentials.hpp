@@ -61,16 +61,6 @@ SPAM_COMPILED(extern template class DensityPotentialTerm);
 
 /// Potentials of the density and nothing else.
 template <int Dim>
-class DensityPotentialModel final : public ParticleModel<Dim> {
-  public:
-    DensityPotentialModel(Particles<Dim> particles, const DensityPotentials& potentials,
-                          const Box<Dim>& box = {})
-        : ParticleModel<Dim>(std::move(particles), box),
-          law(this->template add_term<DensityPotentialTerm<Dim>>(potentials)) {}
-
-    const DensityPotentials& potentials() const { return law.potentials(); }
-
-    DensityPotentialTerm<Dim>& law;
-};
+using DensityPotentialModel = ModelOf<Dim, DensityPotentialTerm<Dim>, DensityPotentials>;
 
 }  // namespace spam

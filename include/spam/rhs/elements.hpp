@@ -138,16 +138,6 @@ class Elements final : public Term<2> {
     const Material& material_of(std::size_t element) const {
         return materials_[material_.empty() ? 0 : static_cast<std::size_t>(material_[element])];
     }
-    /// f(material, first, count) for runs of elements of one material among first, ..., first + count - 1.
-    template <class F>
-    void for_each_material(std::size_t first, std::size_t count, const F& f) const {
-        for (std::size_t k = first; k < first + count;) {
-            std::size_t end = material_.empty() ? first + count : k + 1;
-            while (end < first + count && material_[end] == material_[k]) ++end;
-            f(material_of(k), k, end - k);
-            k = end;
-        }
-    }
     void load(const Held& held, std::size_t element);
     void find_pressures(const Nodes& nodes, const AnyEquationOfState& law, std::size_t first,
                         std::size_t count);
@@ -168,10 +158,7 @@ class Elements final : public Term<2> {
         at_;  ///< 4 element + corner, of each node; those in other parts among them in their order
     /// By part: our nodes that its elements have, and those of its that ours have, behind our own; where in force_ the
     /// forces on its nodes are, and those of its elements on ours.
-    struct Exchange {
-        std::vector<std::uint32_t> give, take, push, pulled;
-    };
-    std::vector<Exchange> with_;
+    std::vector<std::vector<std::uint32_t>> give_, take_, push_, pulled_;
     std::size_t others_ = 0;  ///< corners in other parts
     std::vector<Field>
         of_some_;  ///< what one material finds the rates of, and another may know nothing of

@@ -220,4 +220,19 @@ class ParticleModel : public Model<Dim> {
 
 SPAM_COMPILED(extern template class ParticleModel);
 
+/// Particles of one law and nothing else, made of what the law is made of.
+template <int Dim, class Law, class... What>
+class ModelOf final : public ParticleModel<Dim> {
+  public:
+    /// Throws InputError as Law does.
+    explicit ModelOf(Particles<Dim> particles, const What&... what, const Box<Dim>& box = {})
+        : ParticleModel<Dim>(std::move(particles), box),
+          law(this->template add_term<Law>(what...)) {}
+
+    /// The choices it was made with, of a law that has some.
+    const auto& scheme() const { return law.scheme(); }
+
+    Law& law;
+};
+
 }  // namespace spam

@@ -154,7 +154,12 @@ struct StoreSums {
     }
     template <class Pass, class Result>
     SPAM_INLINE static void store(const Pass& pass, const Lane<W, Dim>& to, const Result& found) {
-        if constexpr (!requires { typename Pass::Kept; }) pass.store(to, found);
+        if constexpr (requires { Pass::sets(to.out); })
+            to.set(Pass::sets(to.out), found);
+        else if constexpr (requires { pass.store(to, found); })
+            pass.store(to, found);
+        else if constexpr (!requires { typename Pass::Kept; })
+            found.store(to);
     }
 };
 
@@ -163,7 +168,9 @@ struct StoreSums {
 ///     static Pass with(const PassConstants&[, const GeneralWeight<Dim>&]);
 ///     template <class T, class R> ... result(const R& i, const Sums<T>&);   of the finished sums
 ///     using Kept = ...;           what result() is with T = double: kept for `close`, not stored
-///     template <class To, class Result> static void store(const To&, const Result&);
+///     static double* sets(const auto& out) { return out.v_dot; }   where result() is stored, or
+///     template <class To, class Result> static void store(const To&, const Result&);   what is, or neither where
+///     what result() returns has a store(to) of its own, as ForceSums
 /// Sums are stored particle by particle, in the order of the passes: a pass may add to what one before it
 /// has set.
 template <class Kind, int W, int Dim, class R, class... Passes>

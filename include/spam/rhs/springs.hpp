@@ -50,18 +50,6 @@ SPAM_COMPILED(extern template class Springs);
 
 /// Springs and nothing else.
 template <int Dim>
-class BondedModel final : public ParticleModel<Dim> {
-  public:
-    BondedModel(Particles<Dim> particles, const HarmonicSpring& spring, const Box<Dim>& box = {})
-        : ParticleModel<Dim>(std::move(particles), box),
-          law(this->template add_term<Springs<Dim>>(spring)) {}
-
-    /// Springs::stress()
-    std::vector<SymTensor<Dim>> stress(std::span<const double> y, double volume) const {
-        return law.stress(y, volume);
-    }
-
-    Springs<Dim>& law;
-};
+using BondedModel = ModelOf<Dim, Springs<Dim>, HarmonicSpring>;
 
 }  // namespace spam

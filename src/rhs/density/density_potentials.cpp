@@ -134,13 +134,6 @@ struct DensityPotentialTerm<Dim>::Parts {
 
 namespace {
 
-/// A field of the density in a record.
-template <class Field>
-Field field_at(const double* number) {
-    Field field;
-    std::copy_n(number, field.c.size(), field.c.begin());
-    return field;
-}
 template <class Field>
 void write_slope(double* number, double inverse_mass, const Field& slope) {
     for (const double component : slope.c) *number++ = inverse_mass * component;
@@ -159,11 +152,12 @@ void DensityPotentialTerm<Dim>::Parts::make_slopes(double* record, double P) con
     if (!shape) return;
     const double m = record[At::mass];
     const SurfaceTension tension{potentials.surface_tension};
-    write_slope(record + At::g, 1.0 / m, tension.slope<Dim>(m, field_at<Vec<Dim>>(record + At::g)));
+    write_slope(record + At::g, 1.0 / m,
+                tension.slope<Dim>(m, numbers_at<Vec<Dim>>(record + At::g)));
     if constexpr (Dim > 1) {
         const CurvatureStrength strength{potentials.strength};
         write_slope(record + At::D, 1.0 / m,
-                    strength.slope<Dim>(m, field_at<SymTensor<Dim>>(record + At::D)));
+                    strength.slope<Dim>(m, numbers_at<SymTensor<Dim>>(record + At::D)));
     }
 }
 
@@ -199,10 +193,10 @@ double DensityPotentialTerm<Dim>::Parts::energy(double m, const double* record) 
     double energy = potentials.state ? m * potentials.state->cold_energy(record[At::rho]) : 0.0;
     if (!shape) return energy;
     energy += SurfaceTension{potentials.surface_tension}.energy<Dim>(
-        m, field_at<Vec<Dim>>(record + At::g));
+        m, numbers_at<Vec<Dim>>(record + At::g));
     if constexpr (Dim > 1)
         energy += CurvatureStrength{potentials.strength}.energy<Dim>(
-            m, field_at<SymTensor<Dim>>(record + At::D));
+            m, numbers_at<SymTensor<Dim>>(record + At::D));
     return energy;
 }
 

@@ -21,9 +21,7 @@ constexpr double margin = 1.1;
 
 template <int Dim>
 SymTensor<Dim> shape_of(const double* all, std::size_t i) {
-    SymTensor<Dim> G;
-    std::copy_n(all + i * G.c.size(), G.c.size(), G.c.begin());
-    return G;
+    return numbers_at<SymTensor<Dim>>(all + i * SymTensor<Dim>::size);
 }
 
 template <int Dim>
@@ -139,8 +137,8 @@ std::string Ellipses<Dim>::close_sums(const Now& now) {
         const auto symmetric = [&](int at) { return shape_of<Dim>(number(slot, at), 0); };
         const auto G = symmetric(R::template at<column::Shape>);
         const auto B = as_matrix(symmetric(R::template at<column::EllipseMoments>));
-        Mat<Dim> C, Lambda;
-        std::copy_n(number(slot, R::template at<column::EllipseFlow>), C.c.size(), C.c.begin());
+        const auto C = numbers_at<Mat<Dim>>(number(slot, R::template at<column::EllipseFlow>));
+        Mat<Dim> Lambda;
         const double det = determinant(as_matrix(G)), root = std::sqrt(det);
         const double rho = root * *number(slot, R::template at<column::EllipseWeight>);
         const double m = this->particles().mass[i];

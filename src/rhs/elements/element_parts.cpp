@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elements in one part of a run (core/parts.hpp): those whose first corner is there. Other parts tell where their
 // corners are, and get the forces on them one by one, so that each node adds up the same numbers in the same order.
+#include "../model/other_partners.hpp"
 #include <spam/core/parts.hpp>
 #include <spam/rhs/elements.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace spam {
@@ -34,14 +36,15 @@ void Elements::divide() {
     const std::vector<std::int32_t> material = std::move(material_);
     nature_.elements.clear();
     material_.clear();
-    with_.assign(held.size(), {});
+    for (auto* const of_parts : {&give_, &take_, &push_, &pulled_})
+        of_parts->assign(held.size(), {});
     std::vector<std::uint32_t> numbers, theirs;  // of our elements, of their corners elsewhere
     for (std::size_t k = 0; k < all.size(); ++k) {
         const std::size_t at = home[all[k][0]];
         for (const std::uint32_t i : all[k]) {
             const std::size_t p = home[i];
             if (at == own && p != own) theirs.push_back(i);
-            if (at != own && p == own) with_[at].give.push_back(place_of(i));
+            if (at != own && p == own) give_[at].push_back(place_of(i));
         }
         if (at != own) continue;
         numbers.push_back(static_cast<std::uint32_t>(k));
@@ -53,9 +56,9 @@ void Elements::divide() {
         some.erase(std::unique(some.begin(), some.end()), some.end());
     };
     ascending_once(theirs);
-    for (Exchange& with : with_) ascending_once(with.give);
+    for (auto& given : give_) ascending_once(given);
     for (std::size_t n = 0; n < theirs.size(); ++n)
-        with_[home[theirs[n]]].take.push_back(static_cast<std::uint32_t>(n));
+        take_[home[theirs[n]]].push_back(static_cast<std::uint32_t>(n));
     others_ = theirs.size();
 
     // Each node's forces in the order of all elements; those of other parts' are kept behind our own.
@@ -67,9 +70,9 @@ void Elements::divide() {
             const std::size_t p = home[one[c]];
             const std::size_t force = at == own ? 4 * mine + c : pulled;
             if (p == own) of_node[place_of(one[c])].push_back(force);
-            if (at == own && p != own) with_[p].push.push_back(static_cast<std::uint32_t>(force));
+            if (at == own && p != own) push_[p].push_back(static_cast<std::uint32_t>(force));
             if (at == own || p != own) continue;
-            with_[at].pulled.push_back(static_cast<std::uint32_t>(pulled++));
+            pulled_[at].push_back(static_cast<std::uint32_t>(pulled++));
         }
         if (at == own) ++mine;
     }
@@ -101,43 +104,23 @@ auto Elements::nodes_of(const ConstState<2>& state) const -> Nodes {
 }
 
 std::vector<double> Elements::other_nodes(const double* x, const double* v) const {
-    Parts& parts = Parts::here();
     std::vector<double> others(4 * others_);
-    if (parts.alone()) return others;
-    std::vector<Parts::Bytes> messages(with_.size());
-    for (std::size_t p = 0; p < with_.size(); ++p) {
-        std::vector<double> numbers;
-        for (const std::size_t i : with_[p].give)
-            numbers.insert(numbers.end(), {x[2 * i], x[2 * i + 1], v[2 * i], v[2 * i + 1]});
-        messages[p] = Parts::bytes_of(std::span<const double>(numbers));
-    }
-    const auto received = parts.exchange(std::move(messages), Parts::Content::images);
-    for (std::size_t p = 0; p < with_.size(); ++p) {
-        const auto numbers = Parts::values_of<double>(received[p]);
-        for (std::size_t n = 0; n < with_[p].take.size(); ++n)
-            std::copy_n(&numbers[4 * n], 4, &others[4 * with_[p].take[n]]);
-    }
+    if (Parts::here().alone()) return others;
+    OtherPartners::exchange<std::array<double, 4>>(
+        give_, take_,
+        [&](std::size_t i) {
+            return std::array{x[2 * i], x[2 * i + 1], v[2 * i], v[2 * i + 1]};
+        },
+        [&](std::size_t n, const auto& numbers) { std::ranges::copy(numbers, &others[4 * n]); });
     return others;
 }
 
 /// Forces of our elements on nodes elsewhere go there, those of other elements on ours come.
 void Elements::meet_other_forces() {
-    Parts& parts = Parts::here();
-    if (parts.alone()) return;
-    std::vector<Parts::Bytes> messages(with_.size());
-    for (std::size_t p = 0; p < with_.size(); ++p) {
-        std::vector<Vec<2>> forces;
-        for (const std::size_t k : with_[p].push) forces.push_back(force_[k / 4][k % 4]);
-        messages[p] = Parts::bytes_of(std::span<const Vec<2>>(forces));
-    }
-    const auto received = parts.exchange(std::move(messages), Parts::Content::images);
-    for (std::size_t p = 0; p < with_.size(); ++p) {
-        const auto forces = Parts::values_of<Vec<2>>(received[p]);
-        for (std::size_t n = 0; n < with_[p].pulled.size(); ++n) {
-            const std::size_t k = with_[p].pulled[n];
-            force_[k / 4][k % 4] = forces[n];
-        }
-    }
+    if (Parts::here().alone()) return;
+    OtherPartners::exchange<Vec<2>>(
+        push_, pulled_, [&](std::size_t k) { return force_[k / 4][k % 4]; },
+        [&](std::size_t k, const Vec<2>& force) { force_[k / 4][k % 4] = force; });
 }
 
 }  // namespace spam

@@ -239,8 +239,9 @@ std::string Elements::rates(const Now& now) {
     const Held held(now, nodes);
     for (const Field field : of_some_) rate.field(field).setZero();
     parallel_blocks(nature_.elements.size(), [&](std::size_t begin, std::size_t size) {
-        for_each_material(begin, size,
-                          [&](const Material& m, std::size_t first, std::size_t count) {
+        for_each_material(material_, begin, size,
+                          [&](std::size_t number, std::size_t first, std::size_t count) {
+                              const Material& m = materials_[number];
                               const auto* const law = m.solid();
                               if (law)
                                   law->return_stress(now.t, first, count, state, returned_.data());
@@ -294,9 +295,9 @@ std::size_t elements_broken(const Model<2>& model, std::span<const double> y) {
 bool Elements::settle(double t, const State<2>& nodes) {
     const State<2> state = nodes.elements();
     bool changed = false;
-    for_each_material(0, nature_.elements.size(),
-                      [&](const Material& m, std::size_t first, std::size_t count) {
-                          if (const auto* const law = m.solid())
+    for_each_material(material_, 0, nature_.elements.size(),
+                      [&](std::size_t number, std::size_t first, std::size_t count) {
+                          if (const auto* const law = materials_[number].solid())
                               changed = law->settle(t, first, count, state) || changed;
                       });
     const double* const broken = state.find(field_kind::broken);

@@ -104,7 +104,7 @@ Elements::Fields Elements::fields(std::span<const double> y) const {
         SymTensor<2>& stress = all.stress[k];
         const Fluid* const fluid = material_of(k).fluid();
         if (fluid == nullptr) {
-            std::copy_n(held + 3 * k, 3, stress.c.begin());
+            stress = numbers_at<SymTensor<2>>(held + 3 * k);
             continue;
         }
         if (fluid->viscosity)

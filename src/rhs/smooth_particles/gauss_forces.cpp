@@ -8,9 +8,7 @@ namespace {
 
 template <int Dim>
 Vec<Dim> vector_at(const double* field, std::size_t i) {
-    Vec<Dim> v;
-    std::copy_n(field + Dim * i, Dim, v.c.begin());
-    return v;
+    return numbers_at<Vec<Dim>>(field + Dim * i);
 }
 
 }  // namespace

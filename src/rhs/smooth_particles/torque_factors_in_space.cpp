@@ -7,14 +7,11 @@ namespace spam {
 namespace {
 
 Vec<3> space_vector(const double* field, std::size_t i) {
-    return {{field[3 * i], field[3 * i + 1], field[3 * i + 2]}};
+    return numbers_at<Vec<3>>(field + 3 * i);
 }
 
 TorqueMoments moments_from(const std::array<double, torque_moments>& numbers) {
-    TorqueMoments m;
-    std::copy_n(numbers.begin(), 3, m.torque.c.begin());
-    std::copy_n(numbers.begin() + 3, 6, m.spread.c.begin());
-    return m;
+    return {numbers_at<Vec<3>>(numbers.data()), numbers_at<SymTensor<3>>(&numbers[3])};
 }
 
 }  // namespace

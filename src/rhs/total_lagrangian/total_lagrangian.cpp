@@ -65,13 +65,6 @@ TotalLagrangianScheme validated(const TotalLagrangianScheme& scheme,
     return scheme;
 }
 
-template <int Dim>
-Mat<Dim> tensor_at(const double* numbers) {
-    Mat<Dim> t;
-    std::copy(numbers, numbers + Dim * Dim, t.c.begin());
-    return t;
-}
-
 }  // namespace
 
 /// The material as the sweep calls it.
@@ -92,9 +85,8 @@ struct TotalLagrangian<Dim>::Stresses {
                                     self.state, self.t))
             self.finite = false;
         for (std::size_t k = 0; k < count * stride<Dim>; k += stride<Dim>) {
-            SymTensor<Dim> K;
-            std::copy_n(record + k + K_at<Dim>, K.c.size(), K.c.begin());
-            const Mat<Dim> stress = tensor_at<Dim>(B + k) * K;
+            const auto K = numbers_at<SymTensor<Dim>>(record + k + K_at<Dim>);
+            const Mat<Dim> stress = numbers_at<Mat<Dim>>(B + k) * K;
             std::copy(stress.c.begin(), stress.c.end(), B + k);
         }
     }
@@ -243,9 +235,10 @@ void TotalLagrangian<Dim>::memory_rates(const Now& now) {
     for (const Field field : material_.history()) now.rate.field(field).setZero();
     // Without slots that only fill up a cluster: they have a particle's number, and no deformation.
     parallel_for(near_.list().size(), [&](std::size_t slot) {
-        const Mat<Dim> F = tensor_at<Dim>(near_.record(slot) + F_at<Dim>);
-        material_.rates(now.t, order[slot], F, tensor_at<Dim>(moving_->record(slot) + F_at<Dim>),
-                        now.state, now.rate);
+        const Mat<Dim> F = numbers_at<Mat<Dim>>(near_.record(slot) + F_at<Dim>);
+        material_.rates(now.t, order[slot], F,
+                        numbers_at<Mat<Dim>>(moving_->record(slot) + F_at<Dim>), now.state,
+                        now.rate);
     });
 }
 
@@ -258,7 +251,7 @@ bool TotalLagrangian<Dim>::settle(double t, const State<Dim>& state) {
     out.records = near_.record(0);
     sweeps_->gradient(input(near_), out);
     return parallel_count(near_.list().size(), [&](std::size_t slot) -> std::size_t {
-               const Mat<Dim> F = tensor_at<Dim>(near_.record(slot) + F_at<Dim>);
+               const Mat<Dim> F = numbers_at<Mat<Dim>>(near_.record(slot) + F_at<Dim>);
                return material_.settle(t, near_.list().order()[slot], F, state) ? 1 : 0;
            }) > 0;
 }
@@ -294,7 +287,7 @@ std::vector<Mat<Dim>> TotalLagrangian<Dim>::gradients(std::span<const double> y)
     const Neighbourhood<Dim> own = deformed(y);
     std::vector<Mat<Dim>> F(own.list().size());
     for (std::size_t slot = 0; slot < F.size(); ++slot)
-        F[own.list().order()[slot]] = tensor_at<Dim>(own.record(slot) + F_at<Dim>);
+        F[own.list().order()[slot]] = numbers_at<Mat<Dim>>(own.record(slot) + F_at<Dim>);
     return F;
 }
 
@@ -313,7 +306,8 @@ double TotalLagrangian<Dim>::potential_energy(std::span<const double> y) const {
         const std::size_t i = own.list().order()[slot];
         const double* const record = own.record(slot);
         return std::array<double, 2>{
-            record[volume_at<Dim>] * material_.energy(i, tensor_at<Dim>(record + F_at<Dim>), state),
+            record[volume_at<Dim>] *
+                material_.energy(i, numbers_at<Mat<Dim>>(record + F_at<Dim>), state),
             penalty[i]};
     });
     return stored + of_penalty;
