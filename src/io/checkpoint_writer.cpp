@@ -105,6 +105,7 @@ CheckpointWriter::~CheckpointWriter() {
     const Silence silence;
     image_.reset();
 }
+CheckpointWriter::CheckpointWriter(CheckpointWriter&&) noexcept = default;
 
 void CheckpointWriter::text(std::string_view path, std::string_view value) {
     const Silence silence;

@@ -23,6 +23,7 @@ class CheckpointWriter {
     /// `expected`: bytes it will hold, roughly; where it is right, nothing is copied as the file grows.
     explicit CheckpointWriter(std::size_t expected = 0);
     ~CheckpointWriter();
+    CheckpointWriter(CheckpointWriter&&) noexcept;
 
     /// A scalar string, UTF-8; may be empty.
     void text(std::string_view path, std::string_view value);
