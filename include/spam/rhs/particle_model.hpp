@@ -225,7 +225,7 @@ template <int Dim, class Law, class... What>
 class ModelOf final : public ParticleModel<Dim> {
   public:
     /// Throws InputError as Law does.
-    explicit ModelOf(Particles<Dim> particles, const What&... what, const Box<Dim>& box = {})
+    ModelOf(Particles<Dim> particles, const What&... what, const Box<Dim>& box = {})
         : ParticleModel<Dim>(std::move(particles), box),
           law(this->template add_term<Law>(what...)) {}
 
