@@ -138,8 +138,8 @@ BOOST_AUTO_TEST_CASE(one_flows_beside_one_that_does_not) {
     BOOST_TEST(most[1] > 1e-3);
 }
 
-/// The penalty is in units of a particle's own stiffness: the motion of particles that see their own kind alone, and what
-/// they store, are what they are in a body of one material, however stiff others are.
+/// The penalty is in units of a particle's own stiffness: particles that see their own kind alone move as in a body of
+/// one material, however stiff others are.
 BOOST_AUTO_TEST_CASE(the_penalty_is_that_of_a_particles_own_law) {
     const PolynomialSolid steel{43.0, 43.0};
     auto one_material = two_parts(24);

@@ -208,8 +208,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(all_walls_together_give_what_is_given, In, PlaneAn
         }
 }
 
-/// Of images in a corner those of the moving warm wall take energy, not those of the mirror beside it: whatever the order
-/// of directions.
+/// Of images in a corner those of the moving warm wall take energy, not those of the mirror beside it, whatever the
+/// order of directions.
 BOOST_AUTO_TEST_CASE_TEMPLATE(mirrors_take_no_energy_in_corners, In, PlaneAndSpace) {
     constexpr int Dim = In::value;
     for (const Law<Dim>& law : laws<Dim>()) {
