@@ -157,7 +157,7 @@ void report(Session& session, std::size_t count, const Measured& found) {
                    "the state does not depend on the number of processes");
     // A short turn may take no time at all by the clock of the processor, and there may be no share.
     const auto measure = [&](const char* what, double ratio, const char* remark) {
-        if (std::isfinite(ratio)) findings.measure(what, ratio, remark);
+        if (std::isfinite(ratio) && ratio > 0.0) findings.measure(what, ratio, remark);
     };
     measure("efficiency", found.strong(count), "strong: processor time and least exchanges");
     measure("efficiency_by_clock", found.by_clock(count), "of the least turns");
@@ -166,9 +166,8 @@ void report(Session& session, std::size_t count, const Measured& found) {
     findings.measure("images_per_particle", found.images);
     findings.measure("exchanges_per_rhs", found.exchanges, "of each process");
     findings.measure("bytes_per_particle_and_rhs", found.bytes);
-    findings.measure("nanoseconds_per_particle_and_rhs",
-                     1e9 * found.one.busy / 4.0 / static_cast<double>(found.particles),
-                     "of one process");
+    measure("nanoseconds_per_particle_and_rhs",
+            1e9 * found.one.busy / 4.0 / static_cast<double>(found.particles), "of one process");
 }
 
 void write(const RunFolder& folder, const std::vector<Measured>& all, std::size_t count) {

@@ -4,7 +4,7 @@
 //
 // These are thousands of runs, which is why cases are small, and why options of the session are tried once for
 // every kind of results that a program leaves, not in every case (`of_the_session`). What a program was tried with in
-// one case is tried in every 48th of the others, and in all of them in long runs.
+// one case is tried in every 144th of the others, and in all of them in long runs.
 #include "problem/idle_options.hpp"
 
 #include "problem/result_files.hpp"
@@ -224,7 +224,7 @@ void Trial::every_option_of(const Words& words) {
         if (left_to_others(option.name) ||
             (of_the_session.contains(option.name) && !common_.insert({kind, option.name}).second))
             continue;
-        if (!long_runs() && tried_.contains(option.name) && ++again_ % 48 != 0) continue;
+        if (!long_runs() && tried_.contains(option.name) && ++again_ % 144 != 0) continue;
         check(words, option, !kind.starts_with("none"));
     }
     std::string shown = program_;

@@ -80,7 +80,7 @@ class HyperelasticMaterial {
     /// Infinite where the law does not flow; of several the least, and the largest stiffness.
     double yield_strain() const { return loop_->yield_strain(); }
     double stiffness() const { return loop_->stiffness(); }
-    /// The law of particle i alone.
+    /// The law of particle i alone, of those that of() has given numbers.
     const HyperelasticMaterial& law(std::size_t i) const {
         const HyperelasticMaterial* const one = loop_->law(i);
         return one != nullptr ? *one : *this;

@@ -47,7 +47,7 @@ class Ghosts {
 
     /// Whether ghost number g is behind that wall across direction a. In a corner of two walls it is behind one of
     /// them: that which passes energy, for what it takes does not stay with an insulated mirror; of two that are alike
-    /// the one across the last direction. Precondition: the side is not open.
+    /// the one across the last direction.
     bool behind(std::size_t g, int a, bool upper) const {
         const auto side_of = [&](int b) {
             const std::uint32_t number = number_along(code_[g], b);

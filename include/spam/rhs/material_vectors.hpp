@@ -111,15 +111,12 @@ class MaterialVectors final : public Term<Dim> {
     /// because what grows takes longer than that. And when the first pairs break, and whenever twice as many have as
     /// at the last remark.
     std::vector<Remark> watch(double t, std::span<const double> y) override;
-    /// The largest principal Cauchy stress of all whole particles, below 0 where all are compressed; of a law that is
-    /// less stiff than the stiffest by as much larger, as it bears less.
+    /// The largest principal Cauchy stress of all whole particles; below 0 where all are compressed.
     double largest_tension(std::span<const double> y) const;
 
     const MaterialVectorScheme& scheme() const { return scheme_; }
-    /// MaterialVectorScheme::safe_tension() of this solid.
-    double safe_tension() const {
-        return scheme_.safe_tension(material_.stiffness(), this->particles().spacing);
-    }
+    /// MaterialVectorScheme::safe_tension() of the least stiff of its laws.
+    double safe_tension() const;
     /// Energy that changes of the table have taken out of the motion so far.
     double heat() const;
     /// The same of each particle, N numbers.
@@ -137,6 +134,9 @@ class MaterialVectors final : public Term<Dim> {
   private:
     struct Parts;
     struct Fit;
+    /// Of a law with this part of the largest stiffness.
+    double safe_tension(double share) const;
+    std::vector<double> tensions(std::span<const double> y) const;
     std::vector<Bond> bonds_at(const double* x, std::size_t k) const;
     Fit fit(const double* x, std::size_t k) const;
     double energy_of(const Fit& fit, std::size_t k, const ConstState<Dim>& state) const;

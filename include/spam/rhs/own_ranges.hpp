@@ -69,6 +69,7 @@ class OwnRanges final : public Term<Dim> {
   private:
     const Fluid& of(std::size_t i) const;
     double range_of(std::size_t i, double rho) const;
+    double between_walls() const;
     double most_range() const;
     double resting_range() const;
     std::string find_ranges(const ConstState<Dim>& state);

@@ -93,16 +93,23 @@ double OwnRanges<Dim>::range_of(std::size_t i, double rho) const {
     return scheme_.range * std::cbrt(volume);
 }
 
-/// Half of the shortest periodic length, or the distance of two walls that face each other.
+/// The least distance of two walls that face each other and have images.
+template <int Dim>
+double OwnRanges<Dim>::between_walls() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int a = 0; a < Dim; ++a)
+        if (const auto& lower = this->box().wall(a, false), &upper = this->box().wall(a, true);
+            lower.has_images() && upper.has_images())
+            least = std::min(least, upper.at - lower.at);
+    return least;
+}
+
+/// That, or half of the shortest periodic length.
 template <int Dim>
 double OwnRanges<Dim>::most_range() const {
-    double most = std::numeric_limits<double>::infinity();
+    double most = between_walls();
     for (int a = 0; a < Dim; ++a)
-        if (this->box().periodic(a))
-            most = std::min(most, 0.5 * this->box().length(a));
-        else if (const auto& lower = this->box().wall(a, false), &upper = this->box().wall(a, true);
-                 lower.has_images() && upper.has_images())
-            most = std::min(most, upper.at - lower.at);
+        if (this->box().periodic(a)) most = std::min(most, 0.5 * this->box().length(a));
     return most;
 }
 
@@ -111,7 +118,7 @@ double OwnRanges<Dim>::most_range() const {
 template <int Dim>
 double OwnRanges<Dim>::resting_range() const {
     const double usual = scheme_.range * this->particles().spacing;
-    return usual < most_range() ? usual : 0.9 * most_range();
+    return usual < between_walls() ? usual : 0.9 * between_walls();
 }
 
 /// range_ and this->nature_.reach. Returns why they make no sense.

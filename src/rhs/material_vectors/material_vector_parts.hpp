@@ -35,6 +35,7 @@ struct MaterialVectors<Dim>::Parts {
     std::vector<double> volume{}, heat{};
     double stiffness = 0.0;       ///< c_k/V_k = kappa eta/N0 of the stiffest law
     std::vector<double> share{};  ///< of that stiffness, by particle
+    double least_share = 1.0;
     std::vector<std::uint32_t> numbers{};
     double misfit_limit = HUGE_VAL;  ///< |e|/|F X| of the law that yields first
     bool brittle = false;

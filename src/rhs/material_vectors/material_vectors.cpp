@@ -40,11 +40,6 @@ MaterialVectorScheme validated(const MaterialVectorScheme& scheme, const Particl
         throw InputError(fmt::format(
             "weight: a reach of {} ranges must be positive, a power of {} not below 0; 1.25 and 4 are usual",
             scheme.weight.reach, scheme.weight.power));
-    if (scheme.penalty > 0.0 && !(material.stiffness() > 0.0))
-        throw InputError(fmt::format(
-            "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
-            "another material",
-            scheme.penalty, material.stiffness()));
     if (!(scheme.bond_yield >= 0.0) || !std::isfinite(scheme.bond_yield))
         throw InputError(fmt::format(
             "bond_yield: {} must be a number not below 0, in yield strains; try 4, or 0 "
@@ -106,6 +101,7 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
     p.N0 = spam::Parts::here().most(p.N0);
     if (!(p.N0 > 0.0)) throw InputError("range: no particle has a neighbour; widen --range");
     const double stiffest = material.stiffness();
+    double least = stiffest;
     p.stiffness = scheme.penalty * stiffest / p.N0;
     if (scheme.bond_yield > 0.0) p.misfit_limit = scheme.bond_yield * material.yield_strain();
     p.brittle = std::min(scheme.stretch_limit, scheme.stress_limit) < HUGE_VAL;
@@ -113,7 +109,15 @@ MaterialVectors<Dim>::MaterialVectors(const Selection<Dim>& among,
         p.volume.push_back(all.mass[k] / scheme.density);
         const double own = material_.law(k).stiffness();
         p.share.push_back(own == stiffest ? 1.0 : own / stiffest);
+        least = std::min(least, own);
     }
+    least = -spam::Parts::here().most(-least);
+    if (scheme.penalty > 0.0 && !(least > 0.0))
+        throw InputError(fmt::format(
+            "penalty: {} is measured in the material's stiffness, which is {}; use --penalty 0 or "
+            "another material",
+            scheme.penalty, least));
+    p.least_share = least == stiffest ? 1.0 : least / stiffest;
     set_nature();
 }
 

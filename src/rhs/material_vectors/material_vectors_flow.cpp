@@ -2,7 +2,6 @@
 // Flow of a solid with material vectors, after accepted steps.
 #include "material_vector_parts.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace spam {
