@@ -71,7 +71,7 @@ void report(Session& session, const Parameters& p, const std::vector<Plate>& pla
 
 void compute(Session& session, const Parameters& p) {
     auto plates = by_size(p.layers, p.compare, [&](int layers) { return make_plate(p, layers); });
-    // With a negative ratio of Poisson waves of shear are nearly as fast as the fastest, where all motion is quicker.
+    // Where Poisson's ratio is negative shear waves are nearly as fast as the fastest waves, and errors are larger.
     const double nu = p.beam.poisson, sheared = (1.0 - nu) / (1.0 - 2.0 * nu);  // c_l^2/(2 c_s^2)
     session.prefer_step(p.relative_step() * std::min(1.0, sheared) * 0.4 *
                         p.spacing(plates.back().layers) / p.beam.wave_speed());

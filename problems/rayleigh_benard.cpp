@@ -28,6 +28,7 @@
 //                        factor of three. The particles' onset is later: at rest they are in order, and resist
 //                        weak rolls as a solid does. 2 min
 #include "rayleigh_benard/convection.hpp"
+#include "wall_step.hpp"
 
 namespace {
 
@@ -81,7 +82,7 @@ void report(Session& session, const Parameters& p, const Convection& gas, const 
 /// Slow convection means quick diffusion; beside a fast wall particles change places quickly.
 double step_of(const Convection& gas) {
     return std::min({0.2 * quicker(gas.layer), 1.5 / gas.model->fastest_damping(gas.y0),
-                     0.6 / gas.model->box().fastest_wall()});
+                     step_beside_walls(gas.model->box())});
 }
 
 void run_one(Session& session, const Parameters& p) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "channel.hpp"
 
+#include "../wall_step.hpp"
 #include <spam/external/gravity.hpp>
 
 namespace channel {
@@ -111,7 +112,7 @@ void run(Session& session, const Parameters& p, Drive drive) {
         for (const bool upper : {false, true})
             rigid = rigid || box.wall(a, upper).kind == WallKind::rigid;
     session.prefer_step(
-        std::min({rigid ? 0.125 : 0.25, 0.4 / flows.back().exact.nu, 0.6 / box.fastest_wall()}));
+        std::min({rigid ? 0.125 : 0.25, 0.4 / flows.back().exact.nu, step_beside_walls(box)}));
     const auto runs = run_all(session, flows, [&](Flow& flow) { return plan_of(session, flow); });
     for (std::size_t k = 0; k < runs.size(); ++k) report(session, flows[k], runs[k]);
     if (runs.size() == 3 && flows.front().known)

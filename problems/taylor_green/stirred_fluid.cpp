@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stirred_fluid.hpp"
 
+#include "../wall_step.hpp"
 #include <spam/material/embedded_atom.hpp>
 
 namespace stirred {
@@ -42,7 +43,7 @@ double step_of(const Parameters& p, double nu, const Box<2>& box) {
             free_edges = free_edges || (!box.periodic(a) && !box.wall(a, upper).has_images());
     return std::min({(free_edges ? 0.025 : 0.1) * p.scheme.range,
                      0.4 / nu * std::min(1.0, p.reynolds),
-                     0.5 * p.scheme.range / (4.0 * p.scheme.shifting), 0.6 / box.fastest_wall()});
+                     0.5 * p.scheme.range / (4.0 * p.scheme.shifting), step_beside_walls(box)});
 }
 
 void add_options(Options& options, Parameters& p, const std::string& speed_of_what) {

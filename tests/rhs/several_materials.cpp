@@ -214,6 +214,12 @@ BOOST_AUTO_TEST_CASE(numbers_without_a_material_are_refused) {
         BOOST_TEST(refusal([&] { make(soft, two_parts()); }).find("there are 1") !=
                    std::string::npos);
     }
+    // A law without stiffness would have no penalty.
+    const PolynomialSolid fluid{1.0, 0.0};
+    BOOST_TEST(fluid.stiffness() == 0.0);
+    BOOST_TEST(refusal([&] {
+                   material_vectors(Laws{fluid, stiff}, two_parts());
+               }).starts_with("penalty: 2 is measured in the material's stiffness, which is 0"));
     BOOST_TEST(refusal([] { HyperelasticMaterial<2>(Laws{}); }).find("none is given") !=
                std::string::npos);
 }
