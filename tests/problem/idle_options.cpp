@@ -4,7 +4,7 @@
 //
 // These are thousands of runs, which is why cases are small, and why options of the session are tried once for
 // every kind of results that a program leaves, not in every case (`of_the_session`). What a program was tried with in
-// one case is tried in every 144th of the others, and in all of them in long runs.
+// one case is tried in every 288th of the others, and in all of them in long runs.
 #include "problem/idle_options.hpp"
 
 #include "problem/result_files.hpp"
@@ -129,7 +129,7 @@ class Trial {
 
   private:
     void check(const Words& words, const Option& option, bool has_run);
-    /// An option of the session is tried in every 24th program, one of the scheme in every eighth, and all of them
+    /// An option of the session is tried in every 32nd program, one of the scheme in every twelfth, and all of them
     /// everywhere in long runs.
     bool left_to_others(const std::string& option) const {
         const auto left = [&](const auto& shared, std::size_t programs) {
@@ -138,7 +138,7 @@ class Trial {
             return at != shared.end() && (number_ + place) % programs != 0;
         };
         return !long_runs() &&
-               (left(of_the_session, 24) || left(spam::Problem::scheme_option_names(), 8));
+               (left(of_the_session, 32) || left(spam::Problem::scheme_option_names(), 12));
     }
     /// The run to compare with.
     const Ran& ran_with(const Words& words) {
@@ -224,7 +224,7 @@ void Trial::every_option_of(const Words& words) {
         if (left_to_others(option.name) ||
             (of_the_session.contains(option.name) && !common_.insert({kind, option.name}).second))
             continue;
-        if (!long_runs() && tried_.contains(option.name) && ++again_ % 144 != 0) continue;
+        if (!long_runs() && tried_.contains(option.name) && ++again_ % 288 != 0) continue;
         check(words, option, !kind.starts_with("none"));
     }
     std::string shown = program_;
