@@ -65,7 +65,7 @@ void check_pictures(const std::filesystem::path& out) {
 BOOST_AUTO_TEST_CASE(there_are_problems) { BOOST_TEST(problems.size() >= 3u); }
 
 BOOST_AUTO_TEST_CASE(a_smoke_run_holds_and_its_case_runs_again) {
-    Spread due(4, 1000);  // of second runs
+    Spread due(6, 1000);  // of second runs
     for (const auto& name : problems) BOOST_TEST_CONTEXT(name) {
             const Scratch folder;
             const Outcome outcome = run_in(folder, name, {"--smoke", "--out", "out"});

@@ -20,8 +20,8 @@ bool only_in_the_first() {
 
 /// A fifth of the time, and of that between checkpoints: exchanges cost most where cores are shared.
 Words shorter(Words arguments) {
-    static const std::set<std::string> times{"--t-end", "--turns", "--time", "--periods",
-                                             "--checkpoint-every"};
+    static const std::set<std::string> times{
+        "--t-end", "--turns", "--time", "--periods", "--relaxation-time", "--checkpoint-every"};
     for (std::size_t k = 1; k < arguments.size(); ++k)
         if (times.contains(arguments[k - 1]))
             arguments[k] = std::to_string(0.2 * std::stod(arguments[k]));

@@ -35,8 +35,8 @@ inline const std::map<std::string, Words> short_runs{
       "--checkpoint-every", "1.3"}},
     {"isomorphism", {"--cells", "10", "--t-end", "40", "--checkpoint-every", "4"}},
     {"lattice_stability",
-     {"--cells", "8", "--block", "8", "--range", "2.5", "--t-end", "3", "--checkpoint-every",
-      "0.37"}},
+     {"--cells", "8", "--block", "8", "--range", "2.5", "--t-end", "3", "--snapshot-every", "0.3",
+      "--checkpoint-every", "0.37"}},
     {"md_fields",
      {"--cells", "13", "--radius", "4", "--offset", "3", "--t-end", "1.5", "--output-every", "0.05",
       "--checkpoint-every", "0.23"}},
@@ -73,7 +73,7 @@ inline const std::map<std::string, Words> short_runs{
      {"--columns", "16", "--rows", "6", "--load-rate", "4e-5", "--t-end", "120",
       "--checkpoint-every", "17"}},
     {"water_column",
-     {"--model", "both", "--width", "6", "--relaxation-time", "8", "--t-end", "4",
+     {"--model", "both", "--width", "6", "--relaxation-time", "4", "--t-end", "4",
       "--checkpoint-every", "0.67"}},
 };
 /// In space, what is plane above: one of them, or all in long runs.
