@@ -225,7 +225,8 @@ void draw_table(Session& session, const Parameters& p, const std::vector<Table>&
 
 void draw_ripple(Session& session, const Parameters& p) {
     std::vector<double> h;
-    for (int k = 0; k <= 90; ++k) h.push_back(p.smallest + (p.largest - p.smallest) * k / 90);
+    const int steps = session.common().smoke ? 30 : 90;
+    for (int k = 0; k <= steps; ++k) h.push_back(p.smallest + (p.largest - p.smallest) * k / steps);
     std::vector<CurvePanel> panels;
     for (const auto& table : tabulate_all(p, h)) {
         panels.push_back({table.lattice, "range h", "largest − smallest density", true, {}});

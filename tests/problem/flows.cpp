@@ -124,8 +124,8 @@ BOOST_AUTO_TEST_CASE(the_step_follows_the_fastest_side) {
 
 BOOST_AUTO_TEST_CASE(a_layer_heated_from_below_rolls_as_finite_differences_do) {
     if (SPAM_SANITIZED) return;
-    const char* const t_end =
-        long_runs() ? "1000" : "750";  // at 700 rolls are whole, at 500 they are not
+    // At 700 rolls are whole, at 500 they are not.
+    const char* const t_end = long_runs() ? "1000" : "750";
     const Results found("rayleigh_benard", {"--t-end", t_end}, "nusselt_by_grid");
     BOOST_TEST(std::abs(found.value.at("nusselt_by_grid") - 1.0) < 0.1);
     BOOST_TEST(std::abs(found.value.at("nusselt_difference")) < 0.1);

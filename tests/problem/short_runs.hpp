@@ -35,7 +35,7 @@ inline const std::map<std::string, Words> short_runs{
       "--checkpoint-every", "1.3"}},
     {"isomorphism", {"--cells", "10", "--t-end", "40", "--checkpoint-every", "4"}},
     {"lattice_stability",
-     {"--cells", "8", "--block", "8", "--range", "2.5", "--t-end", "3", "--snapshot-every", "0.3",
+     {"--cells", "6", "--block", "6", "--range", "2", "--t-end", "3", "--snapshot-every", "0.3",
       "--checkpoint-every", "0.37"}},
     {"md_fields",
      {"--cells", "13", "--radius", "4", "--offset", "3", "--t-end", "1.5", "--output-every", "0.05",

@@ -40,8 +40,10 @@ def open_page(browser, page, address=""):
 
 
 def check_first_frame(browser, page):
-    """Within its time; of three openings the fastest counts, for the machine may have other work."""
-    times = [open_page(browser, page) for _ in range(3)]
+    """Within its time, at the third opening at the latest, for the machine may have other work."""
+    times = [open_page(browser, page)]
+    while times[-1] >= first_frame and len(times) < 3:
+        times.append(open_page(browser, page))
     print(f"  first frame after {min(times):.0f} ms (of {', '.join(f'{t:.0f}' for t in times)})", flush=True)
     assert min(times) < first_frame, times
 
