@@ -18,13 +18,13 @@ bool only_in_the_first() {
     return quarter != nullptr && std::string(quarter) != "0";
 }
 
-/// A fifth of the time, and of that between checkpoints: exchanges cost most where cores are shared.
+/// A tenth of the time, and of that between checkpoints: exchanges cost most where cores are shared.
 Words shorter(Words arguments) {
     static const std::set<std::string> times{
         "--t-end", "--turns", "--time", "--periods", "--relaxation-time", "--checkpoint-every"};
     for (std::size_t k = 1; k < arguments.size(); ++k)
         if (times.contains(arguments[k - 1]))
-            arguments[k] = std::to_string(0.2 * std::stod(arguments[k]));
+            arguments[k] = std::to_string(0.1 * std::stod(arguments[k]));
     return arguments;
 }
 

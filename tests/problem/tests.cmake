@@ -147,7 +147,7 @@ if(SPAM_PYTHON AND SPAM_BUILD_VIEW)
 endif()
 spam_long(drift/material_vectors drift/material_vector_bodies drift/material_vector_matter physics/lattice_strength
           rhs/parts rhs/parts_in_space rhs/units rhs/units_in_space)
-spam_long(problem/ball_plate problem/cantilever problem/column_of_elements problem/element_twins problem/every_problem
-          problem/expansion problem/flows problem/idle_options problem/ranks_bytes problem/restart
+spam_long(problem/ball_plate problem/cantilever problem/column_of_elements problem/early_signals problem/element_twins
+          problem/every_problem problem/expansion problem/flows problem/idle_options problem/ranks_bytes problem/restart
           problem/restart_table problem/short_ranges problem/space problem/stirred_flows problem/tension_test
           problem/wall_flows problem/water_column)
