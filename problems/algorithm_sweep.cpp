@@ -32,6 +32,9 @@ struct Parameters {
 
     double omega() const { return speed / size; }
     double turn() const { return 2.0 * pi / omega(); }
+    /// What RK4 loses of L in a turn grows as speed^2.7 dt^4.4 (measured with 7 particles, speeds of 0.1 to 0.5 and
+    /// steps of 0.05 to 0.5): with this step it is that of 0.1 at the speed of the paper.
+    double step() const { return 0.1 * std::min(1.0, std::pow(0.1 / speed, 2.0 / 3.0)); }
 };
 
 /// In the order of the paper's list, the last varying fastest.
@@ -225,6 +228,7 @@ int main(int argc, char** argv) {
     return problem.main(argc, argv, [&](Session& session) {
         session.smoke_default("size", p.size, 1);
         session.smoke_default("turns", p.turns, 1.0);
+        if (p.step() < 0.1) session.prefer_step(p.step());
         const auto schemes = combinations(p);
         std::vector<StudyTask> tasks;
         for (const Scheme& scheme : schemes) {
@@ -258,11 +262,12 @@ int main(int argc, char** argv) {
         }
         session.measure("combinations", static_cast<double>(rows.size()),
                         "[HHM04] IX: 2 x 2 x 2 x 3 x 3");
+        // Longer steps show the method's error.
+        const auto& by = session.integrator();
         session.claim(
-            {"pair_torque_largest_L_change", worst_pair, 0.0, 1e-8,
+            {"pair_torque_largest_L_change", worst_pair, 0.0, 1e-9 * std::max(10.0, p.turns),
              "[HHM04] VIII: exact, with averaged velocities"},
-            session.integrator().method == "rk4" &&
-                session.integrator().dt.value_or(0.0) <= 0.5);  // longer ones follow nothing
+            by.method == "rk4" && by.dt.value_or(0.0) <= p.step());
         session.measure("promises_kept", kept, "of the 72");
         session.measure("whole_to_the_end", whole, "of the 72");
         session.measure("whole_but_L_lost", lost, "of the 72: they have almost stopped rotating");

@@ -188,6 +188,8 @@ BOOST_AUTO_TEST_CASE(every_weight_function_keeps_what_is_promised) {
 BOOST_AUTO_TEST_CASE(no_check_must_fail_for_a_legal_option) {
     const std::vector<std::pair<std::string, Words>> all{
         {"counter_rotating", {"--smoke", "--dt", "0.3"}},
+        {"algorithm_sweep", {"--smoke", "--dt", "0.3"}},
+        {"algorithm_sweep", {"--smoke", "--speed", "0.5"}},
         {"plastic_block", {"--smoke", "--yield", "smooth"}},
         {"sheared_square", {"--smoke", "--viscosity", "10"}},
         {"isomorphism", {"--smoke", "--law", "lucy", "--perturbation", "1e-2"}},

@@ -91,7 +91,7 @@ inline const std::vector<std::pair<std::string, Words>> cases{
     {"fragmenting_bar", {"--formulation", "material_vectors"}},
     {"pierced_bar", {"--contact", "repulsive", "--t-end", "14"}},
     {"pierced_bar", {"--contact", "none", "--t-end", "14"}},
-    {"algorithm_sweep", {"--size", "1", "--speed", "0.4"}},
+    {"algorithm_sweep", {"--size", "1", "--speed", "0.4", "--dt", "0.1"}},
     {"integrator_accuracy", {"--size", "2"}},
     {"invariant_drift", {}},
     {"kernels", {}},

@@ -11,7 +11,8 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-const Words sweep{"--size", "2", "--turns", "1", "--speed", "0.2", "--no-plots", "--jobs", "2"};
+const Words sweep{"--size", "2",   "--turns",    "1",      "--speed", "0.2",
+                  "--dt",   "0.1", "--no-plots", "--jobs", "2"};
 
 Words with(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
