@@ -26,6 +26,18 @@ const std::vector<Busy> all{
     {"turns_survived", {}},
 };
 
+/// What a program that has begun its long part says to a signal: at once.
+Outcome ended_by(Child& child, int signal) {
+    std::this_thread::sleep_for(Child::Seconds(0.4));
+    const auto sent = std::chrono::steady_clock::now();
+    child.send(signal);
+    Outcome outcome = child.finish();
+    const Child::Seconds took = std::chrono::steady_clock::now() - sent;
+    BOOST_TEST(outcome.status == 128 + signal);
+    BOOST_TEST(took.count() < 1.0);
+    return outcome;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(one_signal_is_enough) {
@@ -39,15 +51,9 @@ BOOST_AUTO_TEST_CASE(one_signal_is_enough) {
                     Child child(
                         problem(busy.program, with(busy.arguments, {"--no-plots", "--out", "o"})),
                         {folder.path()});
-                    std::this_thread::sleep_for(Child::Seconds(0.4));
-                    const auto sent = std::chrono::steady_clock::now();
-                    child.send(signal);
-                    const Outcome outcome = child.finish();
-                    const Child::Seconds took = std::chrono::steady_clock::now() - sent;
-                    BOOST_TEST(outcome.status == 128 + signal);
+                    const Outcome outcome = ended_by(child, signal);
                     BOOST_TEST(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
                     BOOST_TEST(outcome.err.starts_with(busy.program + ": interrupted by signal"));
-                    BOOST_TEST(took.count() < 1.0);
                 }
 }
 
@@ -61,16 +67,10 @@ BOOST_AUTO_TEST_CASE(one_signal_is_enough_after_motion) {
             BOOST_REQUIRE(child.wait_for([&](const Outcome&) {
                 return std::filesystem::exists(folder / "o/both/statistics.json");
             }));
-            std::this_thread::sleep_for(Child::Seconds(0.4));
-            const auto sent = std::chrono::steady_clock::now();
-            child.send(signal);
-            const Outcome outcome = child.finish();
-            const Child::Seconds took = std::chrono::steady_clock::now() - sent;
-            BOOST_TEST(outcome.status == 128 + signal);
+            const Outcome outcome = ended_by(child, signal);
             BOOST_TEST(outcome.err == "lattice_stability: interrupted by signal " +
                                           std::to_string(signal) +
                                           "; the results so far are complete\n");
-            BOOST_TEST(took.count() < 1.0);
             Words checked;
             for (const auto& check : json_of(folder / "o/result.json"))
                 checked.push_back(check.at("name").get<std::string>());
