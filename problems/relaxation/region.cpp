@@ -115,18 +115,14 @@ bool Region::contains(const Point<2>& r) const {
     return inside;
 }
 
-Point<2> Region::nearest_on_border(const Point<2>& r) const {
+double Region::distance(const Point<2>& r) const {
     double least = HUGE_VAL;
-    Point<2> nearest = polygon_.col(0);
     for (Eigen::Index k = 0; k < polygon_.cols(); ++k) {
         const Point<2> a = polygon_.col(k), side = polygon_.col((k + 1) % polygon_.cols()) - a;
         const double along = std::clamp((r - a).dot(side) / side.squaredNorm(), 0.0, 1.0);
-        const Point<2> at = a + along * side;
-        if ((r - at).squaredNorm() >= least) continue;
-        least = (r - at).squaredNorm();
-        nearest = at;
+        least = std::min(least, (a + along * side - r).squaredNorm());
     }
-    return nearest;
+    return std::sqrt(least);
 }
 
 Region Region::of_area(double area) const {

@@ -22,9 +22,8 @@ class Region {
     const Points<2>& polygon() const { return polygon_; }
     double area() const;
     bool contains(const Point<2>& r) const;
-    Point<2> nearest_on_border(const Point<2>& r) const;
     /// From the border, whichever side.
-    double distance(const Point<2>& r) const { return (nearest_on_border(r) - r).norm(); }
+    double distance(const Point<2>& r) const;
 
     /// As large as `area`, its centroid at the origin: positions there are those here times scale(),
     /// less shift().

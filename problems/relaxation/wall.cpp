@@ -83,14 +83,38 @@ Point<2> OuterMatter::force(const Point<2>& r) const {
             w += weight * weight_.value((piece.from + part * (piece.to - piece.from) - r).norm());
         sum -= w * piece.normal;
     });
-    if (!region_.contains(r)) sum += region_.nearest_on_border(r) - r;
-    return sum;
+    return sum + spring(r).force;
 }
 
-double OuterMatter::energy(const Point<2>& r) const {
-    const double spring =
-        region_.contains(r) ? 0.0 : 0.5 * (region_.nearest_on_border(r) - r).squaredNorm();
-    return weight_outside(r) + spring;
+double OuterMatter::energy(const Point<2>& r) const { return weight_outside(r) + spring(r).energy; }
+
+/// A side from s_1 to s_2 along itself, at the distance d of its line, adds
+///     I = integral of (d^2 + s^2)^-3/2 ds = (s_2/rho_2 - s_1/rho_1)/d^2,   rho^2 = d^2 + s^2,
+/// and to the slope 3 (n J + t K), n from r to the line, t along it, with
+///     J = integral of (d^2 + s^2)^-5/2 ds = I ((1/rho_1^2 + 1/rho_2^2)/2 + d^2 I^2/6),
+///     K = (1/rho_1^3 - 1/rho_2^3)/3.
+/// Where both ends lie to the same side of r, I is written without the division by d, which may be 0.
+OuterMatter::Spring OuterMatter::spring(const Point<2>& r) const {
+    if (region_.contains(r)) return {};
+    const Points<2>& polygon = region_.polygon();
+    double sum = 0.0;
+    Point<2> slope = Point<2>::Zero();
+    for (Eigen::Index k = 0; k < polygon.cols(); ++k) {
+        const Point<2> a = polygon.col(k) - r, b = polygon.col((k + 1) % polygon.cols()) - r;
+        const double length = (b - a).norm(), rho_1 = a.norm(), rho_2 = b.norm();
+        const Point<2> t = (b - a) / length;
+        const double s_1 = a.dot(t), s_2 = b.dot(t);
+        const Point<2> n = a - s_1 * t;
+        const double d_d = n.squaredNorm();
+        const double i = s_1 * s_2 > 0.0
+                             ? length * (s_1 + s_2) / (rho_1 * rho_2 * (s_2 * rho_1 + s_1 * rho_2))
+                             : (s_2 / rho_2 - s_1 / rho_1) / d_d;
+        const double j = i * (0.5 / (rho_1 * rho_1) + 0.5 / (rho_2 * rho_2) + d_d * i * i / 6.0);
+        sum += i;
+        slope += 3.0 * j * n + (std::pow(rho_1, -3) - std::pow(rho_2, -3)) * t;
+    }
+    if (!(sum < 1e30)) return {};  // on the border
+    return {1.0 / sum, slope / sum / sum};
 }
 
 /// By the divergence theorem: the weight inside is the flux of flux(r) r through the border, which far

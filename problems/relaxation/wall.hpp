@@ -18,7 +18,9 @@ namespace relaxation {
 /// n pointing outwards. The integral over the border needs only what is nearer than the range.
 /// Deep in that matter nothing pushes any more, and particles that begin on top of each other are fast
 /// enough to get there; so in the outside a spring pulls back to the border, where nothing is at rest:
-///     + d^2/2,   d the distance from the border.
+///     + 1/closed integral of |r - s|^-3 ds,
+/// which is d^2/2 at distance d of a straight border. Half the square of the distance from the nearest side will
+/// not do: between two sides its force jumps, an error of the energy of first order in the step.
 class OuterMatter final : public External<2> {
   public:
     OuterMatter(const Region& region, double range);
@@ -45,6 +47,11 @@ class OuterMatter final : public External<2> {
     double least_weight_on_border() const;
 
   private:
+    struct Spring {
+        double energy = 0.0;
+        Point<2> force = Point<2>::Zero();
+    };
+    Spring spring(const Point<2>& r) const;
     /// A short straight piece of the border.
     struct Piece {
         Point<2> from, to, normal;  ///< normal times length

@@ -190,6 +190,7 @@ BOOST_AUTO_TEST_CASE(no_check_must_fail_for_a_legal_option) {
         {"counter_rotating", {"--smoke", "--dt", "0.3"}},
         {"algorithm_sweep", {"--smoke", "--dt", "0.3"}},
         {"algorithm_sweep", {"--smoke", "--speed", "0.5"}},
+        {"relaxation", {"--smoke", "--lobes", "12", "--depth", "0.6"}},
         {"plastic_block", {"--smoke", "--yield", "smooth"}},
         {"sheared_square", {"--smoke", "--viscosity", "10"}},
         {"isomorphism", {"--smoke", "--law", "lucy", "--perturbation", "1e-2"}},

@@ -37,8 +37,7 @@ std::vector<Point<2>> places(const Region& region) {
     return all;
 }
 
-/// The largest |F + grad Phi| of forces of one wall and the energy of another. The spring jumps where
-/// the nearest side is another one; places nearer to that than the difference are few, and left out.
+/// The largest |F + grad Phi| of forces of one wall and the energy of another.
 double force_error(const Region& region, const OuterMatter& of_force,
                    const OuterMatter& of_energy) {
     double worst = 0.0;
@@ -66,6 +65,27 @@ BOOST_AUTO_TEST_CASE(forces_of_a_wall_are_minus_the_slope_of_its_energy) {
         BOOST_TEST(force_error(region, wall, wall) < 1e-5);
         BOOST_TEST(force_error(region, wall, OuterMatter(region, 1.1 * range)) > 1e-2);
     }
+}
+
+BOOST_AUTO_TEST_CASE(
+    what_pulls_back_is_a_spring_at_a_straight_border_and_does_not_jump_between_two) {
+    Points<2> corners(2, 8);
+    corners << -500, 500, 500, 2, 2, -2, -2, -500,  //
+        -500, -500, 500, 500, 0, 0, 500, 500;       // a cleft of width 4
+    const Region region(corners);
+    const OuterMatter wall(region, range);
+    for (const double d : {1e-6, 0.03, 0.4, 2.0}) {
+        const double spring =
+            wall.energy({100.0, -500.0 - d}) - wall.weight_outside({100.0, -500.0 - d});
+        BOOST_TEST(std::abs(spring - 0.5 * d * d) < 1e-5 * d * d + 1e-15);
+    }
+    const Point<2> middle(0.0, 250.0), aside(1e-7, 0.0);
+    BOOST_TEST((wall.force(middle + aside) - wall.force(middle - aside)).norm() < 1e-5);
+    // beside a corner and in line with a side the integral along that side is finite
+    const Point<2> in_line(500.0, 503.0);
+    BOOST_TEST((wall.force(in_line + aside) - wall.force(in_line - aside)).norm() < 1e-5);
+    BOOST_TEST((wall.force(in_line + 1e-3 * aside) - wall.force(in_line)).norm() < 1e-5);
+    BOOST_TEST(wall.force({2.0, 250.0}).allFinite());  // on a side
 }
 
 BOOST_AUTO_TEST_CASE(a_wall_is_the_weight_of_what_is_outside) {
