@@ -69,6 +69,7 @@ double sum(N_Vector x, N_Vector y, const Term& term) {
             for (; k + width <= count; k += width)
                 store_lanes(&rows[0][k], term(load(p + first + k), load(q + first + k)));
             for (; k < count; ++k) rows[0][k] = term(p[first + k], q[first + k]);
+            return true;
         },
         threads_from)[0];
 }

@@ -57,8 +57,8 @@ class ExactSum {
 void add_other_parts(std::span<ExactSum> sums);
 
 /// K sums over 0, ..., n - 1 at once, and of all parts of the run. fill(first, count, rows) writes what first, ...,
-/// first + count - 1 add to sum k to rows[k][0], ..., rows[k][count - 1]; from so many on several threads call it,
-/// for other blocks each.
+/// first + count - 1 add to sum k to rows[k][0], ..., rows[k][count - 1], or returns false where they add nothing;
+/// from so many on several threads call it, for other blocks each.
 template <std::size_t K, class Fill>
 std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
                                            std::size_t threads_from = parallel_threshold) {
@@ -67,7 +67,7 @@ std::array<double, K> exact_sums_of_blocks(std::size_t n, const Fill& fill,
     const auto add = [&](std::size_t b, std::array<ExactSum, K>& to) {
         alignas(64) std::array<ExactSum::Block, K> rows;
         const std::size_t first = b * block, count = std::min(block, n - first);
-        fill(first, count, rows);
+        if (!fill(first, count, rows)) return;
         for (std::size_t k = 0; k < K; ++k) to[k].add_block(rows[k], count);
     };
     const std::size_t blocks = (n + block - 1) / block;
@@ -101,6 +101,7 @@ auto exact_sums(std::size_t n, const Terms& terms) {
                 const std::array<double, K> of_i = terms(first + i);
                 for (std::size_t k = 0; k < K; ++k) rows[k][i] = of_i[k];
             }
+            return true;
         });
 }
 

@@ -51,8 +51,10 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;
     constexpr bool light = (is_light<Passes>() && ...);
-    constexpr std::size_t most = light ? 1 : most_neighbours_ahead;
-    const std::size_t ahead = light ? 1 : neighbours_ahead();
+    // On a line no square root is waited for, and neighbours are few.
+    constexpr bool one_ahead = light || Dim == 1;
+    constexpr std::size_t most = one_ahead ? 1 : most_neighbours_ahead;
+    const std::size_t ahead = one_ahead ? 1 : neighbours_ahead();
     for (std::size_t cluster = first; cluster < last; ++cluster) {
         const double* const own = records.numbers + cluster * W * records.stride;
         Lanes gathered;
@@ -95,7 +97,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
             for (int a = 0; a < Dim; ++a) apart.r_ji[a] = r_ji[a][at];
             apart.r2 = r2[at];
             apart.r = r[at];
-            if constexpr (!light) __builtin_prefetch(records.numbers + entry[entries_ahead]);
+            if constexpr (!one_ahead) __builtin_prefetch(records.numbers + entry[entries_ahead]);
             begin(entry[ahead], at);
             at = (at + 1) & (ahead - 1);
             const auto pair = make_pair<Dim, T>(weight, apart, i, j);

@@ -9,12 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace spam {
 namespace {
 
 template <int Dim>
-auto moment(const Point<Dim>& r, const Point<Dim>& f) {
+[[gnu::always_inline]] inline auto moment(const Point<Dim>& r, const Point<Dim>& f) {
     Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1> m;
     if constexpr (Dim == 2) m[0] = r.x() * f.y() - r.y() * f.x();
     if constexpr (Dim == 3) m = r.cross(f);
@@ -29,7 +30,8 @@ void ParticleModel<Dim>::add_accounts() {
         this->layout().add(field);
 }
 
-/// What the external gives is the difference that it makes to the rates the particles had before it.
+/// What the external gives is the difference that it makes to the rates the particles had before it. Most act on few
+/// particles: blocks whose rates have the same bits as before add nothing.
 template <int Dim>
 void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
     const bool has_energy = now.rate.has(Field::energy);
@@ -44,19 +46,34 @@ void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<
         v_dot.leftCols(count) = falls.middleCols(first, count);
         if (has_energy) e_dot.leftCols(count) = now.rate.energy().middleCols(first, count);
         external.add(now, first, first + count);
-        for (Eigen::Index k = 0; k < count; ++k) {
-            const Eigen::Index i = first + k;
-            const double m = now.particles.mass[static_cast<std::size_t>(i)];
-            const Point<Dim> force = m * (falls.col(i) - v_dot.col(k));
-            Given given;
-            given.force() = force;
-            given.torque() = moment<Dim>(x.col(i), force) +
-                             m * moment<Dim>(moves.col(i) - x_dot.col(k), v.col(i));
-            given.power() = force.dot(v.col(i));
-            if (has_energy) given.heat() = m * (now.rate.energy()(0, i) - e_dot(0, k));
-            for (std::size_t q = 0; q < Given::count; ++q)
-                rows[q][static_cast<std::size_t>(k)] = given.numbers[q];
+        const auto same = [&](const auto& before, const auto& after) {
+            return std::memcmp(before.data(), after.data(),
+                               sizeof(double) * static_cast<std::size_t>(after.size())) == 0;
+        };
+        if (same(v_dot, falls.middleCols(first, count)) &&
+            same(x_dot, moves.middleCols(first, count)) &&
+            (!has_energy || same(e_dot, now.rate.energy().middleCols(first, count))))
+            return false;
+        const double* const m = &now.particles.mass[begin];
+        for (std::size_t k = 0; k < size; ++k) {
+            const auto at = static_cast<Eigen::Index>(k), i = first + at;
+            const Point<Dim> force = m[k] * (falls.col(i) - v_dot.col(at));
+            const Eigen::Matrix<double, Given::planes, 1> torque =
+                moment<Dim>(x.col(i), force) +
+                m[k] * moment<Dim>(moves.col(i) - x_dot.col(at), v.col(i));
+            for (int a = 0; a < Dim; ++a) rows[static_cast<std::size_t>(a)][k] = force[a];
+            for (Eigen::Index q = 0; q < torque.size(); ++q)
+                rows[static_cast<std::size_t>(Dim + q)][k] = torque[q];
+            rows[Given::count - 2][k] = force.dot(v.col(i));
+            rows[Given::count - 1][k] = 0.0;
         }
+        if (has_energy)
+            for (std::size_t k = 0; k < size; ++k) {
+                const auto at = static_cast<Eigen::Index>(k);
+                rows[Given::count - 1][k] =
+                    m[k] * (now.rate.energy()(0, first + at) - e_dot(0, at));
+            }
+        return true;
     };
     book(external, {exact_sums_of_blocks<Given::count>(now.particles.size(), give)}, now.rate);
 }
