@@ -47,7 +47,7 @@ Region region_of(const Parameters& p) {
 }
 
 /// Of rk4. Frequencies go as 1 over the range squared and repulsion of short ranges is stronger besides; weak friction
-/// leaves the atoms fast, for longer, and each closest approach adds an error of the energy (measured at ranges 1.1 to
+/// leaves particles fast, for longer, and each closest approach adds an error of the energy (measured at ranges 1.1 to
 /// 1.5, frictions .001 to 100 and six seeds: at most 5.4e-5); strong friction is stiff.
 double step_of(const Parameters& p) {
     return 0.1 *

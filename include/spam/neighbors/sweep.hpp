@@ -51,7 +51,7 @@ template <int W, int Dim, class R, class... Passes, class Weight, class Store>
     using Lanes = typename R::template With<T>;
     using Sums = std::tuple<typename Passes::template Sums<T>...>;
     constexpr bool light = (is_light<Passes>() && ...);
-    // On a line no square root is waited for, and neighbours are few.
+    // On a line lists are short: the ring costs more than it saves (tests/bench/README.md).
     constexpr bool one_ahead = light || Dim == 1;
     constexpr std::size_t most = one_ahead ? 1 : most_neighbours_ahead;
     const std::size_t ahead = one_ahead ? 1 : neighbours_ahead();

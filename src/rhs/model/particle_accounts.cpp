@@ -30,7 +30,7 @@ void ParticleModel<Dim>::add_accounts() {
         this->layout().add(field);
 }
 
-/// What the external gives is the difference that it makes to the rates the particles had before it. Most act on few
+/// What the external gives is the difference that it makes to the rates the particles had before it. Many act on few
 /// particles: blocks whose rates have the same bits as before add nothing.
 template <int Dim>
 void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<Dim>::Now& now) {
