@@ -105,8 +105,9 @@ void table_and_motion(Session& session, Parameters& p) {
     for (const Acting acting : all_potentials) samples.push_back(make_sample(p, acting, *p.range));
     const auto runs = run_all(session, samples, [&](Sample& sample) {
         Plan<2> plan;
-        plan.t_end = session.common().smoke ? 6.0 : 600.0;
-        plan.snapshot_every = plan.t_end / 200.0;
+        const bool smoke = session.common().smoke;
+        plan.t_end = smoke ? 3.0 : 600.0;
+        plan.snapshot_every = plan.t_end / (smoke ? 20.0 : 200.0);
         const auto follow = [&sample](double, const Model<2>& model, std::span<const double> y) {
             sample.paths.at.push_back(ConstState<2>(model.layout(), y).position());
         };
@@ -178,9 +179,9 @@ int main(int argc, char** argv) {
 
     return problem.main(argc, argv, [&](Session& session) {
         if (session.given("potential")) return analyse_one(session, p);
-        if (session.common().smoke && !p.range) p.range = 2.5;
-        session.smoke_default("cells", p.cells, 8);
-        session.smoke_default("block", p.block, 8);
+        if (session.common().smoke && !p.range) p.range = 2.2;
+        session.smoke_default("cells", p.cells, 6);
+        session.smoke_default("block", p.block, 6);
         table_and_motion(session, p);
     });
 }

@@ -57,16 +57,16 @@ def check_quiet(browser, folder):
 
 
 def pixel(browser, x, y):
-    return read_canvas(browser, "canvas", x, y, 1)
+    return pixels(browser, "canvas", [(x, y)])[0]
 
 
-def read_canvas(browser, name, x, y, width):
-    """Pixels of a row, from a copy: reading the canvas itself often would make a browser complain and change how it draws."""
-    rgba = browser.script("const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});"
-                          "copy.canvas.width = arguments[3]; copy.canvas.height = 1;"
-                          "copy.drawImage(document.getElementById(arguments[0]), -arguments[1], -arguments[2]);"
-                          "return [...copy.getImageData(0, 0, arguments[3], 1).data]", name, x, y, width)
-    return [channel for k, channel in enumerate(rgba) if k % 4 < 3]
+def pixels(browser, name, places):
+    """Their colours, from one copy: reading the canvas itself often would make a browser complain and change how it draws."""
+    return browser.script("const from = document.getElementById(arguments[0]);"
+                          "const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});"
+                          "copy.canvas.width = from.width; copy.canvas.height = from.height; copy.drawImage(from, 0, 0);"
+                          "return arguments[1].map(([x, y]) => [...copy.getImageData(x, y, 1, 1).data].slice(0, 3))",
+                          name, [[round(x), round(y)] for x, y in places])
 
 
 def drawn(browser):
@@ -82,7 +82,7 @@ def check_particles(browser, folder, case, number, snapshot):
                    "spam.state.size = Math.max(0.5, 3.6 / spam.panels.scale()); spam.state.box = false; spam.setTime(arguments[0])",
                    t, "density", [0.5, 2.0])
     browser.wait_for_frame()
-    legend = read_canvas(browser, "legend", 0, 0, 256)
+    legend = pixels(browser, "legend", [(k, 0) for k in range(256)])
     left, top, right, bottom, head, scale, mx, my = browser.script(
         "const q = spam.panels, p = q.panels[arguments[0]], low = [1e9, 1e9], high = [-1e9, -1e9];"
         "for (const c of spam.cases) for (const s of c.snapshots) for (const a of [0, 1]) {"
@@ -91,17 +91,15 @@ def check_particles(browser, folder, case, number, snapshot):
     reach = max(0.25 * scale, 1.8) + 1.5  # of a disc with its soft edge, and the half of a pixel
     places, densities = array_of(file, b"Points"), array_of(file, b"density")
     on_canvas = [((left + right) / 2 + (x[0] - mx) * scale, (top + head + bottom) / 2 - (x[1] - my) * scale) for x in places]
-    checked = 0
-    for i, (x, y) in enumerate(on_canvas):
-        alone = all(j == i or (x - u) ** 2 + (y - v) ** 2 > reach ** 2 for j, (u, v) in enumerate(on_canvas))
-        if not alone or checked == 20 or not (left + 9 < x < right - 9 and top + 40 < y < bottom - 9):
-            continue
+    free = [i for i, (x, y) in enumerate(on_canvas)
+            if left + 9 < x < right - 9 and top + 40 < y < bottom - 9 and
+            all(j == i or (x - u) ** 2 + (y - v) ** 2 > reach ** 2 for j, (u, v) in enumerate(on_canvas))][:20]
+    assert len(free) >= 5, (case, free)
+    for i, seen in zip(free, pixels(browser, "canvas", [map(int, on_canvas[i]) for i in free])):
         # Half-way between two colours either may be right.
         at = min(255.999, max(0.0, (densities[i][0] - 0.5) / 1.5 * 255.999))
-        near = [legend[3 * k:3 * k + 3] for k in {int(max(0, at - 0.02)), int(min(255, at + 0.02))}]
-        assert pixel(browser, int(x), int(y)) in near, (case, i, at, near, pixel(browser, int(x), int(y)))
-        checked += 1
-    assert checked >= 5, (case, checked)
+        near = [legend[k] for k in {int(max(0, at - 0.02)), int(min(255, at + 0.02))}]
+        assert seen in near, (case, i, at, near, seen)
 
 
 def check_borders(browser):
@@ -140,8 +138,8 @@ def check_layout(browser):
                          "  e.tagName !== 'OPTION' && e.scrollHeight > e.clientHeight + 2 && e.clientHeight).map(e => e.textContent)")
     assert not cut, cut
     for right, row in browser.script("const q = spam.panels; return q.panels.map(p => [p.right, p.top + 15 * q.ratio])"):
-        edge = read_canvas(browser, "canvas", right - 6, round(row), 5)
-        assert edge == edge[:3] * 5, (right, edge)
+        edge = pixels(browser, "canvas", [(right - 6 + k, row) for k in range(5)])
+        assert edge == edge[:1] * 5, (right, edge)
 
 
 def text(browser, id):
@@ -209,7 +207,7 @@ def check_controls(browser, page):
 def check_dark(browser, page, dark):
     """As the system prefers, in the page and under the particles, until the button is pressed."""
     open_page(browser, page)
-    grounds = lambda: [min(read_canvas(browser, "canvas", 2, browser.script("return spam.panels.canvas.height") - 2, 1)),
+    grounds = lambda: [min(pixel(browser, 2, browser.script("return spam.panels.canvas.height") - 2)),
                        browser.script("return Number(getComputedStyle(document.body).backgroundColor.match(/\\d+/)[0])")]
     is_dark = lambda: [ground < 60 for ground in grounds()]
     assert is_dark() == [dark, dark], grounds()
@@ -236,7 +234,7 @@ def check_elements(browser, folder):
         "for (let k = 0; k < q.length; k += 4) out.push([p.x, p.y].map(v => (v[q[k]] + v[q[k + 1]] + v[q[k + 2]] + v[q[k + 3]]) / 4));"
         "return out")
     assert len(centres) == len(array_of(folder / "snapshot_0000.vtp", b"energy"))
-    filled = sum(pixel(browser, int(x), int(y)) != ground for x, y in centres[::7])
+    filled = sum(seen != ground for seen in pixels(browser, "canvas", [map(int, c) for c in centres[::7]]))
     assert filled == len(centres[::7]), (filled, len(centres))
 
 
