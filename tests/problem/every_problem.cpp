@@ -6,6 +6,7 @@
 #include "support/effort.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <fnmatch.h>
 #include <nlohmann/json.hpp>
 
 #include <set>
@@ -47,6 +48,23 @@ void check_checks(const nlohmann::json& results) {
     BOOST_TEST(claimed > 0u, "a problem that claims nothing cannot fail");
 }
 
+/// Tables of the whole run, all of them named in a page: `LABEL` there stands for what a case is called.
+void check_tables(const std::filesystem::path& out) {
+    const std::string page = contents_of(std::string(SPAM_SOURCE) + "/src/docs/results.md");
+    Words known = split(page, '`');
+    for (auto& word : known)
+        if (const auto at = word.find("LABEL"); at != std::string::npos)
+            word = word.substr(0, at) + "*" + word.substr(at + 5);
+    const auto is_known = [&](const std::string& name) {
+        return std::any_of(known.begin(), known.end(), [&](const std::string& word) {
+            return word.ends_with(".csv") && fnmatch(word.c_str(), name.c_str(), 0) == 0;
+        });
+    };
+    for (const auto& entry : std::filesystem::directory_iterator(out))
+        if (const auto name = entry.path().filename(); name.extension() == ".csv")
+            BOOST_TEST(is_known(name), "results.md says nothing of " << name);
+}
+
 void check_pictures(const std::filesystem::path& out) {
     std::size_t scripts = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
@@ -75,6 +93,7 @@ BOOST_AUTO_TEST_CASE(a_smoke_run_holds_and_its_case_runs_again) {
             BOOST_TEST((json_of(folder / "out/statistics.json")["problem"] == name));
             BOOST_TEST(contents_of(folder / "out/run.log").find(name) == 0u);
             check_pictures(folder / "out");
+            check_tables(folder / "out");
 
             if (!due.next()) continue;
             const Outcome again =
