@@ -62,7 +62,7 @@ void check_tables(const std::filesystem::path& out) {
     };
     for (const auto& entry : std::filesystem::directory_iterator(out))
         if (const auto name = entry.path().filename(); name.extension() == ".csv")
-            BOOST_TEST(is_known(name), "results.md says nothing of " << name);
+            BOOST_TEST(is_known(name), "the page of the result folder says nothing of " << name);
 }
 
 void check_pictures(const std::filesystem::path& out) {
