@@ -83,7 +83,8 @@ void ParticleModel<Dim>::apply(External<Dim>& external, const typename External<
 /// Torques do not cancel where forces act across r_ij: of them only those by images are the walls' (book_wall).
 template <int Dim>
 void ParticleModel<Dim>::book_walls(const typename External<Dim>::Now& now) {
-    const auto v = now.state.velocity(), v_dot = now.rate.velocity();
+    const auto v = now.state.velocity();
+    const auto v_dot = now.rate.velocity();
     const bool energy = this->box().passes_energy() && now.rate.has(Field::energy);
     Given sum = Given::to_all(now.particles.size(), [&](std::size_t k) {
         const auto i = static_cast<Eigen::Index>(k);
