@@ -9,6 +9,7 @@
 #include <fnmatch.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <set>
 
 using namespace spam::test;

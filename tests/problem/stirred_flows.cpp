@@ -9,17 +9,14 @@
 
 using namespace spam::test;
 
-// Long runs have the particles of the documents; fewer of them already tell what shifting is for.
 BOOST_AUTO_TEST_CASE(vortices_decay_as_they_should_where_particles_are_shifted) {
-    const bool whole = long_runs();
-    const Results found("taylor_green", whole ? Words{} : Words{"--cells", "24"},
-                        "shifting_velocity_error");
-    BOOST_TEST(found.claims == (whole ? 1U : 0U));
+    const Results found("taylor_green", {}, "shifting_velocity_error");
+    BOOST_TEST(found.claims == 1U);
     BOOST_TEST(std::abs(found.value.at("shifting_decay_rate") / 0.789568 - 1.0) < 0.02);
-    BOOST_TEST(found.value.at("shifting_velocity_error_half") < (whole ? 0.03 : 0.06));
+    BOOST_TEST(found.value.at("shifting_velocity_error_half") < 0.03);
     // What the comparison is for.
-    BOOST_TEST(found.value.at("plain_velocity_error_half") > (whole ? 0.3 : 0.2));
-    BOOST_TEST(found.value.at("plain_decay_rate") > (whole ? 1.5 : 1.0));
+    BOOST_TEST(found.value.at("plain_velocity_error_half") > 0.3);
+    BOOST_TEST(found.value.at("plain_decay_rate") > 1.5);
 }
 
 BOOST_AUTO_TEST_CASE(disorder_at_the_start_does_no_harm) {
