@@ -11,10 +11,10 @@ Point<2> direction(const Point<2>& r) {
 }
 
 /// 3 x N: xx, yy, xy.
-Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y, double rho) {
+Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y, double density) {
     const auto* bonded = dynamic_cast<const BondedModel<2>*>(&model);
     if (bonded == nullptr) return ConstState<2>(model.layout(), y).stress();
-    const auto virial = bonded->law.stress(y, 1.0 / rho);
+    const auto virial = bonded->law.stress(y, 1.0 / density);
     Points<3> all(3, static_cast<Eigen::Index>(virial.size()));
     for (Eigen::Index i = 0; i < all.cols(); ++i)
         all.col(i) = Point<3>::Map(virial[static_cast<std::size_t>(i)].c.data());
@@ -23,8 +23,8 @@ Points<3> cartesian_stress(const Model<2>& model, std::span<const double> y, dou
 
 }  // namespace
 
-PolarStress polar_stress(const Model<2>& model, std::span<const double> y, double rho) {
-    const Points<3> stress = cartesian_stress(model, y, rho);
+PolarStress polar_stress(const Model<2>& model, std::span<const double> y, double density) {
+    const Points<3> stress = cartesian_stress(model, y, density);
     const Points<2> x = ConstState<2>(model.layout(), y).position();
     const Point<2> centre = x.rowwise().mean();
     PolarStress all;

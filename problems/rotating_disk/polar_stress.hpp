@@ -8,6 +8,6 @@ struct PolarStress {
     std::vector<double> r, radial, hoop, shear;
 };
 
-/// Of a state y of the model, about the body's centre. `rho`: its density, by which the virial of springs
+/// Of a state y of the model, about the body's centre. `density`: its own, by which the virial of springs
 /// becomes a stress; smooth particles carry theirs.
-PolarStress polar_stress(const spam::Model<2>& model, std::span<const double> y, double rho);
+PolarStress polar_stress(const spam::Model<2>& model, std::span<const double> y, double density);
