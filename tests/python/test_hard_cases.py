@@ -159,7 +159,7 @@ class Threads(unittest.TestCase):
 
     def test_others_go_on_meanwhile(self):
         sim = self.simulations()[0]
-        thread = threading.Thread(target=sim.run, args=(3.0,), kwargs={"every": 3.0})
+        thread = threading.Thread(target=sim.run, args=(100.0,), kwargs={"every": 100.0})  # a quarter of a second
         counted = 0
         thread.start()
         while thread.is_alive():
