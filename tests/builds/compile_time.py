@@ -3,7 +3,7 @@
 
 Judged is the source that took longest in the build, by ninja's log. Seconds on a busy machine are at least those of a
 quiet one: where they are few enough, nothing is compiled again. Where they are not, processor time compared with that of a
-source compiled beside it counts. A unit of eight sources (SPAM_UNITY) is no source: its own limit is twice that."""
+source compiled beside it counts. A unit of several sources (SPAM_UNITY) is no source: its own limit is twice that."""
 import json
 import os
 import re
