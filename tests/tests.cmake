@@ -159,7 +159,7 @@ if(NOT SPAM_SANITIZE)  # the sanitizers' functions are in the program
   target_link_options(spam_module PRIVATE LINKER:--no-undefined)
 endif()
 add_executable(test.builds.load_module builds/load_module.cpp)
-target_link_libraries(test.builds.load_module PRIVATE spam_test_main spam_flags ${CMAKE_DL_LIBS})
+target_link_libraries(test.builds.load_module PRIVATE spam_test_main test_options ${CMAKE_DL_LIBS})
 target_compile_definitions(test.builds.load_module PRIVATE
                            SPAM_MODULE="$<TARGET_FILE:spam_module>")
 add_dependencies(test.builds.load_module spam_module)
@@ -349,7 +349,7 @@ spam_test_of_problem(test.rhs.fluid_transport diffusion_waves/diffusion_waves.cp
 # All laws of the tests that combine them, compiled once.
 add_library(spam_test_laws STATIC rhs/law_tables.cpp rhs/law_tables_in_space.cpp rhs/more_law_tables.cpp
                                   rhs/more_law_tables_in_space.cpp)
-target_link_libraries(spam_test_laws PUBLIC spam::spam spam_test_main PRIVATE spam_flags)
+target_link_libraries(spam_test_laws PUBLIC spam::spam spam_test_main PRIVATE test_options)
 target_include_directories(spam_test_laws PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 foreach(test accounts combinations walled_combinations parts parts_in_space units units_in_space)
   target_link_libraries(test.rhs.${test} PRIVATE spam_test_laws)

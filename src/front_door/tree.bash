@@ -228,9 +228,10 @@ configure() { # KEY=VALUE...
     fi
     # What a verb does not ask for stays as it is, so that `run` after `test` keeps the tests; the
     # first time it is off, so that `run` needs neither Boost.Test nor Google Benchmark, and compiles pair
-    # sums for this processor only.
+    # sums for this processor only. To precompile headers takes as long as five programs to read them.
     if ! [[ -f $root/build/$preset/build.ninja ]]; then
-        for part in SPAM_BUILD_TESTS=OFF SPAM_BUILD_BENCH=OFF "SPAM_LEVELS=$(level_of_processor)"; do
+        for part in SPAM_BUILD_TESTS=OFF SPAM_BUILD_BENCH=OFF SPAM_PRECOMPILE=OFF \
+            "SPAM_LEVELS=$(level_of_processor)"; do
             [[ ${settings[*]} == *${part%%=*}=* ]] || settings+=("$part")
         done
     fi

@@ -11,7 +11,7 @@
 namespace spam {
 namespace {
 
-constexpr std::pair<SideKind, const char*> kinds[]{
+constexpr std::pair<SideKind, const char*> side_words[]{
     {SideKind::open, "open"},       {SideKind::periodic, "periodic"}, {SideKind::mirror, "mirror"},
     {SideKind::no_slip, "no-slip"}, {SideKind::moving, "moving:V"},   {SideKind::rigid, "rigid"}};
 
@@ -81,7 +81,7 @@ class Reader {
                 refuse("moves along itself, and on a line there is no such motion; use no-slip");
             return SideKind::moving;
         }
-        for (const auto& [kind, name] : kinds)
+        for (const auto& [kind, name] : side_words)
             if (kind != SideKind::moving && kind_ == name) return kind;
         refuse(fmt::format("is none of {}; give one of these", allowed_));
     }
@@ -161,7 +161,7 @@ Sides::Sides(Options& options, std::vector<SideOption> sides, Words words)
 
 std::string Sides::allowed(std::size_t k) const {
     std::vector<std::string> words;
-    for (const auto& [kind, name] : kinds)
+    for (const auto& [kind, name] : side_words)
         if (!sides_[k].excluded.contains(kind) && (kind != SideKind::moving || sides_.size() > 2))
             words.emplace_back(name);
     if (!words_.own.empty()) words.push_back(words_.own);

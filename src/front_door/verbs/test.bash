@@ -10,7 +10,8 @@ readonly ci_packages=(clang-format valgrind shellcheck libbenchmark-dev)
 readonly sanitizer_packages=(clang libclang-rt-dev)
 
 verb_test() { # [--no-install] [--preset P] [ctest options...]
-    local options=() packages=("${test_packages[@]}") parts=(SPAM_BUILD_TESTS=ON "SPAM_LEVELS=$(every_level)") jobs status=0
+    local options=() packages=("${test_packages[@]}") jobs status=0
+    local parts=(SPAM_BUILD_TESTS=ON SPAM_PRECOMPILE=ON "SPAM_LEVELS=$(every_level)")
     while (($#)); do
         case $1 in
         --no-install) install=no ;;
