@@ -35,9 +35,9 @@ void make_way(hid_t file, const std::string& path) {
     for (std::size_t end = path.find('/', 1); end != std::string::npos;
          end = path.find('/', end + 1)) {
         const std::string above = path.substr(0, end);
-        if (hdf5::Group(H5Gopen2(file, above.c_str(), H5P_DEFAULT))) continue;
+        if (H5Group(H5Gopen2(file, above.c_str(), H5P_DEFAULT))) continue;
         const Properties creation = timeless(H5P_GROUP_CREATE);
-        if (!hdf5::Group(H5Gcreate2(file, above.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT)))
+        if (!H5Group(H5Gcreate2(file, above.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT)))
             throw std::logic_error(
                 fmt::format("checkpoint: '{}' cannot be above '{}'", above, path));
     }

@@ -188,8 +188,7 @@ class Parts {
 
     /// So many bytes, to which exchange() adds its own without another copy.
     static Bytes room_for(std::size_t size) {
-        Bytes bytes;
-        bytes.reserve(size + trailer);
+        Bytes bytes(size + trailer);
         bytes.resize(size);
         return bytes;
     }
