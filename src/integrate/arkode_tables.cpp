@@ -10,7 +10,7 @@ namespace spam {
 namespace {
 
 constexpr int version = 100 * SUNDIALS_VERSION_MAJOR + SUNDIALS_VERSION_MINOR;
-const std::string of_sundials = "ARKODE_";
+const std::string sundials_prefix = "ARKODE_";
 
 std::vector<std::string> table_names() {
 #if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
@@ -43,13 +43,13 @@ std::vector<IntegrationMethod> arkode_methods() {
     for (const std::string& name : table_names()) {
         const Table table = load(name);
         methods.push_back(
-            {"arkode:" + name.substr(of_sundials.size()), table->q, table->d != nullptr, true});
+            {"arkode:" + name.substr(sundials_prefix.size()), table->q, table->d != nullptr, true});
     }
     return methods;
 }
 
 Table load_table(const std::string& method) {
-    return load(of_sundials + method.substr(method.find(':') + 1));
+    return load(sundials_prefix + method.substr(method.find(':') + 1));
 }
 
 bool erkstep_is_right(const ARKodeButcherTableMem& table) {

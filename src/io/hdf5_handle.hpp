@@ -60,7 +60,7 @@ class Handle {
 };
 
 using File = Handle<H5Fclose>;
-using H5Group = Handle<H5Gclose>;
+using H5Group = Handle<H5Gclose>;  // Group is one of particles (external/external.hpp)
 using Dataset = Handle<H5Dclose>;
 using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
